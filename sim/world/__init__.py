@@ -1,0 +1,24 @@
+"""A small robot in a flat world, with its sensors: plain Python, pymunk and numpy; knows nothing of ROS."""
+
+from sim.world.contacts import Contact
+from sim.world.description import World
+from sim.world.lidar import LidarModel
+from sim.world.obstacles import Box, Circle
+from sim.world.robot import DT, CommandError, Odometry, RobotModel, Wheels
+from sim.world.simulation import Simulation
+from sim.world.worldfile import WorldError
+
+__all__ = [
+    "DT",
+    "Box",
+    "Circle",
+    "CommandError",
+    "Contact",
+    "LidarModel",
+    "Odometry",
+    "RobotModel",
+    "Simulation",
+    "Wheels",
+    "World",
+    "WorldError",
+]

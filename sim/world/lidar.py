@@ -1,0 +1,98 @@
+"""A planar lidar that measures segments and discs with numpy."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+# Rays this near (in ray spacings) to the end of a wall still meet it, so that none slips through a shared corner.
+_EDGE = 1e-9
+# A wall seen end-on, under less than this angle (rad), is invisible: there its distance would be rounding noise.
+_END_ON = 1e-6
+
+
+@dataclass(frozen=True)
+class LidarModel:
+    """A lidar in the middle of the robot: rays per turn, range limits and standard deviation of the noise (m)."""
+
+    rays: int = 360
+    range_min: float = 0.12
+    range_max: float = 3.5
+    noise: float = 0.01
+
+    @property
+    def angle_increment(self) -> float:
+        """Angle between two rays, rad."""
+        return math.tau / self.rays
+
+
+class Lidar:
+    """Measures distances from a pose to the obstacles of one world.
+
+    Each obstacle is tested only against the rays inside the angle under which it is seen, for all obstacles at once.
+    """
+
+    def __init__(self, model: LidarModel, segments: np.ndarray, discs: np.ndarray) -> None:
+        self._model = model
+        self._x0, self._y0, x1, y1 = segments.T.copy()
+        self._ex, self._ey = x1 - self._x0, y1 - self._y0
+        self._discs = discs
+        angles = [ray * model.angle_increment for ray in range(model.rays)]
+        # libm, not numpy: numpy's sine differs in the last bit from one kind of processor to the next.
+        self._cos = np.array([math.cos(angle) for angle in angles])
+        self._sin = np.array([math.sin(angle) for angle in angles])
+
+    def measure(self, x: float, y: float, yaw: float, rng: np.random.Generator) -> np.ndarray:
+        """One noisy scan from this pose in the map frame: float32, shape (rays,), m; ray 0 forward, counter-clockwise.
+
+        As REP-117 says: inf where nothing is within `range_max`, -inf where something is nearer than `range_min`.
+        """
+        model = self._model
+        ranges = self.distances(x, y, yaw)
+        ranges += model.noise * rng.standard_normal(model.rays)
+        ranges[ranges > model.range_max] = np.inf
+        ranges[ranges < model.range_min] = -np.inf
+        return ranges.astype(np.float32)
+
+    def distances(self, x: float, y: float, yaw: float) -> np.ndarray:
+        """The true distances from this pose: float64, shape (rays,), m; inf where a ray meets nothing at all."""
+        c, s = math.cos(yaw), math.sin(yaw)
+        directions = self._cos * c - self._sin * s, self._sin * c + self._cos * s
+        nearest = np.full(self._model.rays, np.inf)
+        if len(self._ex):
+            self._see_segments(nearest, directions, x, y, yaw)
+        if len(self._discs):
+            self._see_discs(nearest, directions, x, y, yaw)
+        return nearest
+
+    def _see_segments(self, nearest: np.ndarray, directions: tuple, x: float, y: float, yaw: float) -> None:
+        ax, ay = self._x0 - x, self._y0 - y
+        bx, by = ax + self._ex, ay + self._ey
+        seen = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
+        first = np.arctan2(ay, ax) - yaw + np.minimum(seen, 0)
+        width = np.abs(seen)
+        ray, segment = self._pairs(first, width, width > _END_ON)
+        area = ax * self._ey - ay * self._ex
+        slope = directions[0][ray] * self._ey[segment] - directions[1][ray] * self._ex[segment]
+        np.minimum.at(nearest, ray, area[segment] / slope)
+
+    def _see_discs(self, nearest: np.ndarray, directions: tuple, x: float, y: float, yaw: float) -> None:
+        cx, cy, radius = self._discs[:, 0] - x, self._discs[:, 1] - y, self._discs[:, 2]
+        beyond = cx * cx + cy * cy - radius * radius
+        half = np.arctan2(radius, np.sqrt(np.maximum(beyond, 0)))
+        ray, disc = self._pairs(np.arctan2(cy, cx) - yaw - half, 2 * half, beyond > 0)
+        along = directions[0][ray] * cx[disc] + directions[1][ray] * cy[disc]
+        # A ray along the very edge can round to just below zero.
+        depth = np.sqrt(np.maximum(along * along - beyond[disc], 0))
+        np.minimum.at(nearest, ray, along - depth)
+
+    def _pairs(self, first: np.ndarray, width: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Indices (ray, obstacle) of each ray inside the angles first .. first + width (rad) of a visible obstacle."""
+        spacing = self._model.angle_increment
+        begin = np.ceil(first / spacing - _EDGE).astype(np.intp)
+        end = np.floor((first + width) / spacing + _EDGE).astype(np.intp)
+        count = np.maximum(end - begin + 1, 0) * visible
+        obstacle = np.repeat(np.arange(len(count)), count)
+        shift = begin - (np.cumsum(count) - count)
+        ray = (np.arange(len(obstacle)) + shift[obstacle]) % self._model.rays
+        return ray, obstacle

@@ -1,0 +1,143 @@
+"""One robot in one world, moved in fixed steps of simulated time."""
+
+import math
+
+import numpy as np
+import pymunk
+
+from sim.world.contacts import Contact, ContactLog
+from sim.world.description import World
+from sim.world.lidar import Lidar, LidarModel
+from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
+from sim.world.worldfile import WorldError
+
+_STEPS_PER_SAMPLE = round(0.05 * RATE)
+_OBSTACLE_FRICTION = 0.5
+# The physics lets bodies overlap by this much (m); pymunk's own figure of 0.1 suits pixels.
+_COLLISION_SLOP = 1e-3
+
+
+class Simulation:
+    """The robot in a world, from time 0 on. To start again, make a new one.
+
+    Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed sets the sensors' noise.
+
+    Raises:
+        WorldError: the robot does not fit at the world's start.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        seed: int = 0,
+        robot: RobotModel = RobotModel(),  # noqa: B008  (frozen, so sharing it is safe)
+        lidar: LidarModel = LidarModel(),  # noqa: B008
+    ) -> None:
+        self.world = world
+        self.robot = robot
+        self.lidar = lidar
+        self._space = pymunk.Space()
+        self._space.collision_slop = _COLLISION_SLOP
+        obstacles = _add_obstacles(self._space, world)
+        _check_start(self._space, world, robot, obstacles)
+        self._drive = Drive(self._space, robot, world.start)
+        self._contacts = ContactLog(self._space, self._drive.shape, obstacles)
+        self._beams = Lidar(lidar, world.segments(), world.discs())
+        self._rng = np.random.Generator(np.random.PCG64(seed))
+        self._steps = 0
+        self._path = [(0.0, *self.pose)]
+
+    @property
+    def time(self) -> float:
+        """Simulated time of the last physics step, s."""
+        return self._steps / RATE
+
+    @property
+    def radius(self) -> float:
+        """The robot's radius, m."""
+        return self.robot.radius
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """Where the robot truly is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
+        x, y = self._drive.body.position
+        return x, y, wrap(self._drive.body.angle)
+
+    @property
+    def odometry(self) -> Odometry:
+        """Where the wheels say the robot is, from (0, 0, 0) at time 0. Wrong as soon as something holds the robot."""
+        return self._drive.odometry
+
+    @property
+    def wheels(self) -> Wheels:
+        """Angles and rates of the two wheel joints."""
+        return self._drive.wheels
+
+    @property
+    def bumper(self) -> frozenset[str]:
+        """The sides that touch something now: any of front, left, right, back."""
+        return self._contacts.pressed
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """All touches so far, oldest first."""
+        return list(self._contacts.contacts)
+
+    @property
+    def path(self) -> list[tuple[float, float, float, float]]:
+        """(stamp, x, y, yaw) of the true pose, every 0.05 s from time 0 on."""
+        return list(self._path)
+
+    def command(self, v: float, w: float) -> None:
+        """Drive at v (m/s, forwards) and w (rad/s, counter-clockwise) from now on, for as long as commands keep coming.
+
+        The robot ramps up to it within its limits, and ramps down to a stop `robot.command_timeout` after the last one.
+
+        Raises:
+            CommandError: v or w is infinite or not a number.
+        """
+        self._drive.command(v, w)
+
+    def advance(self, until: float) -> None:
+        """Do all physics steps that end at or before `until` (s); none when that is not after the present time."""
+        last = math.floor(until * RATE + 1e-6)
+        drive, contacts, step = self._drive, self._contacts, self._space.step
+        while self._steps < last:
+            drive.prepare()
+            step(DT)
+            self._steps += 1
+            contacts.update(self._steps / RATE)
+            if self._steps % _STEPS_PER_SAMPLE == 0:
+                self._path.append((self.time, *self.pose))
+
+    def scan(self) -> np.ndarray:
+        """One new lidar scan from the true pose: float32, shape (rays,), m; ray 0 forward, counter-clockwise.
+
+        inf: nothing within `lidar.range_max`; -inf: something nearer than `lidar.range_min` (REP-117).
+        """
+        return self._beams.measure(*self.pose, self._rng)
+
+
+def _add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]:
+    """Add the world's solid things in the order of its file, for the order changes the solver's rounding."""
+    ground = space.static_body
+    shapes: dict[pymunk.Shape, str] = {}
+    shapes |= {pymunk.Segment(ground, start, end, 0): "wall" for start, end in world.walls}
+    shapes |= {pymunk.Poly(ground, box.corners()): "box" for box in world.boxes}
+    shapes |= {pymunk.Circle(ground, circle.radius, circle[:2]): "circle" for circle in world.circles}
+    for shape in shapes:
+        shape.friction = _OBSTACLE_FRICTION
+        space.add(shape)
+    return shapes
+
+
+def _check_start(
+    space: pymunk.Space, world: World, robot: RobotModel, obstacles: dict[pymunk.Shape, str]
+) -> None:
+    x, y, _ = world.start
+    hit = space.point_query_nearest((x, y), robot.radius, pymunk.ShapeFilter())
+    if hit:
+        raise WorldError(
+            f"World {world.name!r}: at its start ({x:g}, {y:g}) the robot (radius {robot.radius:g} m) stands in a "
+            f"{obstacles[hit.shape]}; move the start or the {obstacles[hit.shape]}."
+        )
