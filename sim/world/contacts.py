@@ -13,7 +13,7 @@ _SIDES = ("front", "left", "back", "right")
 
 
 class Contact(NamedTuple):
-    """One touch: when it began and ended (s; end is None while it lasts), where in the map frame (m), and of what.
+    """One touch: when it began and ended (s; end is None while it lasts), and where in the map frame (m).
 
     `side` is front, left, right or back of the robot; `what` is wall, box or circle.
     """
@@ -29,7 +29,9 @@ class Contact(NamedTuple):
 class ContactLog:
     """Follows the touches between the robot and the obstacles of a space."""
 
-    def __init__(self, space: pymunk.Space, robot: pymunk.Shape, obstacles: Mapping[pymunk.Shape, str]) -> None:
+    def __init__(
+        self, space: pymunk.Space, robot: pymunk.Shape, obstacles: Mapping[pymunk.Shape, str]
+    ) -> None:
         self._body = robot.body
         self._obstacles = obstacles
         self._touching: dict[pymunk.Shape, int] = {}

@@ -18,7 +18,7 @@ class World:
 
     Attributes:
         name: the file's name without `.toml`.
-        card: text with one line for each of Picture, Topics, Frames and units, Start, Ends when.
+        card: text for people, one line for each of Picture, Topics, Frames and units, Start, Ends when.
         bounds: (xmin, ymin, xmax, ymax) of what is worth drawing; solid only where there are walls.
         start: (x, y, yaw) of the robot at time 0.
         goal: (x, y), or None where the world has none.
@@ -57,15 +57,18 @@ class World:
         names = cls.names()
         if name not in names:
             close = difflib.get_close_matches(name, names, n=1)
-            guess = f"did you mean {close[0]!r}? " if close else ""
-            raise WorldError(f"There is no world {name!r}; {guess}The worlds are {', '.join(names)}.")
+            guess = f"Did you mean {close[0]!r}? " if close else ""
+            raise WorldError(f"There is no world {name!r}. {guess}The worlds are {', '.join(names)}.")
         return _FOLDER / f"{name}.toml"
 
     def segments(self) -> np.ndarray:
-        """Everything straight: float64, shape (n, 4), rows x0, y0, x1, y1; walls first, then the boxes' sides."""
+        """Everything straight: float64, shape (n, 4), rows x0, y0, x1, y1 (m).
+
+        The walls come first, then the boxes' sides.
+        """
         segments = [*self.walls, *(side for box in self.boxes for side in box.sides())]
         return np.array(segments, dtype=float).reshape(-1, 4)
 
     def discs(self) -> np.ndarray:
-        """Everything round: float64, shape (n, 3), rows x, y, radius."""
+        """Everything round: float64, shape (n, 3), rows x, y, radius (m)."""
         return np.array(self.circles, dtype=float).reshape(-1, 3)

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Rays this near (in ray spacings) to the end of a wall still meet it, so that none slips through a shared corner.
+# Rays this near (in ray spacings) to a wall's end still meet it: none slips through a shared corner.
 _EDGE = 1e-9
-# A wall seen end-on, under less than this angle (rad), is invisible: there its distance would be rounding noise.
+# A wall seen end-on, under less than this angle (rad), is invisible: its distance would be rounding noise.
 _END_ON = 1e-6
 
 
 @dataclass(frozen=True)
 class LidarModel:
-    """A lidar in the middle of the robot: rays per turn, range limits and standard deviation of the noise (m)."""
+    """A lidar in the middle of the robot: rays per turn, range limits (m), noise's standard deviation (m)."""
 
     rays: int = 360
     range_min: float = 0.12
@@ -29,7 +29,7 @@ class LidarModel:
 class Lidar:
     """Measures distances from a pose to the obstacles of one world.
 
-    Each obstacle is tested only against the rays inside the angle under which it is seen, for all obstacles at once.
+    All obstacles are worked on at once, each only with the rays inside the angle under which it is seen.
     """
 
     def __init__(self, model: LidarModel, segments: np.ndarray, discs: np.ndarray) -> None:
@@ -43,9 +43,10 @@ class Lidar:
         self._sin = np.array([math.sin(angle) for angle in angles])
 
     def measure(self, x: float, y: float, yaw: float, rng: np.random.Generator) -> np.ndarray:
-        """One noisy scan from this pose in the map frame: float32, shape (rays,), m; ray 0 forward, counter-clockwise.
+        """One noisy scan from this pose in the map frame: float32, shape (rays,), m.
 
-        As REP-117 says: inf where nothing is within `range_max`, -inf where something is nearer than `range_min`.
+        Ray 0 points forward, the others follow counter-clockwise. As REP-117 says, inf means that nothing
+        is within `range_max`, and -inf that something is nearer than `range_min`.
         """
         model = self._model
         ranges = self.distances(x, y, yaw)
@@ -55,7 +56,7 @@ class Lidar:
         return ranges.astype(np.float32)
 
     def distances(self, x: float, y: float, yaw: float) -> np.ndarray:
-        """The true distances from this pose: float64, shape (rays,), m; inf where a ray meets nothing at all."""
+        """The true distances from this pose: float64, shape (rays,), m; inf where a ray meets nothing."""
         c, s = math.cos(yaw), math.sin(yaw)
         directions = self._cos * c - self._sin * s, self._sin * c + self._cos * s
         nearest = np.full(self._model.rays, np.inf)
@@ -86,8 +87,11 @@ class Lidar:
         depth = np.sqrt(np.maximum(along * along - beyond[disc], 0))
         np.minimum.at(nearest, ray, along - depth)
 
-    def _pairs(self, first: np.ndarray, width: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Indices (ray, obstacle) of each ray inside the angles first .. first + width (rad) of a visible obstacle."""
+    def _pairs(self, first: np.ndarray, width: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Indices (ray, obstacle) of all rays that can meet an obstacle.
+
+        A visible obstacle fills the angles first .. first + width (rad), counted from ray 0.
+        """
         spacing = self._model.angle_increment
         begin = np.ceil(first / spacing - _EDGE).astype(np.intp)
         end = np.floor((first + width) / spacing + _EDGE).astype(np.intp)

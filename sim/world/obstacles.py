@@ -8,7 +8,10 @@ Segment = tuple[Point, Point]
 
 
 class Box(NamedTuple):
-    """A rectangle that does not move: centre (m) and yaw (rad) in the map frame, sides along its own x and y (m)."""
+    """A rectangle that does not move: centre (m) and yaw (rad) in the map frame.
+
+    `width` and `height` (m) are its sizes along its own x and y.
+    """
 
     x: float
     y: float

@@ -29,15 +29,15 @@ class RobotModel:
     max_acceleration: float = 2.0
     max_angular_acceleration: float = 8.0
     command_timeout: float = 0.5
-    # The grip of the wheels. In free space it must outdo what the ramps and the curves ask for
-    # (mass * hypot(max_acceleration, max_v * max_w)), else odometry would drift without any collision.
+    # The grip of the wheels must outdo what ramps and curves ask for, mass * hypot(max_acceleration,
+    # max_v * max_w), else odometry drifts without any collision.
     max_force: float = 5.0
     max_torque: float = 0.25
     friction: float = 0.3
 
 
 class Odometry(NamedTuple):
-    """Where the wheels say the robot is: pose in the odom frame (m, rad), speeds of base_link (m/s, rad/s)."""
+    """Where the wheels say the robot is: pose in odom (m, rad), velocity in base_link (m/s, rad/s)."""
 
     x: float
     y: float
@@ -58,9 +58,9 @@ class Wheels(NamedTuple):
 class Drive:
     """Two driven wheels under the robot's body.
 
-    The wheels are a kinematic body that the robot's body is tied to by joints of finite force. So the wheels always
-    do what they are told, and the body follows as long as nothing holds it. Setting the body's velocity would push
-    it through thin walls instead.
+    The wheels are a kinematic body that the robot's body is tied to by joints of finite force. So the wheels
+    always do what they are told, and the body follows as long as nothing holds it. Were the body's own
+    velocity set instead, it would sink into walls.
     """
 
     def __init__(self, space: pymunk.Space, model: RobotModel, start: tuple[float, float, float]) -> None:
@@ -82,14 +82,14 @@ class Drive:
             CommandError: v or w is infinite or not a number.
         """
         if not (math.isfinite(v) and math.isfinite(w)):
-            raise CommandError(f"A velocity command needs finite numbers, but was linear {v} m/s, angular {w} rad/s.")
+            raise CommandError(f"Velocity commands are finite numbers; this one was {v} m/s and {w} rad/s.")
         model = self._model
         self._target_v = min(max(v, -model.max_v), model.max_v)
         self._target_w = min(max(w, -model.max_w), model.max_w)
         self._steps_left = round(model.command_timeout * RATE)
 
-    def prepare(self) -> None:
-        """Roll the wheels through one step and set the speed that the body takes on at its end; call before each step."""
+    def roll(self) -> None:
+        """Roll the wheels through one step; call before each step of the space."""
         v, w = self._v, self._w
         stride, half_turn = _chord(v, w)
         heading = self._turn + half_turn
@@ -106,8 +106,8 @@ class Drive:
         self._v = v = _toward(v, self._target_v, model.max_acceleration * DT)
         self._w = w = _toward(w, self._target_w, model.max_angular_acceleration * DT)
 
-        # A step of pymunk first moves the body at its old velocity, then solves for the new one, which is thus used
-        # from the pose at the end of this step: that pose's heading is the one to aim from.
+        # A step of pymunk first moves the body at its old velocity and then solves for the new one, which is
+        # thus used from the pose at the end of this step: that pose's heading is the one to aim from.
         body = self.body
         stride, half_turn = _chord(v, w)
         heading = body.angle + body.angular_velocity * DT + half_turn
@@ -138,7 +138,7 @@ def wrap(angle: float) -> float:
 
 
 def _chord(v: float, w: float) -> tuple[float, float]:
-    """Speed along the chord of the arc driven in one step, and the chord's angle to the heading at its start."""
+    """Speed along the chord of one step's arc, and the chord's angle to the heading at the step's start."""
     half_turn = w * DT / 2
     return (v * math.sin(half_turn) / half_turn if half_turn else v), half_turn
 

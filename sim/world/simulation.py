@@ -11,6 +11,7 @@ from sim.world.lidar import Lidar, LidarModel
 from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
 from sim.world.worldfile import WorldError
 
+_ROBOT, _LIDAR = RobotModel(), LidarModel()
 _STEPS_PER_SAMPLE = round(0.05 * RATE)
 _OBSTACLE_FRICTION = 0.5
 # The physics lets bodies overlap by this much (m); pymunk's own figure of 0.1 suits pixels.
@@ -20,7 +21,8 @@ _COLLISION_SLOP = 1e-3
 class Simulation:
     """The robot in a world, from time 0 on. To start again, make a new one.
 
-    Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed sets the sensors' noise.
+    Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed is for the
+    sensors' noise.
 
     Raises:
         WorldError: the robot does not fit at the world's start.
@@ -30,8 +32,8 @@ class Simulation:
         self,
         world: World,
         seed: int = 0,
-        robot: RobotModel = RobotModel(),  # noqa: B008  (frozen, so sharing it is safe)
-        lidar: LidarModel = LidarModel(),  # noqa: B008
+        robot: RobotModel = _ROBOT,
+        lidar: LidarModel = _LIDAR,
     ) -> None:
         self.world = world
         self.robot = robot
@@ -65,7 +67,7 @@ class Simulation:
 
     @property
     def odometry(self) -> Odometry:
-        """Where the wheels say the robot is, from (0, 0, 0) at time 0. Wrong as soon as something holds the robot."""
+        """Where the wheels say the robot is, from (0, 0, 0) at time 0; wrong once something held it."""
         return self._drive.odometry
 
     @property
@@ -89,9 +91,9 @@ class Simulation:
         return list(self._path)
 
     def command(self, v: float, w: float) -> None:
-        """Drive at v (m/s, forwards) and w (rad/s, counter-clockwise) from now on, for as long as commands keep coming.
+        """From now on, drive at v (m/s, forwards) and w (rad/s, counter-clockwise), within the limits.
 
-        The robot ramps up to it within its limits, and ramps down to a stop `robot.command_timeout` after the last one.
+        The speed ramps up to it. `robot.command_timeout` (s) after the last command it ramps down to 0.
 
         Raises:
             CommandError: v or w is infinite or not a number.
@@ -99,11 +101,11 @@ class Simulation:
         self._drive.command(v, w)
 
     def advance(self, until: float) -> None:
-        """Do all physics steps that end at or before `until` (s); none when that is not after the present time."""
+        """Do the physics steps, if any are due, that end at or before `until` (s)."""
         last = math.floor(until * RATE + 1e-6)
         drive, contacts, step = self._drive, self._contacts, self._space.step
         while self._steps < last:
-            drive.prepare()
+            drive.roll()
             step(DT)
             self._steps += 1
             contacts.update(self._steps / RATE)
@@ -137,7 +139,8 @@ def _check_start(
     x, y, _ = world.start
     hit = space.point_query_nearest((x, y), robot.radius, pymunk.ShapeFilter())
     if hit:
+        what = obstacles[hit.shape]
         raise WorldError(
-            f"World {world.name!r}: at its start ({x:g}, {y:g}) the robot (radius {robot.radius:g} m) stands in a "
-            f"{obstacles[hit.shape]}; move the start or the {obstacles[hit.shape]}."
+            f"World {world.name!r}: the robot (radius {robot.radius:g} m) does not fit at the start "
+            f"({x:g}, {y:g}), where a {what} is; move the start or the {what}."
         )
