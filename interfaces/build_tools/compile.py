@@ -1,0 +1,122 @@
+"""Compile a generated package into the one shared object that rclpy imports."""
+
+import os
+import shlex
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from build_tools.generate import DISPATCHER, FASTRTPS, GENERATOR_C, GENERATOR_PY, INTROSPECTION, Package
+from build_tools.toolchain import BuildError, ros_prefix
+
+HERE = Path(__file__).resolve().parent
+# NDEBUG as in the released ROS wheels: without it a wrong field type aborts the interpreter.
+FLAGS = ("-O1", "-g0", "-fPIC", "-w", "-DNDEBUG")
+STABLE_ABI = ("-DPy_LIMITED_API=0x030B0000", "-include", str(HERE / "stable_abi.h"))
+PARTS = (GENERATOR_C, FASTRTPS, INTROSPECTION, DISPATCHER, GENERATOR_PY)  # one library each in a ROS wheel
+RUNTIME = (*PARTS[1:4], f"{FASTRTPS}pp", "rosidl_runtime_c", "rcutils", "rmw", "fastcdr")
+
+
+def compile_package(package: Package, dependencies: Iterable[str]) -> Path:
+    """Compile and link a generated package, check that it loads, and return the shared object.
+
+    Args:
+        package: a package that generate() has written.
+        dependencies: the packages to link with, as generate() returned them.
+
+    Raises:
+        BuildError: the compiler, the linker or the loader refused; the message holds their words.
+    """
+    objects = package.output / "objects"
+    objects.mkdir(exist_ok=True)
+    entry_point = package.python / f"_{package.name}_s.ep.{DISPATCHER}.c"
+    units = [*_units(package, objects), entry_point, HERE / "dispatch.cpp"]
+    flags = _flags(package)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        compiled = list(pool.map(lambda unit: _compile(unit, objects, flags), units))
+    library = package.python / f"{package.name}_s__{DISPATCHER}.so"
+    _run(["g++", "-shared", "-s", "-o", library, *compiled, *_link_flags(library.name, dependencies)])
+    _check_loads(library)
+    return library
+
+
+def _units(package: Package, directory: Path) -> list[Path]:
+    """Write one C and one C++ file per interface, which include all its parts: fewer compiler runs."""
+    from rosidl_pycommon import convert_camel_case_to_lower_case_underscore
+
+    units = []
+    for idl in map(Path, package.idls):
+        kind, name = idl.parent, convert_camel_case_to_lower_case_underscore(idl.stem)
+        detail = package.include / kind / "detail"
+        sources = {
+            ".c": [
+                detail / f"{name}__description.c",
+                detail / f"{name}__functions.c",
+                detail / f"{name}__type_support.c",
+                package.introspection / kind / "detail" / f"{name}__type_support.c",
+                package.python / kind / f"_{name}_s.c",
+            ],
+            ".cpp": [
+                detail / f"{name}__type_support_c.cpp",
+                package.include / kind / f"{name}__type_support.cpp",
+            ],
+        }
+        for suffix, files in sources.items():
+            units.append(directory / f"{kind}__{name}{suffix}")
+            units[-1].write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+    return units
+
+
+def _flags(package: Package) -> list[str]:
+    import numpy
+
+    ros = ros_prefix() / "include"
+    includes = [
+        package.include.parent,
+        package.introspection.parent,
+        ros,
+        *sorted(path for path in ros.iterdir() if path.is_dir()),
+        sysconfig.get_path("include"),
+        numpy.get_include(),
+    ]
+    stock = f"-D{DISPATCHER}__get_{{0}}_typesupport_handle_function=dispatch_{{0}}"
+    redirect = [stock.format(kind) for kind in ("message", "service")]
+    # Error messages hold source file names; the map keeps the build directory out of them.
+    return [*FLAGS, *redirect, f"-ffile-prefix-map={package.output}=.", *(f"-I{path}" for path in includes)]
+
+
+def _compile(unit: Path, directory: Path, flags: list[str]) -> Path:
+    compiled = directory / f"{unit.name}.o"
+    compiler = ["g++", "-std=c++17"] if unit.suffix == ".cpp" else ["gcc", "-std=gnu11", *STABLE_ABI]
+    _run([*compiler, *flags, "-c", unit, "-o", compiled])
+    return compiled
+
+
+def _link_flags(soname: str, dependencies: Iterable[str]) -> list[str]:
+    libraries = [f"{package}__{part}" for package in dependencies for part in PARTS]
+    lib = ros_prefix() / "lib"
+    return [
+        f"-Wl,-soname,{soname}",
+        "-Wl,--as-needed",
+        # From site-packages/PACKAGE up to the environment's lib/, wherever the environment is.
+        "-Wl,-rpath,$ORIGIN/../../..",
+        f"-L{lib}",
+        *(f"-l{library}" for library in (*libraries, *RUNTIME)),
+        "-ldl",
+    ]
+
+
+def _check_loads(library: Path) -> None:
+    """Load the shared object in another process; a missing symbol would show only later, without its name."""
+    _run([sys.executable, "-c", "import ctypes, os, sys; ctypes.CDLL(sys.argv[1], os.RTLD_NOW)", library])
+
+
+def _run(command: Iterable[object]) -> None:
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode:
+        command = shlex.join(words)
+        raise BuildError(f"This step of the interface build failed:\n{command}\n{done.stderr.strip()}")

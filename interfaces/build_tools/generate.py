@@ -1,0 +1,187 @@
+"""Turn .msg, .srv and .action files into C, C++ and Python sources, with the generators of the ROS wheels.
+
+This is the part that upstream leaves to rosidl_generate_interfaces() in CMake.
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from build_tools.toolchain import BuildError, ros_prefix
+
+KINDS = ("msg", "srv", "action")
+GENERATOR_C = "rosidl_generator_c"
+FASTRTPS = "rosidl_typesupport_fastrtps_c"
+INTROSPECTION = "rosidl_typesupport_introspection_c"
+DISPATCHER = "rosidl_typesupport_c"
+GENERATOR_PY = "rosidl_generator_py"
+DESCRIPTION = "rosidl_generator_type_description"
+
+
+@dataclass(frozen=True)
+class Package:
+    """One interface package and where its files are made.
+
+    Attributes:
+        name: the ROS package name.
+        source: the directory with msg/, srv/ and action/.
+        output: the directory that receives share/, include/, introspection/ and python/.
+    """
+
+    name: str
+    source: Path
+    output: Path
+
+    @property
+    def interfaces(self) -> list[str]:
+        """The definition files, for example "msg/Bool.msg", in a fixed order."""
+        files = (file for kind in KINDS for file in self.source.glob(f"{kind}/*.{kind}"))
+        return sorted(str(file.relative_to(self.source)) for file in files)
+
+    @property
+    def idls(self) -> list[str]:
+        """The .idl file of each interface, for example "msg/Bool.idl"."""
+        return [str(Path(interface).with_suffix(".idl")) for interface in self.interfaces]
+
+    @property
+    def share(self) -> Path:
+        """Where the definitions, .idl files and type descriptions go."""
+        return self.output / "share" / self.name
+
+    def description(self, idl: str) -> Path:
+        """Where the type description (JSON, with the type hashes) of an interface goes."""
+        return self.share / Path(idl).with_suffix(".json")
+
+    @property
+    def include(self) -> Path:
+        """Where the C and C++ sources go."""
+        return self.output / "include" / self.name
+
+    @property
+    def introspection(self) -> Path:
+        """Where the introspection sources go: some have the file names of those in include."""
+        return self.output / "introspection" / self.name
+
+    @property
+    def python(self) -> Path:
+        """Where the importable package goes."""
+        return self.output / "python" / self.name
+
+
+def generate(package: Package) -> list[str]:
+    """Write all sources of a package and return the packages that it must be linked with.
+
+    Raises:
+        BuildError: there is no definition file, or one uses a package that is not installed.
+    """
+    if not package.interfaces:
+        raise BuildError(f"{package.name} has no .msg, .srv or .action file under {package.source}.")
+    _write_idls(package)
+    _write_descriptions(package, _installed_definitions(_used_packages(package), package.name))
+    _write_sources(package)
+    _write_visibility_headers(package)
+    _write_index(package)
+    return _dependencies(package)
+
+
+def _write_idls(package: Package) -> None:
+    from rosidl_adapter import convert_to_idl
+
+    for interface in package.interfaces:
+        target = package.share / interface
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(package.source / interface, target)
+        convert_to_idl(package.source, package.name, Path(interface), package.share)
+
+
+def _used_packages(package: Package) -> set[str]:
+    texts = (package.share.joinpath(idl).read_text(encoding="utf-8") for idl in package.idls)
+    return {used for text in texts for used in re.findall(r'#include "(\w+)/', text)} - {package.name}
+
+
+def _installed_definitions(used: Iterable[str], name: str) -> dict[str, Path]:
+    share = ros_prefix() / "share"
+    missing = sorted(package for package in used if not (share / package).is_dir())
+    if missing:
+        raise BuildError(f"{name} uses {', '.join(missing)}, which no installed ROS wheel provides.")
+    packages = sorted({path.parent for kind in KINDS for path in share.glob(f"*/{kind}")})
+    return {path.name: path for path in packages}
+
+
+def _arguments(package: Package, generator: str, output: Path, **more: object) -> str:
+    """Write a generator's argument file, as CMake would, and return its path."""
+    output.mkdir(parents=True, exist_ok=True)
+    path = package.output / f"{generator}.json"
+    arguments = {
+        "package_name": package.name,
+        "output_dir": str(output),
+        "template_dir": str(ros_prefix() / "share" / generator / "resource"),
+        "idl_tuples": [f"{package.share}:{idl}" for idl in package.idls],
+        "target_dependencies": [],
+        **more,
+    }
+    path.write_text(json.dumps(arguments), encoding="utf-8")
+    return str(path)
+
+
+def _write_descriptions(package: Package, installed: dict[str, Path]) -> None:
+    from rosidl_generator_type_description import generate_type_hash
+
+    # An installed build of this very package must not stand in for the files at hand.
+    include_paths = [f"{name}:{path}" for name, path in installed.items() if name != package.name]
+    generate_type_hash(_arguments(package, DESCRIPTION, package.share, include_paths=include_paths))
+    # Actions and services also leave a description of each part; upstream ships the whole ones only.
+    whole = {package.description(idl) for idl in package.idls}
+    for description in set(package.share.rglob("*.json")) - whole:
+        description.unlink()
+
+
+def _write_sources(package: Package) -> None:
+    from rosidl_generator_c import generate_c
+    from rosidl_generator_py.generate_py_impl import generate_py
+    from rosidl_typesupport_c import generate_c as generate_dispatcher
+    from rosidl_typesupport_fastrtps_c import generate_typesupport_fastrtps_c
+    from rosidl_typesupport_introspection_c import generate_c as generate_introspection
+
+    definitions = {
+        "ros_interface_files": [str(package.share / interface) for interface in package.interfaces],
+        "type_description_tuples": [f"{idl}:{package.description(idl)}" for idl in package.idls],
+    }
+    generate_c(_arguments(package, GENERATOR_C, package.include, **definitions))
+    generate_typesupport_fastrtps_c(_arguments(package, FASTRTPS, package.include))
+    generate_introspection(_arguments(package, INTROSPECTION, package.introspection))
+    generate_dispatcher(_arguments(package, DISPATCHER, package.include), [FASTRTPS, INTROSPECTION])
+    generate_py(_arguments(package, GENERATOR_PY, package.python), [DISPATCHER])
+    (package.python / "__init__.py").touch()
+
+
+def _write_visibility_headers(package: Package) -> None:
+    for generator in (GENERATOR_C, FASTRTPS, INTROSPECTION):
+        header = package.include / "msg" / f"{generator}__visibility_control.h"
+        template = ros_prefix() / "share" / generator / "resource" / f"{header.name}.in"
+        text = template.read_text(encoding="utf-8").replace("@PROJECT_NAME_UPPER@", package.name.upper())
+        header.parent.mkdir(parents=True, exist_ok=True)
+        header.write_text(text.replace("@PROJECT_NAME@", package.name), encoding="utf-8")
+
+
+def _write_index(package: Package) -> None:
+    """Register the package in the ament index, where get_package_share_directory() and tools look."""
+    index = package.output / "share" / "ament_index" / "resource_index"
+    content = {"packages": "", "rosidl_interfaces": "\n".join(sorted(package.interfaces + package.idls))}
+    for kind, text in content.items():
+        (index / kind).mkdir(parents=True, exist_ok=True)
+        (index / kind / package.name).write_text(text, encoding="utf-8")
+
+
+def _dependencies(package: Package) -> list[str]:
+    used = _used_packages(package)
+    # Every service carries events, every action goals and cancelling: these are not named in the definitions.
+    kinds = {idl.split("/")[0] for idl in package.idls}
+    if kinds & {"srv", "action"}:
+        used |= {"service_msgs", "builtin_interfaces"}
+    if "action" in kinds:
+        used |= {"action_msgs", "unique_identifier_msgs"}
+    return sorted(used)

@@ -1,0 +1,54 @@
+"""One wheel from all interface packages under definitions/, for every Python from 3.11 on."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from build_tools.content import version  # noqa: E402
+
+PACKAGES = sorted(path.name for path in (HERE / "definitions").iterdir())
+
+
+class BuildInterfaces(build_ext):
+    """Builds each package with build_tools and hands its files to the wheel."""
+
+    def run(self) -> None:
+        """Build all packages; their share/ goes where the ROS wheels put theirs."""
+        shared: dict[str, list[str]] = {}
+        for package in PACKAGES:
+            output = Path(self.build_temp).resolve() / package
+            shutil.rmtree(output, ignore_errors=True)
+            output.mkdir(parents=True)
+            self._build(package, output)
+            for file in sorted(output.glob("python/**/*.*")):
+                if file.suffix in (".py", ".so"):
+                    target = Path(self.build_lib, file.relative_to(output / "python"))
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(file, target)
+            for file in sorted(file for file in output.glob("share/**/*") if file.is_file()):
+                shared.setdefault(str(file.parent.relative_to(output)), []).append(str(file))
+        self.distribution.data_files = sorted(shared.items())
+
+    def _build(self, package: str, output: Path) -> None:
+        # A process of its own, because a fixed hash seed is what makes two builds equal.
+        command = [sys.executable, "-m", "build_tools", package, f"definitions/{package}", str(output)]
+        done = subprocess.run(command, cwd=HERE, env={**os.environ, "PYTHONHASHSEED": "0"}, check=False)
+        if done.returncode:
+            raise SystemExit(f"The interface package {package} could not be built; the reason is above.")
+
+
+setup(
+    version=version(),
+    packages=[],
+    ext_modules=[Extension(package, [], py_limited_api=True) for package in PACKAGES],
+    cmdclass={"build_ext": BuildInterfaces},
+    options={"bdist_wheel": {"py_limited_api": "cp311"}},
+)
