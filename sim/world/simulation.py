@@ -14,8 +14,10 @@ from sim.world.worldfile import WorldError
 _ROBOT, _LIDAR = RobotModel(), LidarModel()
 _STEPS_PER_SAMPLE = round(0.05 * RATE)
 _OBSTACLE_FRICTION = 0.5
-# The physics lets bodies overlap by this much (m); pymunk's own figure of 0.1 suits pixels.
+# How deep touching bodies may overlap (m), for a contact to last; pymunk's own 0.1 suits pixels.
 _COLLISION_SLOP = 1e-3
+# The share of any deeper overlap that is left after a second: all of it goes in the next step.
+_COLLISION_BIAS = 0
 
 
 class Simulation:
@@ -40,6 +42,7 @@ class Simulation:
         self.lidar = lidar
         self._space = pymunk.Space()
         self._space.collision_slop = _COLLISION_SLOP
+        self._space.collision_bias = _COLLISION_BIAS
         obstacles = _add_obstacles(self._space, world)
         _check_start(self._space, world, robot, obstacles)
         self._drive = Drive(self._space, robot, world.start)

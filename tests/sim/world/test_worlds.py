@@ -1,0 +1,344 @@
+"""World files: those that come with the course, and what is said about faulty ones."""
+
+import dataclasses
+import math
+import tomllib
+
+import numpy as np
+import pytest
+
+from sim.world import Box, Circle, RobotModel, Simulation, World, WorldError
+
+HEADINGS = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
+CARD = "[card]\n" + "\n".join(f'"{heading}" = "text"' for heading in HEADINGS) + "\n"
+GOOD = "bounds = [-3, -3, 3, 3]\nstart = [0, 0, 0]\n" + CARD
+
+
+def load(folder, text, name="mine.toml"):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return World.load(path)
+
+
+def words(folder, text):
+    """What is said about a faulty world file."""
+    with pytest.raises(WorldError) as caught:
+        load(folder, text)
+    return str(caught.value)
+
+
+def reachable(world, step=0.05):
+    """The grid cells that the robot's middle can drive to from the start, as (x, y) in whole steps."""
+    segments, discs = world.segments(), world.discs()
+
+    def free(cell):
+        p = np.array(cell) * step
+        a, e = segments[:, :2], segments[:, 2:] - segments[:, :2]
+        along = np.clip(((p - a) * e).sum(1) / (e * e).sum(1), 0, 1)
+        gaps = np.hypot(*(a + along[:, None] * e - p).T)
+        gaps = np.append(gaps, np.hypot(*(discs[:, :2] - p).T) - discs[:, 2])
+        return gaps.min() > RobotModel().radius
+
+    cells = {(round(world.start[0] / step), round(world.start[1] / step))}
+    edge = list(cells)
+    while edge:
+        x, y = edge.pop()
+        for cell in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+            if cell not in cells and free(cell):
+                cells.add(cell)
+                edge.append(cell)
+    return cells
+
+
+def test_names_are_sorted_and_hold_the_first_worlds():
+    names = World.names()
+    assert names == sorted(names)
+    assert {"yard", "room", "corridor", "maze"} <= set(names)
+
+
+@pytest.mark.parametrize("name", World.names())
+def test_every_card_has_the_five_headings_in_order(name):
+    lines = World.load(name).card.splitlines()
+    assert [line.split(":")[0] for line in lines] == HEADINGS
+    assert all(line.split(":", 1)[1].strip() for line in lines)
+
+
+@pytest.mark.parametrize("name", World.names())
+def test_every_start_is_free(name):
+    simulation = Simulation(World.load(name))
+    simulation.advance(1)
+    assert simulation.pose == pytest.approx(simulation.world.start)
+    assert simulation.bumper == frozenset()
+
+
+@pytest.mark.parametrize("name", [name for name in World.names() if World.load(name).goal])
+def test_every_goal_can_be_reached(name):
+    world = World.load(name)
+    assert (round(world.goal[0] / 0.05), round(world.goal[1] / 0.05)) in reachable(world)
+
+
+def test_the_maze_is_solved_by_following_its_left_wall():
+    world = World.load("maze")
+    simulation = Simulation(world, seed=3)
+    while math.dist(simulation.pose[:2], world.goal) > 0.2 and simulation.time < 120:
+        scan = np.clip(simulation.scan(), 0.1, 2.0)
+        left, ahead = scan[50:100].min(), np.concatenate((scan[:25], scan[-25:])).min()
+        turn = -2.0 if ahead < 0.45 else 3.0 * (left - 0.4)
+        simulation.command(0.1 if ahead < 0.45 else 0.3, turn)
+        simulation.advance(simulation.time + 0.1)
+    assert math.dist(simulation.pose[:2], world.goal) <= 0.2
+    assert simulation.contacts == []
+
+
+def test_a_file_becomes_plain_frozen_data(tmp_path):
+    world = load(
+        tmp_path,
+        """
+        bounds = [-3, -2, 3, 2]
+        start = [1, -1, 0.5]
+        goal = [2, 1]
+        walls = [[[0, 0], [1, 0], [1, 1]], [[-1, 0], [-1, 1]]]
+        [[boxes]]
+        x = 2
+        y = 0
+        yaw = 1.5707963267948966
+        width = 1
+        height = 0.5
+        [[circles]]
+        x = -2
+        y = 0
+        radius = 0.25
+        """
+        + CARD,
+    )
+    assert world == World(
+        name="mine",
+        card="\n".join(f"{heading}: text" for heading in HEADINGS),
+        bounds=(-3, -2, 3, 2),
+        start=(1, -1, 0.5),
+        goal=(2, 1),
+        walls=(((0, 0), (1, 0)), ((1, 0), (1, 1)), ((-1, 0), (-1, 1))),
+        boxes=(Box(2, 0, math.pi / 2, 1, 0.5),),
+        circles=(Circle(-2, 0, 0.25),),
+    )
+    assert hash(world) == hash(dataclasses.replace(world))
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        world.name = "other"
+
+
+def test_a_file_of_ones_own_can_be_loaded_by_a_path_in_a_string(tmp_path):
+    load(tmp_path, GOOD)
+    assert World.load(str(tmp_path / "mine.toml")).start == (0, 0, 0)
+
+
+def test_segments_are_the_walls_and_then_the_sides_of_the_boxes():
+    world = World(
+        "t", "", (-9, -9, 9, 9), (0, 0, 0), walls=(((5, 5), (6, 6)),), boxes=(Box(1, 2, math.pi / 2, 4, 2),)
+    )
+    expected = [(5, 5, 6, 6), (2, 0, 2, 4), (2, 4, 0, 4), (0, 4, 0, 0), (0, 0, 2, 0)]
+    assert world.segments() == pytest.approx(np.array(expected, dtype=float))
+    assert world.discs().shape == (0, 3)
+
+
+def test_discs_are_the_circles():
+    world = World("t", "", (-9, -9, 9, 9), (0, 0, 0), circles=(Circle(1, 2, 0.5),))
+    assert world.discs().tolist() == [[1, 2, 0.5]]
+    assert world.segments().shape == (0, 4)
+
+
+def test_unknown_name_gets_a_guess():
+    with pytest.raises(WorldError) as caught:
+        World.load("rooom")
+    listed = ", ".join(World.names())
+    assert str(caught.value) == f"There is no world 'rooom'. Did you mean 'room'? The worlds are {listed}."
+
+
+def test_unknown_name_without_a_likeness_gets_the_list():
+    with pytest.raises(WorldError) as caught:
+        World.load("xyzzy")
+    assert str(caught.value) == f"There is no world 'xyzzy'. The worlds are {', '.join(World.names())}."
+
+
+def test_missing_file():
+    with pytest.raises(WorldError) as caught:
+        World.load("/nowhere/mine.toml")
+    assert str(caught.value) == "Cannot read /nowhere/mine.toml (No such file or directory); check the path."
+
+
+def test_file_that_is_not_text(tmp_path):
+    (tmp_path / "mine.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(WorldError) as caught:
+        World.load(tmp_path / "mine.toml")
+    assert str(caught.value) == "mine.toml is not UTF-8 text; save it as UTF-8."
+
+
+def test_file_that_is_not_toml(tmp_path):
+    text = "start = [0, 0,\nbounds"
+    with pytest.raises(tomllib.TOMLDecodeError) as reason:
+        tomllib.loads(text)
+    assert "line 2" in str(reason.value)
+    assert words(tmp_path, text) == f"mine.toml is not valid TOML ({reason.value}); correct it there."
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "sentence"),
+    [
+        (
+            "bounds = [-3, -3, 3, 3]\n",
+            "",
+            "bounds is missing; write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax.",
+        ),
+        (
+            "[-3, -3, 3, 3]",
+            "[3, -3, -3, 3]",
+            "bounds is [3, -3, -3, 3]; "
+            "write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax.",
+        ),
+        (
+            "start = [0, 0, 0]",
+            "",
+            "start is missing; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        (
+            "start = [0, 0, 0]",
+            "start = [0, nan, 0]",
+            "start is [0, nan, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        (
+            "start = [0, 0, 0]",
+            "start = [9, 0, 0]",
+            "start is [9, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        (
+            "start = [0, 0, 0]",
+            "start = [0, 0]",
+            "start is [0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        (
+            "start = [0, 0, 0]",
+            "start = [true, 0, 0]",
+            "start is [True, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        (
+            "[card]",
+            "goal = [0, inf]\n[card]",
+            "goal is [0, inf]; write [x, y] (metres) inside the bounds.",
+        ),
+        (
+            "[card]",
+            "walls = 3\n[card]",
+            "walls is 3; write a list of walls, each a list of two or more corners [x, y] (metres), "
+            "each different from the one before.",
+        ),
+        (
+            "[card]",
+            "walls = [[[0, 1], [1, 1]], [[2, 2]]]\n[card]",
+            "walls[1] is [[2, 2]]; write two or more corners [x, y] (metres), "
+            "each different from the one before.",
+        ),
+        (
+            "[card]",
+            "walls = [[[2, 2], [2, 2]]]\n[card]",
+            "walls[0] is [[2, 2], [2, 2]]; write two or more corners [x, y] (metres), "
+            "each different from the one before.",
+        ),
+        (
+            "[card]",
+            "walls = [[[2, 2], ['a', 2]]]\n[card]",
+            "walls[0] is [[2, 2], ['a', 2]]; write two or more corners [x, y] (metres), "
+            "each different from the one before.",
+        ),
+        (
+            "[card]",
+            "walls = [7]\n[card]",
+            "walls[0] is 7; write two or more corners [x, y] (metres), each different from the one before.",
+        ),
+        (
+            "[card]",
+            "boxes = [1]\n[card]",
+            "boxes is [1]; write a [[boxes]] table for each box, with x, y, yaw, width and height.",
+        ),
+        (
+            "[card]",
+            "circles = 1\n[card]",
+            "circles is 1; write a [[circles]] table for each circle, with x, y and radius.",
+        ),
+        (
+            "[card]",
+            "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1\n[card]",
+            "boxes[0].width is -1; write a finite number above 0 (metres).",
+        ),
+        (
+            "[card]",
+            "[[boxes]]\nx = 1\ny = 1\nyaw = inf\nwidth = 1\nheight = 1\n[card]",
+            "boxes[0].yaw is inf; write a finite number.",
+        ),
+        (
+            "[card]",
+            "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
+            "boxes[0].height is missing; write a finite number above 0 (metres).",
+        ),
+        (
+            "[card]",
+            "[[circles]]\nx = 1\ny = 1\nradius = 0\n[card]",
+            "circles[0].radius is 0; write a finite number above 0 (metres).",
+        ),
+        (
+            "[card]",
+            "[[circles]]\nx = 1\ny = 1\nradius = 1\n[[circles]]\nx = 1\ny = 1\nradus = 1\n[card]",
+            "circles[1].radus is not a known key; did you mean radius?",
+        ),
+        (
+            "[card]",
+            "lava = 1\n[card]",
+            "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, card.",
+        ),
+        ("[card]", "wals = []\n[card]", "wals is not a known key; did you mean walls?"),
+        (
+            CARD,
+            "",
+            f"card is missing; write a [card] table with a text for each of {', '.join(HEADINGS)}.",
+        ),
+        (
+            CARD,
+            "card = 'text'",
+            f"card is 'text'; write a [card] table with a text for each of {', '.join(HEADINGS)}.",
+        ),
+        ('"Topics" = "text"\n', "", "card.Topics is missing; write a short text."),
+        ('"Topics" = "text"', '"Topics" = " "', "card.Topics is ' '; write a short text."),
+        ('"Start" = "text"', '"Start" = 3', "card.Start is 3; write a short text."),
+        (
+            '"Start" = "text"',
+            '"Starts" = "text"',
+            "card.Starts is not a known key; did you mean Start?",
+        ),
+    ],
+)
+def test_faulty_file(tmp_path, good, bad, sentence):
+    load(tmp_path, GOOD)
+    assert good in GOOD
+    assert words(tmp_path, GOOD.replace(good, bad, 1)) == f"mine.toml: {sentence}"
+
+
+def test_a_number_too_big_for_a_float_is_not_finite(tmp_path):
+    huge = "9" * 400
+    text = GOOD.replace("[card]", f"[[circles]]\nx = {huge}\ny = 1\nradius = 1\n[card]")
+    assert words(tmp_path, text) == f"mine.toml: circles[0].x is {huge}; write a finite number."
+
+
+@pytest.mark.parametrize(
+    ("what", "obstacles"),
+    [
+        ("wall", {"walls": (((1.05, -1.0), (1.05, 5.0)),)}),
+        ("box", {"boxes": (Box(1.2, 2.1, 0.3, 3.0, 3.0),)}),
+        ("circle", {"circles": (Circle(1.0, 2.0, 2.0),)}),
+    ],
+)
+def test_a_start_inside_an_obstacle(what, obstacles):
+    world = World("mine", "", (-3, -3, 3, 3), (1.0, 2.0, 0.0), **obstacles)
+    with pytest.raises(WorldError) as caught:
+        Simulation(world)
+    assert str(caught.value) == (
+        "World 'mine': the robot (radius 0.1 m) does not fit at the start (1, 2), "
+        f"where a {what} is; move the start or the {what}."
+    )
