@@ -82,7 +82,10 @@ class Drive:
             CommandError: v or w is infinite or not a number.
         """
         if not (math.isfinite(v) and math.isfinite(w)):
-            raise CommandError(f"Velocity commands are finite numbers; this one was {v} m/s and {w} rad/s.")
+            raise CommandError(
+                f"Velocity commands are finite numbers; this one was {v} m/s and {w} rad/s: "
+                "check how it was worked out."
+            )
         model = self._model
         self._target_v = min(max(v, -model.max_v), model.max_v)
         self._target_w = min(max(w, -model.max_w), model.max_w)
