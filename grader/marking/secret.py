@@ -1,0 +1,40 @@
+"""The instructor's secret, from which marking derives worlds and seeds that no student has seen.
+
+One line of text in the file `.secret` beside `nbgrader_config.py`, readable by its owner alone and never
+under version control. This makes one:
+
+    umask 077; python3 -c 'import secrets; print(secrets.token_hex(32))' > .secret
+
+Without the file marking uses the public seeds, those of the students' own checks.
+"""
+import os
+import stat
+from pathlib import Path
+
+VARIABLE = "COURSE_SECRET"
+
+
+def show(**_: object) -> None:
+    """Hand the secret to the kernels that mark, through the environment variable COURSE_SECRET.
+
+    nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
+    Raises SystemExit when the file is empty or others may read it: nbgrader only notes other exceptions,
+    and would go on to mark with the public seeds.
+    """
+    file = Path(".secret").absolute()
+    if not file.exists():
+        return
+    if stat.S_IMODE(file.stat().st_mode) & 0o077:
+        raise SystemExit(f"Others may read {file}: run `chmod 600 .secret`, then mark again.")
+    try:
+        text = file.read_text().strip()
+    except OSError as error:
+        raise SystemExit(f"{file} cannot be read ({error.strerror}): mark as the user who owns it.") from None
+    if not text:
+        raise SystemExit(f"{file} is empty: write a long random line into it, or delete it.")
+    os.environ[VARIABLE] = text
+
+
+def hide(**_: object) -> None:
+    """Take the secret back when a submission is marked (`Autograde.post_convert_hook`)."""
+    os.environ.pop(VARIABLE, None)

@@ -1,0 +1,134 @@
+"""Keeps notebooks in one form, so that a change in git shows what somebody changed and nothing else.
+
+    python -m grader.notebooks [--check] [notebook or folder ...]      default: course solutions
+
+In that form a notebook has no outputs, counts or widget state, only metadata that somebody meant, and an
+id on every cell. Ids that exist are kept, so inserting or moving a cell changes no other cell.
+"""
+import argparse
+import difflib
+import json
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import nbformat
+
+FOLDERS = (Path("course"), Path("solutions"))
+NOTEBOOK_METADATA = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
+CELL_METADATA = {"deletable", "editable", "nbgrader", "tags"}
+CELL_ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")  # as the notebook format 4.5 allows
+LINES_SHOWN = 12
+
+
+class BadNotebook(ValueError):
+    """A file that cannot be read as a notebook of format 4; the text says which and why."""
+
+
+def normalised(text: str, name: str) -> str:
+    """Return the notebook `text` in the one form; `name` stands in the errors. Raises BadNotebook."""
+    try:
+        notebook = json.loads(text)
+    except json.JSONDecodeError as error:
+        problem = f"{name} is not a notebook: expected JSON, saw {error}."
+        raise BadNotebook(f"{problem} Was it cut off, or does it hold merge marks?") from None
+    version = notebook.get("nbformat") if isinstance(notebook, dict) else None
+    if version != 4:
+        problem = f"{name}: expected notebook format 4, saw {version}."
+        raise BadNotebook(f"{problem} Open and save it in JupyterLab.")
+    notebook |= {"metadata": NOTEBOOK_METADATA, "nbformat_minor": 5}
+    for cell, cell_id in zip(notebook["cells"], cell_ids(notebook["cells"]), strict=True):
+        cell["id"] = cell_id
+        cell["metadata"] = {key: value for key, value in cell["metadata"].items() if key in CELL_METADATA}
+        if cell["cell_type"] == "code":
+            cell |= {"outputs": [], "execution_count": None}
+    node = nbformat.from_dict(notebook)
+    try:
+        nbformat.validate(node)
+    except nbformat.ValidationError as error:
+        problem = f"{name} is not a valid notebook: {str(error).splitlines()[0]}."
+        raise BadNotebook(f"{problem} Repair it, or take it from git.") from None
+    return nbformat.writes(node) + "\n"
+
+
+def cell_ids(cells: list[dict]) -> list[str]:
+    """Return one id per cell: its own if it is valid and new, else one from its grade_id or a number."""
+    ids: list[str] = []
+    reserved = {cell.get("id") for cell in cells}
+    for cell in cells:
+        own = cell.get("id")
+        if not (isinstance(own, str) and CELL_ID.fullmatch(own) and own not in ids):
+            own = next(new for new in _new_ids(cell) if new not in reserved)
+            reserved.add(own)
+        ids.append(own)
+    return ids
+
+
+def _new_ids(cell: dict) -> Iterator[str]:
+    stem = re.sub(r"[^a-zA-Z0-9_-]+", "-", cell["metadata"].get("nbgrader", {}).get("grade_id", ""))[:56]
+    if stem:
+        yield stem
+    for number in range(1, 10**6):
+        yield f"{stem or 'cell'}-{number}"
+
+
+def notebooks(paths: Iterable[Path]) -> list[Path]:
+    """Return the notebooks named by or below `paths`, sorted. Raises BadNotebook where there is nothing."""
+    found: list[Path] = []
+    for path in paths:
+        if not path.exists():
+            raise BadNotebook(f"Expected a notebook or a folder of notebooks at {path}, saw nothing there.")
+        found += path.rglob("*.ipynb") if path.is_dir() else [path]
+    return sorted(path for path in found if ".ipynb_checkpoints" not in path.parts)
+
+
+def normalise(paths: Iterable[Path], check: bool = False) -> list[str]:
+    """Bring the notebooks in `paths` into the one form, or with `check` only look.
+
+    Returns one text per notebook that was not in that form: its name and the first lines that differ (- as it
+    was, + as it should be). Raises BadNotebook.
+    """
+    reports = []
+    for path in notebooks(paths):
+        before = path.read_text(encoding="utf-8")
+        after = normalised(before, str(path))
+        if before == after:
+            continue
+        reports.append("\n    ".join([str(path), *_difference(before, after)]))
+        if not check:
+            path.write_text(after, encoding="utf-8")
+    return reports
+
+
+def _difference(before: str, after: str) -> list[str]:
+    lines = list(difflib.unified_diff(before.splitlines(), after.splitlines(), n=0, lineterm=""))[2:]
+    if not lines:
+        return ["the file should end with one newline"]
+    more = [f"... and {len(lines) - LINES_SHOWN} more lines"] if len(lines) > LINES_SHOWN else []
+    return lines[:LINES_SHOWN] + more
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; returns the exit status."""
+    parser = argparse.ArgumentParser("python -m grader.notebooks", description="Keep notebooks in one form.")
+    parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders (default: course solutions)")
+    parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if something should")
+    chosen = parser.parse_args(arguments)
+    try:
+        reports = normalise(chosen.paths or [folder for folder in FOLDERS if folder.exists()], chosen.check)
+    except BadNotebook as error:
+        print(error, file=sys.stderr)
+        return 1
+    for report in reports:
+        print(f"{'not normalised' if chosen.check else 'normalised'}: {report}")
+    if chosen.check and reports:
+        print("Run `make tidy` and commit what it changes.")
+    return 1 if chosen.check and reports else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,39 @@
+"""nbgrader for this course. Run it in this folder, as its manual says: `nbgrader autograde 01_nodes`, ...
+
+solutions/ is the source and exercises/ the release. All about a class lies in class/, which git ignores.
+"""
+import os
+import sys
+from pathlib import Path
+
+c = get_config()  # noqa: F821  (nbgrader provides it)
+
+# nbgrader runs `alembic`, which is installed beside this Python and need not be on PATH.
+os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+
+course = c.CourseDirectory
+course.course_id = "ros2"
+course.source_directory = "solutions"
+course.release_directory = "exercises"
+course.submitted_directory = "class/submitted"
+course.autograded_directory = "class/autograded"
+course.feedback_directory = "class/feedback"
+course.solution_directory = "class/solution"
+course.source_with_tests_directory = "class/source_with_tests"
+course.db_url = f"sqlite:///{Path('class', 'gradebook.db').absolute()}"
+Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
+# Files beside a notebook are released with it, except these: answers, and what tools leave behind.
+course.ignore = ["*answer*", "*solution*", ".*", "*.pyc", "__pycache__", "feedback"]
+
+# A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
+c.Execute.timeout = 60
+c.Validator.Execute.timeout = 30
+# nbgrader gives no points for a test cell that writes to stderr, where log lines and warnings go. So in the
+# kernels that mark or validate, what goes to stderr shows on stdout.
+c.Execute.extra_arguments = ["--IPKernelApp.exec_lines=import sys; sys.stderr.name = 'stdout'"]
+
+# Marking uses private worlds and seeds; Validate never sees the secret they come from.
+c.Autograde.pre_convert_hook = "grader.marking.secret.show"
+c.Autograde.post_convert_hook = "grader.marking.secret.hide"
+# A submission's HTML must not run as script in the instructor's browser.
+c.HTMLExporter.sanitize_html = True
