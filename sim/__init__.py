@@ -1,0 +1,16 @@
+"""A simulated robot for ROS 2 nodes: run them on the real rclpy, in simulated time, and look at what they did."""
+
+from sim import environment
+
+environment.prepare()
+
+from sim.recording import Recording  # noqa: E402
+from sim.ros import hooks  # noqa: E402
+from sim.world import World  # noqa: E402
+
+hooks.install()
+
+from sim.ros.processes import Process  # noqa: E402
+from sim.ros.run import run  # noqa: E402
+
+__all__ = ["Process", "Recording", "World", "run"]

@@ -1,0 +1,37 @@
+"""The process environment that every run needs, set before rclpy or a message package is imported."""
+
+import os
+import sys
+import tempfile
+
+PINNED = {
+    # Only OFF keeps two processes with the same topics from hearing each other.
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+    # Shared memory would leave files behind when a process is killed.
+    "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+    # Without it `twist.linear.x = 1` silently sends 5e-324 instead of raising.
+    "ROS_PYTHON_CHECK_FIELDS": "1",
+    "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+    "RCUTILS_CONSOLE_OUTPUT_FORMAT": "[{severity}] [{name}]: {message}",
+}
+# These can make delivery asynchronous, and a run counts on a message being there when publish() returns.
+REMOVED = (
+    "RMW_FASTRTPS_PUBLICATION_MODE",
+    "RMW_FASTRTPS_USE_QOS_FROM_XML",
+    "FASTRTPS_DEFAULT_PROFILES_FILE",
+    "FASTDDS_DEFAULT_PROFILES_FILE",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_STATIC_PEERS",
+)
+
+
+def prepare() -> None:
+    """Pin the environment of this process. Safe to call again."""
+    os.environ.update(PINNED)
+    for name in REMOVED:
+        os.environ.pop(name, None)
+    # rclpy.init() fails where it can't write its log files.
+    os.environ.setdefault("ROS_LOG_DIR", os.path.join(tempfile.gettempdir(), f"ros-log-{os.getuid()}"))
+    for module in list(sys.modules.values()):  # message modules read the switch when they are imported
+        if getattr(module, "ros_python_check_fields", None) is not None:
+            module.ros_python_check_fields = "1"

@@ -1,0 +1,1 @@
+"""Lock-step simulated time on the real rclpy. The only part of `sim` that knows ROS."""

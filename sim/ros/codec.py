@@ -1,0 +1,33 @@
+"""Messages to bytes and back: CDR, the format that ROS sends."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from typing import Any
+
+from rclpy.serialization import deserialize_message, serialize_message
+
+
+@functools.cache
+def type_name(message_class: type) -> str:
+    """ROS's name for a message, service or action class, e.g. "std_msgs/msg/String"."""
+    package, kind = message_class.__module__.split(".")[:2]
+    return f"{package}/{kind}/{message_class.__name__}"
+
+
+@functools.cache
+def message_class(name: str) -> type:
+    """The class for a name such as "std_msgs/msg/String". Raises ImportError or AttributeError if there is none."""
+    package, kind, short = name.split("/")
+    return getattr(importlib.import_module(f"{package}.{kind}"), short)
+
+
+def encode(message: Any) -> bytes:
+    """The bytes of a message as they are sent."""
+    return serialize_message(message)
+
+
+def decode(name: str, raw: bytes) -> Any:
+    """A message object from its type's name and its bytes."""
+    return deserialize_message(raw, message_class(name))

@@ -1,0 +1,319 @@
+"""The engine of a run: student processes as fibers, the simulated clock, and what ends it."""
+
+from __future__ import annotations
+
+import contextlib
+import random
+import weakref
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import rclpy
+import rclpy.context
+import rclpy.utilities
+from rclpy.clock import ROSClock
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.exceptions import InvalidHandle
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.time import Time
+
+from sim.recording import Ended, Recording
+from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT
+from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
+from sim.ros.guard import Guard, Hang, Interrupted
+from sim.ros.processes import Process, StudentProcess
+from sim.ros.recorder import Recorder, destroy
+
+REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
+AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
+
+
+class Engine(Scheduler):
+    """One run on the real rclpy. Use as a context manager: on leaving, nothing of the run is left."""
+
+    def __init__(self, recording: Recording, seed: int) -> None:
+        super().__init__()
+        self.recording = recording
+        self.recorder = Recorder(self, recording)
+        self.guard = Guard(self)
+        self.chance = _Chance(seed)
+        self.context = Context()
+        self.executors: list[Any] = []
+        self.has_clients = self.rosout_wanted = False
+        self.topology = 0
+        self.processes: list[StudentProcess] = []
+        self.echo: Callable[[str], None] = lambda text: None
+        self._callbacks = self._callbacks_before = 0
+        self._clocks: list[weakref.ref[ROSClock]] = []
+        self._handles: list[Any] = []
+        self._at_end: list[Callable[[], Any]] = []
+        self._fault: Ended | None = None
+
+    # -- set-up and tear-down ------------------------------------------------------------------------------------
+
+    def __enter__(self) -> Engine:
+        self._user = (rclpy.utilities.g_default_context, rclpy.__dict__["__executor"])
+        self._log_users = rclpy.context.g_logging_ref_count
+        self.context.init(args=["run"])
+        self.clock = ROSClock()
+        self.adopt_clock(self.clock)
+        activate(self)
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.recorder.close()
+        try:
+            self._wind_down()
+        finally:
+            StudentProcess.loaded = None
+            activate(None)
+            for process in self.processes:
+                self._free(process)
+            for executor in self.executors:
+                with contextlib.suppress(InvalidHandle):
+                    executor.shutdown()
+            for undo in self._at_end:
+                undo()
+            rclpy.utilities.g_default_context, rclpy.__dict__["__executor"] = self._user
+            self.context.try_shutdown()
+            self.context.destroy()
+            rclpy.context.g_logging_ref_count = self._log_users
+            self._clocks.clear()
+            self._handles.clear()
+            self.executors.clear()
+
+    def _wind_down(self) -> None:
+        """Do what Ctrl-C does to every program, so that its `except` and `finally` run; then insist."""
+        self.guard.impatient = True
+        for stop in (KeyboardInterrupt, RunOver, RunOver):
+            for fiber in self.fibers:
+                if fiber.started:
+                    fiber.thrown = stop()
+                else:
+                    fiber.done = True
+            self.fibers = [fiber for fiber in self.fibers if not fiber.done]
+            if not self.fibers:
+                return
+            with contextlib.suppress(Livelock):
+                self.settle()
+
+    def _free(self, process: StudentProcess) -> None:
+        for node in process.nodes:
+            destroy(node)
+        process.nodes.clear()
+
+    def start(self, spec: Process) -> StudentProcess:
+        """Add a program; it runs when the engine does."""
+        process = StudentProcess(self, spec)
+        self.processes.append(process)
+        process.main = self.spawn(process.run, process.name, process)
+        return process
+
+    def at_end(self, undo: Callable[[], Any]) -> None:
+        """Have something done when the run is over."""
+        self._at_end.append(undo)
+
+    # -- time ----------------------------------------------------------------------------------------------------
+
+    def adopt_clock(self, clock: ROSClock) -> None:
+        """Let this ROS clock show the run's time."""
+        with clock.handle:
+            clock.handle.set_ros_time_override(self._time()._time_handle)
+            clock.handle.set_ros_time_override_is_enabled(True)
+        self._handles.append(clock.handle)
+        self._clocks.append(weakref.ref(clock))
+
+    def owns_clock(self, clock: Any) -> bool:
+        """Whether a clock shows the run's time."""
+        return any(reference() is clock for reference in self._clocks)
+
+    def _time(self) -> Time:
+        return Time(nanoseconds=self.now)
+
+    def run_until(
+        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
+    ) -> Ended:
+        """Settle and advance until `end`, the goal or a fault, or until all watched programs have ended."""
+        watched, over = list(watched), None
+        try:
+            self.settle()
+            while self._fault is None and self.now < end:
+                self.recording.stamp = self.recorder.now
+                if self.guard.interrupted:
+                    raise Interrupted
+                if goal is not None and goal(self.recording):
+                    return Ended(
+                        "goal", self.recorder.now, f"The goal was reached at t = {self.recorder.now:g} s."
+                    )
+                if over is None and not any(self.lives(process) for process in watched):
+                    over = self.now
+                    end = min(end, self.now + AFTER_LAST_PROCESS)
+                self._advance(self._next_moment(end))
+                self.settle()
+        except Livelock as livelock:
+            self._fault = self._fault or Ended("livelock", self.recorder.now, f"{livelock}.")
+        self.recording.stamp = self.recorder.now
+        return self._fault or self._conclusion(over)
+
+    def lives(self, process: StudentProcess) -> bool:
+        """Whether a program still has something to run."""
+        return any(fiber.process is process and not fiber.done for fiber in self.fibers)
+
+    def _next_moment(self, end: Nanoseconds) -> Nanoseconds:
+        moment = end
+        for fiber in self.fibers:
+            if fiber.wake_at is not None and self.now < fiber.wake_at < moment:
+                moment = fiber.wake_at
+            if fiber.executor is None:
+                continue
+            for timer in fiber.executor.timers:
+                try:
+                    handle = timer.handle
+                    left = None if handle.is_timer_canceled() else handle.time_until_next_call()
+                except InvalidHandle:
+                    continue
+                if left is not None and 0 < left < moment - self.now:
+                    moment = self.now + left
+        return moment
+
+    def _advance(self, moment: Nanoseconds) -> None:
+        self.now = moment
+        self.activity += 1
+        self._callbacks_before = self._callbacks
+        time = self._time()._time_handle
+        for handle in self._handles:
+            handle.set_ros_time_override(time)
+
+    # -- what student code reports through the hooks -------------------------------------------------------------
+
+    @property
+    def stretch(self) -> int:
+        """Changes whenever control passes on: the guard sees by it that student code isn't stuck."""
+        return self.switches + self._callbacks
+
+    def count_callback(self) -> None:
+        """A callback is about to run. Raises Livelock when too many ran without time moving."""
+        self._callbacks += 1
+        if self._callbacks - self._callbacks_before > MAX_CALLBACKS_PER_INSTANT:
+            raise Livelock(
+                f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self.recorder.now:g} s without letting time move on"
+            )
+
+    def endpoints_changed(self) -> None:
+        """Entities came or went: executors plan anew."""
+        self.topology += 1
+        self.activity += 1
+
+    def subscribed(self, topic: str, subscription: Any) -> None:
+        """A subscription was made. Waits (in wall time) for the replay that a late joiner of a latched topic gets."""
+        self.endpoints_changed()
+        self.rosout_wanted |= topic == "/rosout"
+        if subscription.qos_profile.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
+            return
+        for publisher in (p for process in self.processes for node in process.nodes for p in node.publishers):
+            profile = publisher.qos_profile
+            latched = profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+            if (
+                latched
+                and profile.reliability is ReliabilityPolicy.RELIABLE
+                and publisher.topic_name == topic
+            ):
+                publisher.wait_for_all_acked(REPLAY_WAIT)
+
+    def logged(self, severity: Any, logger: str, text: str) -> None:
+        """A node wrote a log line."""
+        line = self.recorder.log(severity, logger, text)
+        if line is not None:
+            self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
+
+    def recorded(self, function: Callable[..., Any], name: str, node: Node) -> Callable[..., Any]:
+        """The same callback, with the exception that leaves it recorded."""
+
+        def call(*arguments: Any) -> Any:
+            try:
+                return function(*arguments)
+            except BaseException as error:
+                self.recorder.error(error, name, self.recorder.name_of(node))
+                raise
+
+        async def call_later(*arguments: Any) -> Any:
+            try:
+                return await function(*arguments)
+            except BaseException as error:
+                self.recorder.error(error, name, self.recorder.name_of(node))
+                raise
+
+        import inspect
+
+        return call_later if inspect.iscoroutinefunction(function) else call
+
+    def describe_current(self) -> str:
+        """Which callback of which node is running, for a message."""
+        fiber = self.current
+        if fiber is None:
+            return "The run"
+        if fiber.callbacks:
+            name, node, _ = fiber.callbacks[-1]
+            return f"Callback {name} of node {node} at t = {self.recorder.now:g} s"
+        return f"{fiber.name}() at t = {self.recorder.now:g} s"
+
+    # -- endings -------------------------------------------------------------------------------------------------
+
+    def fiber_ended(self, fiber: Fiber) -> None:
+        """Judge how a fiber ended, and end its process with its main()."""
+        error, process = fiber.error, fiber.process
+        if isinstance(error, Interrupted) or self.guard.interrupted:
+            self.guard.interrupted = True
+        if self.guard.hang is not None and self.recorder.open:
+            self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
+        elif isinstance(error, Livelock) and self.recorder.open:
+            self._fault = Ended("livelock", self.recorder.now, f"{error}.")
+        elif error is not None:
+            self.current = fiber  # for the names of its process
+            self.recorder.error(error, fiber.name)
+            self.current = None
+        if fiber is process.main or (process.main.done and not self.lives(process)):
+            threads = [f for f in self.fibers if f.process is process and not f.done]
+            for daemon in threads:
+                if daemon.daemon:
+                    daemon.thrown = RunOver()
+            if all(f.daemon for f in threads):
+                self._free(process)
+
+    def _conclusion(self, over: Nanoseconds | None) -> Ended:
+        now, errors = self.recorder.now, self.recording.errors
+        if errors:
+            first = errors[0]
+            return Ended("error", now, f"{first.callback} of {first.node} raised {first.type}: {first.text}")
+        if over is not None:
+            return Ended("finished", now, f"Every program had ended by t = {over / SECOND:g} s.")
+        blocked = self._blocked()
+        if blocked is not None:
+            return Ended("blocked", now, blocked)
+        return Ended("time", now, f"All {now:g} s were run.")
+
+    def _blocked(self) -> str | None:
+        for fiber in self.fibers:
+            if fiber.callbacks and fiber.wake_at is None and self.recorder.open:
+                name, node, began = fiber.callbacks[-1]
+                if self.now - began >= SECOND:
+                    return (
+                        f"Callback {name} of node {node} has waited since t = {began / SECOND:g} s for {fiber.waits_for}"
+                        " and never returned"
+                    )
+        return None
+
+
+class _Chance:
+    """The run's own source of chance, so that the student's use of `random` doesn't shift it."""
+
+    def __init__(self, seed: int) -> None:
+        self._random = random.Random(f"chance of run {seed}")
+
+    def bytes(self, size: int) -> bytes:
+        return self._random.randbytes(size)
+
+
+__all__ = ["Engine", "Hang"]

@@ -1,0 +1,108 @@
+"""The guard: student code that never gives control back is stopped, and the kernel lives on.
+
+A timer signal looks in four times a second. If student code has been in one stretch since, and has used too much computing
+time, or waited too long in a call outside our reach, an exception is raised in it. Code that swallows even that is parked.
+Computing time is what is measured, so that a busy machine changes no verdict.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from types import FrameType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sim.ros.engine import Engine
+
+LOOK_EVERY = 0.25  # s of wall time
+COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
+WAITING_LIMIT = 10.0  # s of wall time in one stretch
+
+
+class Hang(BaseException):
+    """Student code did not give control back."""
+
+    stops_the_run = True
+
+
+class Interrupted(BaseException):
+    """The user interrupted the kernel."""
+
+    stops_the_run = True
+
+
+class Guard:
+    """Watches one engine while it runs student code. Needs the main thread; elsewhere it does nothing."""
+
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+        self.interrupted = False
+        self.hang: Hang | None = None
+        self.impatient = False  # while the run is taken down, student code gets less time
+        self._stretch = -1
+        self._computing = self._waiting = 0.0
+        self._asked = 0
+
+    @contextlib.contextmanager
+    def watch(self) -> Iterator[None]:
+        """Install the signal handlers for the time of a run."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
+        alarm = signal.signal(signal.SIGALRM, self._look)
+        signal.setitimer(signal.ITIMER_REAL, LOOK_EVERY, LOOK_EVERY)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, alarm)
+            signal.signal(signal.SIGINT, interrupt)
+
+    def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
+        self.interrupted = True
+        if self.engine.current is not None:
+            raise Interrupted
+
+    def _look(self, number: int, frame: FrameType | None) -> None:
+        fiber, stretch = self.engine.current, self.engine.stretch
+        if fiber is None or stretch != self._stretch:
+            self._stretch, self._asked = stretch, 0
+            self._computing, self._waiting = time.thread_time(), time.monotonic()
+            return
+        computing, waiting = time.thread_time() - self._computing, time.monotonic() - self._waiting
+        share = 0.1 if self.impatient or self.interrupted else 1.0
+        if computing < share * COMPUTING_LIMIT and waiting < share * WAITING_LIMIT:
+            return
+        self._asked += 1
+        if self.hang is None:
+            self.hang = Hang(self._describe(frame, computing, waiting))
+        if self._asked > 2:
+            fiber.park()
+        raise self.hang
+
+    def _describe(self, frame: FrameType | None, computing: float, waiting: float) -> str:
+        where = self.engine.describe_current()
+        line = _student_line(frame)
+        if computing >= COMPUTING_LIMIT:
+            what = f"computed for {COMPUTING_LIMIT:g} s without coming to an end"
+        else:
+            what = f"waited for {WAITING_LIMIT:g} s in a call that simulated time can't shorten"
+        return f"{where} {what}{line}."
+
+
+def _student_line(frame: FrameType | None) -> str:
+    import linecache
+
+    from sim.ros.recorder import is_own_file
+
+    while frame is not None and is_own_file(frame.f_code.co_filename):
+        frame = frame.f_back
+    if frame is None:
+        return ""
+    text = linecache.getline(frame.f_code.co_filename, frame.f_lineno).strip()
+    return f", at line {frame.f_lineno}: {text}" if text else f", at line {frame.f_lineno}"

@@ -1,0 +1,133 @@
+"""rclpy's executors ask their entities in a fixed order, and wait in simulated time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+import rclpy.experimental.events_executor
+import rclpy.wait_for_message
+from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.guard_condition import GuardCondition
+from rclpy.node import Node
+
+from sim.ros.executor import OrderedNodes, Plan
+from sim.ros.fibers import SECOND, engine
+from sim.ros.hooks import hook
+
+PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number; rclpy's answer depends on the machine
+
+
+@hook(Executor, "__init__", "an executor's nodes are a set, whose order differs from process to process")
+def executor_init(original: Callable) -> Callable:
+    def __init__(self: Executor, **keywords: Any) -> None:
+        original(self, **keywords)
+        run = engine()
+        if run is not None:
+            self._nodes = OrderedNodes()
+            self._sim_plan = Plan(self, run)
+            run.executors.append(self)
+
+    return __init__
+
+
+@hook(MultiThreadedExecutor, "__init__", "the default number of threads is the machine's number of cores")
+def multi_threaded_init(original: Callable) -> Callable:
+    def __init__(self: MultiThreadedExecutor, num_threads: int | None = None, **keywords: Any) -> None:
+        if num_threads is None and engine() is not None:
+            num_threads = PARALLEL_CALLBACKS
+        original(self, num_threads, **keywords)
+
+    return __init__
+
+
+def _spin_once_impl(owner: type, parallel: bool) -> None:
+    @hook(owner, "_spin_once_impl", "waiting for callbacks takes simulated time, and they come in one order")
+    def spin(original: Callable) -> Callable:
+        def _spin_once_impl(
+            self: Any, timeout_sec: Any = None, wait_condition: Callable = lambda: False
+        ) -> None:
+            plan = self.__dict__.get("_sim_plan")
+            if plan is None or engine() is not plan.engine:
+                return original(self, timeout_sec, wait_condition)
+            return plan.spin_once(timeout_sec, wait_condition, parallel)
+
+        return _spin_once_impl
+
+
+_spin_once_impl(SingleThreadedExecutor, parallel=False)
+_spin_once_impl(MultiThreadedExecutor, parallel=True)
+
+
+def _changes_the_plan(name: str) -> None:
+    @hook(Executor, name, "the order of questions is planned anew when entities come or go")
+    def method(original: Callable) -> Callable:
+        def replacement(self: Executor, *arguments: Any) -> Any:
+            run = engine()
+            if run is not None:
+                run.endpoints_changed()
+            return original(self, *arguments)
+
+        return replacement
+
+
+for _name in ("wake", "add_node", "remove_node"):
+    _changes_the_plan(_name)
+
+
+@hook(GuardCondition, "trigger", "there is no wait set to notice that a guard condition was triggered")
+def trigger(original: Callable) -> Callable:
+    def trigger(self: GuardCondition) -> None:
+        run = engine()
+        if run is not None:
+            self._executor_triggered = True
+            run.activity += 1
+        original(self)
+
+    return trigger
+
+
+def _no_events_executor(module: ModuleType) -> None:
+    @hook(module, "EventsExecutor", "it waits in C++ and runs simultaneous callbacks in a random order")
+    def events_executor(original: Callable) -> Callable:
+        def EventsExecutor(**keywords: Any) -> Executor:
+            if engine() is not None:
+                raise NotImplementedError(
+                    "EventsExecutor can't run in simulated time. Use SingleThreadedExecutor or MultiThreadedExecutor."
+                )
+            return original(**keywords)
+
+        return EventsExecutor
+
+
+_no_events_executor(rclpy.experimental)
+_no_events_executor(rclpy.experimental.events_executor)
+
+
+@hook(rclpy.wait_for_message, "wait_for_message", "it waits on a wait set of its own, in wall time")
+def wait_for_message(original: Callable) -> Callable:
+    def wait_for_message(
+        msg_type: Any, node: Node, topic: str, *, qos_profile: Any = 1, time_to_wait: float = -1
+    ) -> tuple[bool, Any]:
+        run = engine()
+        if run is None:
+            return original(msg_type, node, topic, qos_profile=qos_profile, time_to_wait=time_to_wait)
+        subscription = node.create_subscription(msg_type, topic, lambda _: None, qos_profile)
+        taken: list[Any] = []
+
+        def arrived() -> bool:
+            message = None if taken else subscription.handle.take_message(msg_type, False)
+            if message is not None:
+                taken.append(message[0])
+            return bool(taken) or not node.context.ok()
+
+        until = None if time_to_wait < 0 else run.now + round(time_to_wait * SECOND)
+        try:
+            if not arrived():
+                run.wait(f"a message on {topic}", ready=arrived, until=until)
+        finally:
+            node.destroy_subscription(subscription)
+        return (True, taken[0]) if taken else (False, None)
+
+    return wait_for_message

@@ -1,0 +1,156 @@
+"""What student code says and declares: messages, endpoints, timers, log lines. All of it goes into the recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.action import ActionClient, ActionServer
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from sim.ros.callbacks import callback_name
+from sim.ros.codec import type_name
+from sim.ros.fibers import engine
+from sim.ros.hooks import hook
+from sim.ros.processes import shared_context
+
+
+@hook(Node, "create_publisher", "the graph, and who sends what")
+def create_publisher(original: Callable) -> Callable:
+    def create_publisher(
+        self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
+    ) -> Publisher:
+        publisher = original(self, msg_type, topic, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            name = publisher.topic_name
+            publisher._sim_identity = (name, type_name(msg_type), run.recorder.name_of(self))
+            publisher._sim_context = shared_context(self.context)
+            run.recorder.endpoint("publisher", self, name, msg_type, publisher.qos_profile)
+            run.endpoints_changed()
+        return publisher
+
+    return create_publisher
+
+
+@hook(Node, "create_subscription", "the graph, and late joiners of transient_local topics")
+def create_subscription(original: Callable) -> Callable:
+    def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
+        subscription = original(self, msg_type, topic, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            name = subscription.topic_name
+            run.recorder.endpoint("subscription", self, name, msg_type, subscription.qos_profile)
+            run.subscribed(name, subscription)
+        return subscription
+
+    return create_subscription
+
+
+@hook(Node, "create_service", "the graph")
+def create_service(original: Callable) -> Callable:
+    def create_service(self: Node, srv_type: Any, srv_name: str, *arguments: Any, **keywords: Any) -> Any:
+        service = original(self, srv_type, srv_name, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            name = self.resolve_service_name(srv_name)
+            run.recorder.endpoint("service", self, name, srv_type, service.qos_profile)
+        return service
+
+    return create_service
+
+
+@hook(Node, "create_client", "the graph; and services are asked for requests only once there is a client")
+def create_client(original: Callable) -> Callable:
+    def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
+        client = original(self, srv_type, srv_name, **keywords)
+        run = engine()
+        if run is not None:
+            run.has_clients = True
+            run.endpoints_changed()
+            name = self.resolve_service_name(srv_name)
+            run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
+        return client
+
+    return create_client
+
+
+@hook(Node, "create_timer", "the graph")
+def create_timer(original: Callable) -> Callable:
+    def create_timer(self: Node, *arguments: Any, **keywords: Any) -> Any:
+        timer = original(self, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            run.recorder.timer(self, timer)
+        return timer
+
+    return create_timer
+
+
+def _action_end(owner: type, kind: str) -> None:
+    @hook(owner, "__init__", "the graph")
+    def init(original: Callable) -> Callable:
+        def __init__(
+            self: Any, node: Node, action_type: Any, action_name: str, *more: Any, **keywords: Any
+        ) -> None:
+            original(self, node, action_type, action_name, *more, **keywords)
+            run = engine()
+            if run is not None:
+                run.recorder.endpoint(kind, node, node.resolve_service_name(action_name), action_type)
+
+        return __init__
+
+
+_action_end(ActionServer, "action server")
+_action_end(ActionClient, "action client")
+
+
+@hook(
+    ActionServer,
+    "_execute_goal",
+    "rclpy prints an exception of an execute callback and goes on; the recording keeps it",
+)
+def execute_goal(original: Callable) -> Callable:
+    async def _execute_goal(self: ActionServer, execute_callback: Any, goal_handle: Any) -> None:
+        run = engine()
+        if run is None:
+            return await original(self, execute_callback, goal_handle)
+        recorded = run.recorded(execute_callback, callback_name(execute_callback), self._node)
+        return await original(self, recorded, goal_handle)
+
+    return _execute_goal
+
+
+@hook(Publisher, "publish", "every message is recorded as the bytes that are sent")
+def publish(original: Callable) -> Callable:
+    def publish(self: Publisher, msg: Any) -> None:
+        run = engine()
+        identity = self.__dict__.get("_sim_identity")
+        if run is None or identity is None:
+            return original(self, msg)
+        raw = _rclpy.rclpy_serialize(msg, self.msg_type) if isinstance(msg, self.msg_type) else msg
+        if not self._sim_context.alive:
+            raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
+        original(self, raw)
+        run.recorder.message(*identity, raw)
+        return None
+
+    return publish
+
+
+@hook(
+    _rclpy,
+    "rclpy_logging_rcutils_log",
+    "log lines go to the recording, with simulated stamps, and never to stderr",
+)
+def log(original: Callable) -> Callable:
+    def log(severity: Any, name: str, text: str, *place: Any) -> None:
+        run = engine()
+        if run is None or run.rosout_wanted:
+            original(severity, name, text, *place)
+        if run is not None:
+            run.logged(severity, name, text)
+
+    return log

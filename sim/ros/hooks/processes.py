@@ -1,0 +1,80 @@
+"""Student processes: each has its own rclpy.init(), ok() and shutdown(), over one real context."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+
+from sim.ros.fibers import engine
+from sim.ros.hooks import hook
+from sim.ros.processes import SharedContext
+
+
+@hook(_rclpy, "Context", "two real contexts of one process would not hear each other")
+def make_context(original: Callable) -> Callable:
+    def make(arguments: Sequence[str], domain_id: int) -> Any:
+        run = engine()
+        return (
+            original(arguments, domain_id) if run is None else SharedContext(run.current.process, arguments)
+        )
+
+    return make
+
+
+@hook(Context, "handle", "what rclpy's C++ side gets must be the real context")
+def context_handle(original: property) -> property:
+    def handle(self: Context) -> Any:
+        own = original.fget(self)
+        return own.process.engine.context.handle if isinstance(own, SharedContext) else own
+
+    return property(handle, doc=original.__doc__)
+
+
+def _no_signal_handlers(name: str) -> None:
+    @hook(rclpy, name, "rclpy's handlers would take the interrupt away from the notebook's kernel")
+    def ignore(original: Callable) -> Callable:
+        def replacement(*arguments: Any) -> None:
+            if engine() is None:
+                original(*arguments)
+
+        return replacement
+
+
+_no_signal_handlers("install_signal_handlers")
+_no_signal_handlers("uninstall_signal_handlers")
+
+
+@hook(Node, "__init__", "a node gets its process's arguments, and is freed at the end of its process")
+def node_init(original: Callable) -> Callable:
+    def __init__(self: Node, node_name: str, **keywords: Any) -> None:
+        run = engine()
+        if run is None:
+            return original(self, node_name, **keywords)
+        process = run.current.process
+        if keywords.get("context") is None and not rclpy.ok():
+            process.lend_init()
+        if process.global_arguments and keywords.get("use_global_arguments", True):
+            own = list(keywords.get("cli_args") or ())
+            keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments]
+        process.nodes.append(self)
+        original(self, node_name, **keywords)
+        run.recorder.node(self)
+        return None
+
+    return __init__
+
+
+@hook(_rclpy, "rclpy_logging_set_logger_level", "a level set in one run must not be there in the next")
+def set_logger_level(original: Callable) -> Callable:
+    def set_level(name: str, level: Any, *more: Any) -> Any:
+        run = engine()
+        if run is not None:
+            run.at_end(lambda: original(name, 0))
+        return original(name, level, *more)
+
+    return set_level

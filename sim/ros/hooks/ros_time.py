@@ -1,0 +1,100 @@
+"""rclpy's clocks and timers follow the run's simulated time, whatever `use_sim_time` says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.clock import Clock, ROSClock
+from rclpy.clock_type import ClockType
+from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
+from rclpy.time import Time
+from rclpy.timer import Timer
+from rclpy.utilities import get_default_context
+
+from sim.ros.fibers import SECOND, engine
+from sim.ros.hooks import hook
+from sim.ros.hooks.time_and_chance import EPOCH
+
+
+def _offset(clock: Clock) -> int:
+    return EPOCH * SECOND if clock.clock_type is ClockType.SYSTEM_TIME else 0
+
+
+@hook(
+    Clock,
+    "__new__",
+    "a ROS clock made in a run shows its time from the first moment, not 0 until a /clock message comes",
+)
+def new_clock(original: Callable) -> Callable:
+    def __new__(cls: type, **keywords: Any) -> Clock:
+        clock = original(cls, **keywords)
+        run = engine()
+        if run is not None and clock.clock_type is ClockType.ROS_TIME:
+            run.adopt_clock(clock)
+        return clock
+
+    return __new__
+
+
+@hook(ROSClock, "set_ros_time_override", "the run moves the time of all its clocks at once")
+def set_ros_time_override(original: Callable) -> Callable:
+    def set_ros_time_override(self: ROSClock, time: Time) -> None:
+        if engine() is None:
+            original(self, time)
+
+    return set_ros_time_override
+
+
+@hook(ROSClock, "_set_ros_time_is_active", "simulated time can't be switched off in a run")
+def set_ros_time_is_active(original: Callable) -> Callable:
+    def _set_ros_time_is_active(self: ROSClock, enabled: bool) -> None:
+        if engine() is None:
+            original(self, enabled)
+
+    return _set_ros_time_is_active
+
+
+@hook(Clock, "now", "steady and system clocks show simulated time too, and waiting in a busy loop takes time")
+def now(original: Callable) -> Callable:
+    def now(self: Clock) -> Time:
+        run = engine()
+        if run is None:
+            return original(self)
+        run.clock_was_read()
+        return Time(nanoseconds=run.now + _offset(self), clock_type=self.clock_type)
+
+    return now
+
+
+@hook(Clock, "sleep_until", "it waits in C++, where neither time nor an interrupt could reach it")
+def sleep_until(original: Callable) -> Callable:
+    def sleep_until(self: Clock, until: Time, context: Context | None = None) -> bool:
+        run = engine()
+        if run is None:
+            return original(self, until, context)
+        context = context or get_default_context()
+        if not context.ok():
+            raise NotInitializedException()
+        if until.clock_type != self.clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        wake = until.nanoseconds - _offset(self)
+        if run.now < wake:
+            run.wait("a clock's sleep", ready=lambda: not context.ok(), until=wake)
+        return run.now >= wake
+
+    return sleep_until
+
+
+@hook(Timer, "__init__", "timers on steady, system or unattached clocks follow simulated time too")
+def timer_init(original: Callable) -> Callable:
+    def __init__(self: Timer, callback: Any, group: Any, period: int, clock: Clock, **keywords: Any) -> None:
+        run = engine()
+        if run is None or run.owns_clock(clock):
+            return original(self, callback, group, period, clock, **keywords)
+        original(self, callback, group, period, run.clock, **keywords)
+        self._clock = clock
+        return None
+
+    return __init__

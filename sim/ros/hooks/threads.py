@@ -1,0 +1,92 @@
+"""Threads and locks of student code: a thread is a fiber, and waiting for a lock takes simulated time."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from sim.ros.fibers import SECOND, engine
+from sim.ros.hooks import hook
+from sim.ros.locks import FiberLock, FiberRLock
+
+
+@hook(threading.Thread, "start", "a free-running thread would make every run different")
+def start(original: Callable) -> Callable:
+    def start(self: threading.Thread) -> None:
+        run = engine()
+        if run is None:
+            return original(self)
+        self._started.set()
+        self._sim_fiber = run.spawn(self.run, f"thread {self.name}", run.current.process)
+        self._sim_fiber.daemon = self.daemon
+        return None
+
+    return start
+
+
+@hook(threading.Thread, "join", "a thread that is a fiber ends in simulated time")
+def join(original: Callable) -> Callable:
+    def join(self: threading.Thread, timeout: float | None = None) -> None:
+        fiber = getattr(self, "_sim_fiber", None)
+        if fiber is None:
+            return original(self, timeout)
+        run = engine()
+        if run is not None and not fiber.done:
+            until = None if timeout is None else run.now + round(max(timeout, 0) * SECOND)
+            run.wait(f"thread {self.name} to end", ready=lambda: fiber.done, until=until)
+        return None
+
+    return join
+
+
+@hook(threading.Thread, "is_alive", "a thread that is a fiber has no thread to ask")
+def is_alive(original: Callable) -> Callable:
+    def is_alive(self: threading.Thread) -> bool:
+        fiber = getattr(self, "_sim_fiber", None)
+        return original(self) if fiber is None else not fiber.done
+
+    return is_alive
+
+
+def _students_own(depth: int = 2) -> bool:
+    """Whether student code asks: in a run, or in a notebook cell (a lock made there may be used in a run)."""
+    return engine() is not None or sys._getframe(depth).f_globals.get("__name__") == "__main__"
+
+
+@hook(threading, "Lock", "a lock held across a wait must not stop the other fibers")
+def lock(original: Callable) -> Callable:
+    def Lock() -> Any:
+        return FiberLock() if _students_own() else original()
+
+    return Lock
+
+
+@hook(threading, "RLock", "a real RLock belongs to a thread, and all fibers are one thread")
+def rlock(original: Callable) -> Callable:
+    def RLock() -> Any:
+        return FiberRLock() if _students_own() else original()
+
+    return RLock
+
+
+@hook(
+    threading,
+    "_allocate_lock",
+    "Condition.wait() sleeps on such a lock; Event, Queue, Semaphore and Barrier rest on it",
+)
+def allocate_lock(original: Callable) -> Callable:
+    def allocate_lock() -> Any:
+        return original() if engine() is None else FiberLock()
+
+    return allocate_lock
+
+
+@hook(queue, "SimpleQueue", "the one in C waits on a real lock; ThreadPoolExecutor takes its work from one")
+def simple_queue(original: Any) -> Callable:
+    def SimpleQueue() -> Any:
+        return original() if engine() is None else queue._PySimpleQueue()
+
+    return SimpleQueue

@@ -1,0 +1,110 @@
+"""Python's clocks, its sources of chance, and the few calls that would end or block the whole process."""
+
+from __future__ import annotations
+
+import builtins
+import os
+import signal
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy.random
+
+from sim.ros.fibers import SECOND, engine
+from sim.ros.hooks import hook
+
+EPOCH = 1_735_689_600  # 2025-01-01 00:00 UTC: what time.time() says at the start of every run
+
+
+class StudentExit(SystemExit):
+    """os._exit() inside a run."""
+
+
+@hook(time, "sleep", "sleeping takes simulated time")
+def sleep(original: Callable) -> Callable:
+    def sleep(seconds: float) -> None:
+        run = engine()
+        if run is None:
+            return original(seconds)
+        if seconds < 0:
+            raise ValueError("sleep length must be non-negative")
+        run.wait(f"time.sleep({seconds:g})", until=run.now + round(seconds * SECOND))
+        return None
+
+    return sleep
+
+
+def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
+    @hook(time, name, "Python's clocks show simulated time")
+    def clock(original: Callable) -> Callable:
+        def read() -> Any:
+            run = engine()
+            if run is None:
+                return original()
+            run.clock_was_read()
+            return convert(epoch * SECOND + run.now)
+
+        return read
+
+
+for _name in ("time", "monotonic", "perf_counter"):
+    _epoch = EPOCH if _name == "time" else 0
+    _clock(_name, _epoch, lambda nanoseconds: nanoseconds / SECOND)
+    _clock(f"{_name}_ns", _epoch, int)
+
+
+@hook(os, "urandom", "uuid4(), and with it every action goal's id, must be the same in every run")
+def urandom(original: Callable) -> Callable:
+    def urandom(size: int) -> bytes:
+        run = engine()
+        return original(size) if run is None else run.chance.bytes(size)
+
+    return urandom
+
+
+@hook(numpy.random, "default_rng", "a generator without a seed takes the run's")
+def default_rng(original: Callable) -> Callable:
+    def default_rng(seed: Any = None) -> numpy.random.Generator:
+        run = engine()
+        if seed is None and run is not None:
+            seed = int.from_bytes(run.chance.bytes(8), "little")
+        return original(seed)
+
+    return default_rng
+
+
+@hook(builtins, "input", "nobody is there to type, and the wait would never end")
+def read_input(original: Callable) -> Callable:
+    def input(*prompt: Any) -> str:
+        if engine() is None:
+            return original(*prompt)
+        raise RuntimeError(
+            "input() waits for somebody at the keyboard; a node gets its input from topics and parameters"
+        )
+
+    return input
+
+
+@hook(os, "_exit", "it would end the notebook's kernel, not the node")
+def exit_now(original: Callable) -> Callable:
+    def _exit(status: int) -> None:
+        if engine() is None:
+            original(status)
+        raise StudentExit(status)
+
+    return _exit
+
+
+def _ignored(name: str, reason: str, result: Any) -> None:
+    @hook(signal, name, reason)
+    def ignore(original: Callable) -> Callable:
+        def replacement(*arguments: Any) -> Any:
+            return original(*arguments) if engine() is None else result
+
+        return replacement
+
+
+_ignored("signal", "signal handlers belong to the kernel, and the run needs its own", signal.SIG_DFL)
+_ignored("alarm", "the run's own guard uses this timer", 0)
+_ignored("setitimer", "the run's own guard uses this timer", (0.0, 0.0))

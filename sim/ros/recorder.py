@@ -1,0 +1,169 @@
+"""Fills the recording while the run goes on: the hooks report here what student code does."""
+
+from __future__ import annotations
+
+import os
+import traceback
+from typing import Any
+
+import greenlet
+import rclpy
+from rclpy.exceptions import InvalidHandle
+from rclpy.executors import ExternalShutdownException
+
+from sim.recording import (
+    INFRASTRUCTURE_TOPICS,
+    CallbackError,
+    CallbackRun,
+    Endpoint,
+    Heard,
+    LogLine,
+    Recording,
+    TimerInfo,
+)
+from sim.ros.callbacks import callback_name
+from sim.ros.cdr import canonical
+from sim.ros.codec import type_name
+from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
+
+MAX_MESSAGES_PER_INSTANT = 20_000
+MAX_LOG_LINES = 100_000
+# Services that every node has: of no interest to a reader of the graph.
+NODE_SERVICES = frozenset({
+    "describe_parameters", "get_parameter_types", "get_parameters", "list_parameters", "set_parameters",
+    "set_parameters_atomically", "get_type_description", "get_logger_levels", "set_logger_levels",
+})  # fmt: skip
+LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+NO_FAULT = (
+    RunOver,
+    KeyboardInterrupt,
+    SystemExit,
+    GeneratorExit,
+    greenlet.GreenletExit,
+    ExternalShutdownException,
+)
+_OWN_FRAMES = (os.path.dirname(os.path.dirname(__file__)), os.path.dirname(rclpy.__file__))
+
+
+class Recorder:
+    """Writes into one recording, until it is closed."""
+
+    def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
+        self.scheduler, self.recording = scheduler, recording
+        self.open = True
+        self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
+        self._known: list[BaseException] = []
+        self._instant = (-1, 0)  # the last publish's time, and how many there were then
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds since the start of the run."""
+        return self.scheduler.now / SECOND
+
+    def name_of(self, node: Any) -> str:
+        """Fully qualified name of a node, or of the current process for None."""
+        if node is not None:
+            return self._names.get(id(node)) or node.get_fully_qualified_name()
+        fiber = self.scheduler.current
+        nodes = fiber.process.nodes if fiber is not None else []
+        return self.name_of(nodes[0]) if nodes else f"/{fiber.process.name}" if fiber is not None else ""
+
+    def node(self, node: Any) -> None:
+        """A node was made."""
+        name = self._names[id(node)] = node.get_fully_qualified_name()
+        if self.open:
+            self.recording.graph.nodes.append(name)
+
+    def endpoint(self, kind: str, node: Any, name: str, type_: type, qos: Any = None) -> None:
+        """A node declared one end of a topic, service or action."""
+        infrastructure = name in INFRASTRUCTURE_TOPICS or name.rsplit("/", 1)[-1] in NODE_SERVICES
+        if self.open and not infrastructure:
+            end = Endpoint(kind, self.name_of(node), name, type_name(type_), _qos(qos))
+            self.recording.graph.endpoints.append(end)
+
+    def timer(self, node: Any, timer: Any) -> None:
+        """A node made a timer."""
+        if self.open:
+            info = TimerInfo(
+                self.name_of(node), timer.timer_period_ns / SECOND, callback_name(timer.callback)
+            )
+            self.recording.graph.timers.append(info)
+
+    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+        """A message was published. Raises Livelock when too many come without time moving."""
+        if not self.open:
+            return
+        at, count = self._instant
+        self._instant = (self.scheduler.now, count + 1 if at == self.scheduler.now else 1)
+        if count >= MAX_MESSAGES_PER_INSTANT and at == self.scheduler.now:
+            raise Livelock(
+                f"{sender} published {count} messages at t = {self.now:g} s without letting time move on"
+            )
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, canonical(type_, raw)))
+
+    def log(self, severity: int, logger: str, text: str) -> LogLine | None:
+        """A node wrote a log line; None if it isn't kept."""
+        if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
+            return None
+        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text)
+        self.recording.logs.append(line)
+        return line
+
+    def callback(self, began: int, name: str, node: str, kind: str) -> None:
+        """A callback has returned."""
+        if self.open:
+            duration = (self.scheduler.now - began) / SECOND
+            self.recording.callbacks.append(CallbackRun(began / SECOND, duration, node, name, kind))
+
+    def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
+        """An exception left a callback, a thread or a main(). The same one is kept once."""
+        quiet = not self.open or isinstance(error, (*NO_FAULT, Livelock)) or _is_hang(error)
+        if quiet or any(known is error for known in self._known):
+            return
+        self._known.append(error)
+        frames = student_frames(error)
+        text = "".join(traceback.format_list(frames) + traceback.format_exception_only(error))
+        name = node if node is not None else self.name_of(None)
+        self.recording.errors.append(
+            CallbackError(self.now, name, callback, type(error).__name__, str(error), text)
+        )
+
+    def close(self) -> None:
+        """The run is over: what student code does while it is taken down is not evidence."""
+        self.open = False
+        self._known.clear()
+
+
+def _is_hang(error: BaseException) -> bool:
+    return bool(getattr(error, "stops_the_run", False))
+
+
+def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
+    """The frames of an exception that are the student's own: none of this package, none of rclpy."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return [frame for frame in frames if not is_own_file(frame.filename)]
+
+
+def is_own_file(filename: str) -> bool:
+    """Whether a source file belongs to this package or to rclpy."""
+    return filename.startswith(_OWN_FRAMES)
+
+
+def _qos(profile: Any) -> dict[str, Any]:
+    if profile is None:
+        return {}
+    names = ("reliability", "durability", "history")
+    return {name: getattr(profile, name).name.lower() for name in names} | {"depth": profile.depth}
+
+
+def destroy(node: Any) -> None:
+    """Free a node with all it holds; destroy_node() forgets action servers and clients."""
+    from rclpy.action import ActionClient, ActionServer
+
+    try:
+        for waitable in list(node.waitables):
+            if isinstance(waitable, ActionServer | ActionClient):
+                waitable.destroy()
+        node.destroy_node()
+    except (InvalidHandle, AttributeError):  # destroyed already, or its __init__ never came to an end
+        pass
