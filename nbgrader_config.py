@@ -25,6 +25,9 @@ Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
 # Files beside a notebook are released with it, except these: answers, and what tools leave behind.
 course.ignore = ["*answer*", "*solution*", ".*", "*.pyc", "__pycache__", "feedback"]
 
+# The release is under version control, so it has the one form of our notebooks.
+c.GenerateAssignment.post_convert_hook = "grader.marking.release.tidy"
+
 # A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
 c.Execute.timeout = 60
 c.Validator.Execute.timeout = 30

@@ -5,6 +5,7 @@
 In that form a notebook has no outputs, counts or widget state, only metadata that somebody meant, and an
 id on every cell. Ids that exist are kept, so inserting or moving a cell changes no other cell.
 """
+
 import argparse
 import difflib
 import json
@@ -41,10 +42,12 @@ def normalised(text: str, name: str) -> str:
         problem = f"{name}: expected notebook format 4, saw {version}."
         raise BadNotebook(f"{problem} Open and save it in JupyterLab.")
     notebook |= {"metadata": NOTEBOOK_METADATA, "nbformat_minor": 5}
-    for cell, cell_id in zip(notebook["cells"], cell_ids(notebook["cells"]), strict=True):
+    cells = notebook.setdefault("cells", [])
+    for cell, cell_id in zip(cells, cell_ids(cells), strict=True):
         cell["id"] = cell_id
-        cell["metadata"] = {key: value for key, value in cell["metadata"].items() if key in CELL_METADATA}
-        if cell["cell_type"] == "code":
+        metadata = cell.get("metadata", {})
+        cell["metadata"] = {key: metadata[key] for key in metadata if key in CELL_METADATA}
+        if cell.get("cell_type") == "code":
             cell |= {"outputs": [], "execution_count": None}
     node = nbformat.from_dict(notebook)
     try:
@@ -69,7 +72,8 @@ def cell_ids(cells: list[dict]) -> list[str]:
 
 
 def _new_ids(cell: dict) -> Iterator[str]:
-    stem = re.sub(r"[^a-zA-Z0-9_-]+", "-", cell["metadata"].get("nbgrader", {}).get("grade_id", ""))[:56]
+    grade_id = cell.get("metadata", {}).get("nbgrader", {}).get("grade_id", "")
+    stem = re.sub(r"[^a-zA-Z0-9_-]+", "-", grade_id)[:56]
     if stem:
         yield stem
     for number in range(1, 10**6):
@@ -115,8 +119,8 @@ def _difference(before: str, after: str) -> list[str]:
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
     parser = argparse.ArgumentParser("python -m grader.notebooks", description="Keep notebooks in one form.")
-    parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders (default: course solutions)")
-    parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if something should")
+    parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders")
+    parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if it should")
     chosen = parser.parse_args(arguments)
     try:
         reports = normalise(chosen.paths or [folder for folder in FOLDERS if folder.exists()], chosen.check)

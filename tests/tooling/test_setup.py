@@ -1,0 +1,108 @@
+import os
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+RUNS = '#!/bin/sh\ncase "$*" in *ensurepip*) exit {venv};; esac\necho {version}\nexit {unsupported}\n'
+
+
+class Machine:
+    """A machine that has only the commands a test gives it."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.has("uname", "#!/bin/sh\necho Linux x86_64\n")
+        self.has("id", "#!/bin/sh\necho 1000\n")
+
+    def has(self, command: str, text: str = "#!/bin/sh\n") -> None:
+        file = self.folder / command
+        file.write_text(text)
+        file.chmod(0o755)
+
+    def has_python(self, command: str, version: str, venv: bool = True) -> None:
+        unsupported = version not in ("3.11", "3.12", "3.13")
+        self.has(command, RUNS.format(venv=int(not venv), version=version, unsupported=int(unsupported)))
+
+    def set_up(self, **variables: str) -> subprocess.CompletedProcess:
+        environment = {"PATH": str(self.folder), **variables}
+        script = [shutil.which("sh"), ROOT / ".ci" / "setup", self.folder / "venv"]
+        return subprocess.run(script, cwd=ROOT, env=environment, text=True, capture_output=True, timeout=20)
+
+    def complaint(self, **variables: str) -> str:
+        done = self.set_up(**variables)
+        assert done.returncode == 1
+        assert not (self.folder / "venv").exists()
+        return done.stderr
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> Machine:
+    return Machine(tmp_path)
+
+
+def test_another_kind_of_machine_is_told_what_to_use(machine):
+    machine.has("uname", "#!/bin/sh\necho Darwin arm64\n")
+    assert machine.complaint() == (
+        "ROS publishes its Python packages for Linux x86_64 only and this machine is Darwin arm64: "
+        "use a Linux x86_64 machine, a virtual one or WSL 2.\n"
+    )
+
+
+def test_without_a_supported_python_it_says_which_to_install(machine):
+    machine.has_python("python3", "3.10")
+    assert machine.complaint() == (
+        "No Python 3.11, 3.12 or 3.13 runs here: "
+        "install one, or name one with `make PYTHON=/path/to/python3.12`.\n"
+    )
+
+
+def test_a_named_python_that_does_not_run_is_named(machine):
+    machine.has_python("python3", "3.12")
+    assert machine.complaint(PYTHON="/nowhere/python") == (
+        "PYTHON=/nowhere/python is not a Python 3.11, 3.12 or 3.13 that runs: "
+        "name another one, or leave PYTHON out.\n"
+    )
+
+
+def test_a_python_that_exists_but_does_not_run_is_passed_over(machine):
+    machine.has("python3.12", "#!/bin/sh\necho 'python3.12: command not found' >&2\nexit 127\n")
+    machine.has_python("python3.13", "3.13", venv=False)
+    assert machine.complaint() == (
+        "python3.13 cannot make virtual environments: "
+        "install its venv module with `sudo apt install python3.13-venv`.\n"
+    )
+
+
+def test_root_is_not_told_to_use_sudo(machine):
+    machine.has("id", "#!/bin/sh\necho 0\n")
+    machine.has_python("python3", "3.11", venv=False)
+    assert machine.complaint().endswith("with `apt install python3.11-venv`.\n")
+
+
+def test_a_missing_compiler_is_named_before_anything_is_installed(machine):
+    machine.has_python("python3.12", "3.12")
+    machine.has("gcc")
+    assert machine.complaint() == (
+        "No g++, and the ROS interfaces of the course are compiled here: "
+        "install it with `sudo apt install build-essential`.\n"
+    )
+
+
+def test_a_second_set_up_is_quick(tmp_path):
+    for stamp in (".packages", ".interfaces"):
+        (tmp_path / stamp).touch()
+    start = time.monotonic()
+    environment = {**os.environ, "MAKEFLAGS": ""}
+    subprocess.run(["make", f"VENV={tmp_path}", "setup"], cwd=ROOT, env=environment, check=True, timeout=20)
+    assert time.monotonic() - start < 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".interfaces", ".packages"]
+
+
+def test_make_alone_lists_the_targets():
+    listed = subprocess.run(["make"], cwd=ROOT, check=True, capture_output=True, text=True, timeout=20).stdout
+    targets = {line.split()[0] for line in listed.splitlines()}
+    assert {"lab", "test", "demo", "exercises", "bench", "lint", "clean"} <= targets
