@@ -1,0 +1,48 @@
+"""Is there anything to run? What a test cell may hand over by mistake, before a node is started."""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Sequence
+from typing import Any
+
+from grader.diagnosis.fault import NOT_STARTED, Fault
+from sim import Process
+
+
+def refusal(nodes: Sequence[Any]) -> Fault | None:
+    """Why the first unusable one of these can't be run; None when all can."""
+    if not nodes:
+        return _fault("nothing", "Put the name of your class between the brackets: grade(MyNode).")
+    return next((fault for node in nodes if (fault := _refuse(node))), None)
+
+
+def _refuse(node: Any) -> Fault | None:
+    target = node.target if isinstance(node, Process) else node
+    if target is None:
+        return _fault("None", "This exercise is not started yet: write your class in the cell above.")
+    if isinstance(target, type):
+        name = target.__name__
+        if _is_node_class(target):
+            return None
+        return _fault(
+            f"the class {name}, which is not a Node", f"Begin the class with `class {name}(Node):`."
+        )
+    if _is_node_class(type(target)):
+        name = type(target).__name__
+        return _fault(f"an object of {name}", f"Leave out the brackets after the name: {name}, not {name}().")
+    if not callable(target):
+        hint = "Give the class itself, by its name and without quotes."
+        return _fault(f"{reprlib.repr(target)}, which is no node", hint)
+    return None
+
+
+def _is_node_class(cls: type) -> bool:
+    """By name, because nothing here may need rclpy."""
+    return any(base.__module__ == "rclpy.node" and base.__name__ == "Node" for base in cls.__mro__)
+
+
+def _fault(saw: str, hint: str) -> Fault:
+    return Fault(
+        "your node's class, or your main function", saw, hint, before_start=True, sentence=NOT_STARTED
+    )

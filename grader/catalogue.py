@@ -1,0 +1,43 @@
+"""All exercises of the course, found in grader.exercises by their names."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import importlib
+import pkgutil
+from typing import Any
+
+from grader.exercise import Exercise
+from grader.score import Score
+
+
+@functools.cache
+def exercises() -> dict[str, Exercise]:
+    """Name to exercise, sorted by name. Raises ValueError when two share one."""
+    import grader.exercises as package
+
+    found: dict[str, Exercise] = {}
+    for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        for item in vars(importlib.import_module(info.name)).values():
+            if isinstance(item, Exercise) and found.setdefault(item.name, item) is not item:
+                raise ValueError(f"two exercises are called {item.name!r}: names are unique in the course")
+    return dict(sorted(found.items()))
+
+
+def grade(exercise: Exercise | str, *nodes: Any) -> Score:
+    """The score of a student's nodes in an exercise, given as the object or by its name.
+
+    Raises LookupError for a name that no exercise has.
+    """
+    return (exercise if isinstance(exercise, Exercise) else find(exercise)).grade(*nodes)
+
+
+def find(name: str) -> Exercise:
+    """The exercise of this name. Raises LookupError for a name that no exercise has."""
+    known = exercises()
+    if name not in known:
+        near = difflib.get_close_matches(name, known, n=1)
+        guess = f"Did you mean {near[0]!r}? " if near else ""
+        raise LookupError(f"There is no exercise {name!r}. {guess}The exercises are {', '.join(known)}.")
+    return known[name]

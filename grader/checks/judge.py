@@ -1,0 +1,132 @@
+"""From a recording to verdicts. Plain Python: no live node from here on."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from grader.checks.check import Check, Missed, Picture
+from grader.diagnosis import explain, find_fault
+from grader.diagnosis.fault import Fault
+from sim.recording import Recording
+
+Status = Literal["passed", "failed", "skipped", "broken"]
+
+BROKEN_HINT = (
+    "Nothing to do: this check has a mistake of its own, so you have its points. Please tell your instructor."
+)
+EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
+EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of one check.
+
+    passed: all is well. failed: the student's node missed it. skipped: something above already explains it.
+    broken: our own code raised; it costs the student nothing, and `alarm` holds the traceback.
+    """
+
+    name: str
+    sentence: str
+    points: float
+    status: Status
+    credit: float  # fraction 0..1 of the points
+    expected: str = ""
+    saw: str = ""
+    hint: str = ""
+    picture: Picture = ""
+    alarm: str = ""
+    run: int = 0  # index of the run it speaks of
+
+    @property
+    def earned(self) -> float:
+        """Points."""
+        return self.points * self.credit
+
+
+def judge(checks: Sequence[Check], recording: Recording) -> list[Verdict]:
+    """Judge every check in order. The student's own error comes first and explains the checks that then miss.
+
+    An error before the nodes were up leaves nothing to judge: everything is skipped.
+    """
+    court = _Court(recording)
+    for item in checks:
+        court.verdicts[item.name] = court.judge(item)
+    return [*([faulty(court.fault)] if court.fault else []), *court.verdicts.values()]
+
+
+def faulty(fault: Fault) -> Verdict:
+    """The line that tells a student of an error of their own. It carries no points."""
+    return Verdict("runs", fault.sentence, 0.0, "failed", 0.0, fault.expected, fault.saw, fault.hint)
+
+
+def skipped(item: Check, reason: str) -> Verdict:
+    """A verdict for a check that something above explains."""
+    return Verdict(item.name, item.sentence, item.points, "skipped", 0.0, hint=reason)
+
+
+def broken(item: Check, error: BaseException) -> Verdict:
+    """A verdict for a check that could not be judged because of a mistake of ours."""
+    alarm = "".join(traceback.format_exception(error))
+    return Verdict(item.name, item.sentence, item.points, "broken", 1.0, hint=BROKEN_HINT, alarm=alarm)
+
+
+class _Court:
+    """Judges one recording, and remembers what is explained already: one mistake gives one red line."""
+
+    def __init__(self, recording: Recording) -> None:
+        self.recording = recording
+        self.fault = find_fault(recording)
+        self.verdicts: dict[str, Verdict] = {}
+        self.explained: set[str] = set()
+
+    def judge(self, item: Check) -> Verdict:
+        if self.fault and self.fault.before_start:
+            return skipped(item, EXPLAINED_BY_FAULT)
+        unmet = next((before for before in item.after if self.verdicts[before.name].credit == 0.0), None)
+        if unmet:
+            return skipped(item, f"Not judged: first comes “{unmet.sentence}”")
+        try:
+            credit = item(self.recording)
+        except Missed as missed:
+            return self._missed(item, missed)
+        except Exception as error:
+            return broken(item, error)
+        status: Status = "passed" if credit == 1.0 else "failed"
+        return Verdict(item.name, item.sentence, item.points, status, credit)
+
+    def _missed(self, item: Check, missed: Missed) -> Verdict:
+        cause = "" if missed.hint else explain(self.recording)
+        if missed.credit == 0.0 and self.fault:
+            return skipped(item, EXPLAINED_BY_FAULT)
+        if missed.credit == 0.0 and cause in self.explained:
+            return skipped(item, EXPLAINED_BY_HINT)
+        if cause:
+            self.explained.add(cause)
+        return Verdict(
+            item.name,
+            item.sentence,
+            item.points,
+            "failed",
+            missed.credit,
+            missed.expected,
+            missed.saw,
+            missed.hint or cause,
+            missed.picture,
+        )
+
+
+_GRAVITY: dict[Status, int] = {"failed": 0, "skipped": 1, "broken": 2, "passed": 3}
+
+
+def worst(runs: Iterable[Sequence[Verdict]]) -> list[Verdict]:
+    """One verdict per check out of several runs: a check holds only if it holds in all of them."""
+    found: dict[str, list[Verdict]] = {}
+    for index, verdicts in enumerate(runs):
+        for verdict in verdicts:
+            found.setdefault(verdict.name, []).append(replace(verdict, run=index))
+    chosen = [min(group, key=lambda v: (v.credit, _GRAVITY[v.status])) for group in found.values()]
+    return sorted(chosen, key=lambda verdict: verdict.name != "runs")

@@ -1,0 +1,130 @@
+"""Measures over where the robot really was: metres, map frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from grader.checks.check import Missed
+from sim.recording import Pose, Recording, Seconds
+
+Point = tuple[float, float]
+
+
+def keeps_clear(recording: Recording) -> None:
+    """The robot touches nothing. Raises Missed with the first touch."""
+    last_pose(recording)
+    if recording.contacts:
+        first, count = recording.contacts[0], len(recording.contacts)
+        raise Missed(
+            "no contact with walls or boxes",
+            f"{count} {'contact' if count == 1 else 'contacts'}; the first at {first.stamp:.3g} s: "
+            f"a {first.what} at ({first.x:.2f}, {first.y:.2f}) m, on the robot's {first.side} side",
+            "Slow down or turn away earlier: /scan says how far it is to the next wall.",
+            picture="path",
+        )
+
+
+def arrives(recording: Recording, goal: Point | None = None, *, tolerance: float = 0.1) -> float:
+    """The distance in metres between where the robot ends and a goal; the world's own when none is given.
+
+    Raises Missed when it's over `tolerance`. Raises ValueError when the world has no goal.
+    """
+    goal = goal or (recording.world.goal if recording.world else None)
+    if goal is None:
+        raise ValueError("there is no goal: give one, or use a world that has one")
+    end = last_pose(recording)
+    distance = math.dist(goal, (end.x, end.y))
+    if distance > tolerance:
+        raise Missed(
+            f"the robot within {tolerance:g} m of ({goal[0]:g}, {goal[1]:g}) m at the end",
+            f"({end.x:.2f}, {end.y:.2f}) m, which is {distance:.2f} m away",
+            _movement_hint(recording),
+            picture="path",
+        )
+    return distance
+
+
+def passes(recording: Recording, points: Sequence[Point], *, tolerance: float = 0.1) -> None:
+    """The robot passes the points one after the other; partial credit for those it reached.
+
+    Raises Missed with the first point that it didn't come near.
+    """
+    last_pose(recording)
+    path, reached = iter(recording.path), 0
+    for point in points:
+        if not any(math.dist(point, (pose.x, pose.y)) <= tolerance for pose in path):
+            break
+        reached += 1
+    if reached < len(points):
+        x, y = points[reached]
+        raise Missed(
+            f"the robot within {tolerance:g} m of {len(points)} points, one after the other",
+            f"{reached} of them; it never came to ({x:g}, {y:g}) m after that",
+            _movement_hint(recording),
+            credit=reached / len(points),
+            picture="path",
+        )
+
+
+def follows(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.1) -> float:
+    """The largest distance in metres from the path to a line through points. Raises Missed if too large."""
+    last_pose(recording)
+    distances = distances_to_line(np.array([(pose.x, pose.y) for pose in recording.path]), line)
+    worst = int(np.argmax(distances))
+    if distances[worst] > tolerance:
+        pose = recording.path[worst]
+        raise Missed(
+            f"a path within {tolerance:g} m of the line",
+            f"{distances[worst]:.2f} m away from it at {pose.stamp:.3g} s, at ({pose.x:.2f}, {pose.y:.2f}) m",
+            _movement_hint(recording),
+            picture="path",
+        )
+    return float(distances[worst])
+
+
+def distances_to_line(points: np.ndarray, line: Sequence[Point]) -> np.ndarray:
+    """Distances in metres of points, shape (n, 2), from a line through two points or more; shape (n,)."""
+    corners = np.asarray(line, dtype=float)
+    starts, spans = corners[:-1], np.diff(corners, axis=0)
+    lengths = np.maximum((spans**2).sum(axis=1), 1e-12)
+    offsets = points[:, None, :] - starts[None]
+    along = np.clip((offsets * spans).sum(axis=2) / lengths, 0.0, 1.0)
+    return np.linalg.norm(offsets - along[..., None] * spans, axis=2).min(axis=1)
+
+
+def travelled(recording: Recording) -> float:
+    """The length of the robot's path in metres."""
+    points = np.array([(pose.x, pose.y) for pose in recording.path]).reshape(-1, 2)
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+
+
+def stands_still(recording: Recording, *, last: Seconds = 0.5, tolerance: float = 0.005) -> None:
+    """The robot moves less than `tolerance` metres in the last seconds of the run. Raises Missed if not."""
+    end = last_pose(recording)
+    final = [pose for pose in recording.path if pose.stamp >= end.stamp - last]
+    moved = max(math.dist((end.x, end.y), (pose.x, pose.y)) for pose in final)
+    if moved > tolerance:
+        raise Missed(
+            f"the robot standing still for the last {last:g} s",
+            f"it moved {moved:.3f} m in that time",
+            "Publish a Twist() with all zeros when the robot has arrived.",
+            picture="path",
+        )
+
+
+def last_pose(recording: Recording) -> Pose:
+    """Where the robot is at the end. Raises ValueError for a run without a robot."""
+    if not recording.path:
+        raise ValueError("this run has no robot: give the exercise a world")
+    return recording.path[-1]
+
+
+def _movement_hint(recording: Recording) -> str:
+    if travelled(recording) > 0.01:
+        return ""
+    if recording.messages("/cmd_vel"):
+        return "The robot did not move: are linear.x (m/s) and angular.z (rad/s) of the Twist set?"
+    return "The robot did not move: nothing was published on /cmd_vel."

@@ -1,0 +1,38 @@
+"""Measures over the nodes themselves: do they run, what are they called, which timers have they got."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks.check import Missed
+from grader.diagnosis import find_fault
+from grader.diagnosis.names import closest, difference
+from sim.recording import Recording, TimerInfo
+
+
+def no_errors(recording: Recording) -> None:
+    """The code runs to the end without an error, hang or deadlock. Raises Missed with what happened."""
+    fault = find_fault(recording)
+    if fault:
+        raise Missed(fault.expected, fault.saw, fault.hint)
+
+
+def named(recording: Recording, name: str) -> None:
+    """There is a node of this full name, e.g. "/talker". Raises Missed with the names that there are."""
+    if name in recording.graph.nodes:
+        return
+    near = closest(name, recording.graph.nodes)
+    hint = difference(near, name) if near else "The name of a node is set by super().__init__('name')."
+    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint)
+
+
+def has_timer(recording: Recording, period: float, *, tolerance: float = 1e-3) -> list[TimerInfo]:
+    """The timers with a period in seconds. Raises Missed with those that there are."""
+    found = [
+        timer for timer in recording.graph.timers if math.isclose(timer.period, period, rel_tol=tolerance)
+    ]
+    if found:
+        return found
+    others = ", ".join(f"every {timer.period:g} s" for timer in recording.graph.timers)
+    hint = f"self.create_timer({period:g}, self.callback) calls a method every {period:g} s."
+    raise Missed(f"a timer every {period:g} s", others or "no timer", hint)

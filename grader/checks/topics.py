@@ -1,0 +1,117 @@
+"""Measures over what was published: who sends what, how often, with which values."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+from typing import Any
+
+from grader.checks.check import Missed
+from grader.diagnosis.names import closest, difference
+from sim.recording import INFRASTRUCTURE_TOPICS, Endpoint, Heard, Recording, Seconds
+from sim.recording import rate as mean_rate
+
+
+def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int = 1) -> list[Heard]:
+    """The messages on a topic, at least so many of them and all of one type, e.g. "std_msgs/msg/String".
+
+    Raises Missed when the topic, its type or the messages are not there.
+    """
+    expected = f"messages of type {type} on {topic}" if type else f"messages on {topic}"
+    _declared(recording, recording.graph.publishers(), topic, type, expected, "publishes")
+    heard = recording.messages(topic)
+    if len(heard) < at_least:
+        saw = (
+            f"only {len(heard)} in {recording.ended.stamp:.3g} s" if heard else "a publisher, but no message"
+        )
+        expected = expected if at_least == 1 else f"{at_least} or more {expected}"
+        raise Missed(expected, saw, picture="topics")
+    return heard
+
+
+def subscribes(recording: Recording, topic: str, type: str = "") -> list[Endpoint]:
+    """The subscriptions to a topic. Raises Missed when there is none, or one of another type."""
+    expected = f"a subscription to {topic}" + (f" of type {type}" if type else "")
+    ends = recording.graph.subscriptions()
+    return _declared(recording, ends, topic, type, expected, "listens")
+
+
+def _declared(
+    recording: Recording, ends: list[Endpoint], topic: str, type: str, expected: str, verb: str
+) -> list[Endpoint]:
+    found = [end for end in ends if end.name == topic]
+    wrong = next((end for end in found if type and end.type != type), None)
+    if wrong:
+        hint = f"Both ends of a topic must use the same message type: on {topic} it is {type}."
+        raise Missed(expected, f"type {wrong.type} on {topic}", hint)
+    if not found:
+        others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - _answered(recording))
+        near = closest(topic, others)
+        saw = f"nobody {verb} there" + (f"; {verb} on {', '.join(others)}" if others else "")
+        raise Missed(expected, saw, difference(near, topic) if near else "")
+    return found
+
+
+def _answered(recording: Recording) -> set[str]:
+    """Topics with both ends: those are as they should be, and no candidates for a slip."""
+    graph = recording.graph
+    return {end.name for end in graph.publishers()} & {end.name for end in graph.subscriptions()}
+
+
+def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1) -> float:
+    """The mean rate on a topic in Hz of simulated time. Raises Missed when it is off, or after a long pause.
+
+    tolerance: as a fraction of `hz`. The first message may come late by two periods.
+    """
+    stamps = [heard.stamp for heard in publishes(recording, topic, at_least=2)]
+    expected = f"{hz:.4g} Hz on {topic}, within {tolerance:.0%}"
+    measured = mean_rate(stamps)
+    if abs(measured - hz) > tolerance * hz:
+        saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
+        raise Missed(expected, saw, _rate_hint(recording, measured, hz), picture="topics")
+    edges = [0.0, *stamps, recording.ended.stamp]
+    pause, since = max((after - before, before) for before, after in itertools.pairwise(edges))
+    if pause > 2.5 / hz:
+        saw = f"no message for {pause:.3g} s, from {since:.3g} s on"
+        raise Missed(
+            expected, saw, "Publish from start to end, in the callback of a timer.", picture="topics"
+        )
+    return measured
+
+
+def _rate_hint(recording: Recording, measured: float, hz: float) -> str:
+    from grader.diagnosis.activity import slow_callback
+
+    slow = slow_callback(recording)
+    if slow or measured == 0:
+        return slow
+    return f"A timer with period {1 / hz:.4g} s gives {hz:.4g} Hz: the period is 1 / rate, in seconds."
+
+
+def within(
+    recording: Recording, topic: str, field: str, low: float, high: float, *, unit: str = ""
+) -> list[float]:
+    """The values of a field, e.g. "linear.x", all from `low` to `high`. Partial credit for the part that is.
+
+    Raises Missed for the first value outside, NaN included, and when there is no message.
+    """
+    publishes(recording, topic)
+    points = series(recording, topic, field)
+    outside = [(stamp, value) for stamp, value in points if not low <= value <= high]
+    if outside:
+        stamp, value = outside[0]
+        unit = f" {unit}" if unit else ""
+        raise Missed(
+            f"{field} on {topic} from {low:g} to {high:g}{unit}",
+            f"{value:.4g}{unit} at {stamp:.3g} s; {len(outside)} of {len(points)} are outside",
+            "NaN means that a calculation had no result." if math.isnan(value) else "",
+            picture="topics",
+        )
+    return [value for _, value in points]
+
+
+def series(recording: Recording, topic: str, field: str) -> list[tuple[Seconds, Any]]:
+    """A field's values with their stamps; `field` may have dots, such as "linear.x"."""
+    read = [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+    return [(stamp, functools.reduce(getattr, field.split("."), message)) for stamp, message in read]

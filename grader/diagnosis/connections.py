@@ -1,0 +1,51 @@
+"""Ends of one topic that can't talk to each other."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from sim.recording import Endpoint, Recording
+
+
+def different_types(recording: Recording) -> str:
+    """One topic, two message types."""
+    for publisher, subscription in _pairs(recording):
+        if publisher.type != subscription.type:
+            return (
+                f"{publisher.node} publishes {publisher.type} on {publisher.name}, but "
+                f"{subscription.node} expects "
+                f"{subscription.type} there. Both ends of a topic must use the same message type."
+            )
+    return ""
+
+
+# Per policy: what the publisher offers and the subscription asks for when they don't match.
+_MISMATCHES = (
+    ("reliability", "best_effort", "reliable"),
+    ("durability", "volatile", "transient_local"),
+)
+
+
+def incompatible_qos(recording: Recording) -> str:
+    """A subscription that asks for more than the publisher offers: ROS then connects nothing."""
+    for publisher, subscription in _pairs(recording):
+        for policy, offered, wanted in _MISMATCHES:
+            if _value(publisher, policy) == offered and _value(subscription, policy) == wanted:
+                return (
+                    f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes with "
+                    f"{policy} {offered}, "
+                    f"{subscription.node} asks for {wanted}, so nothing arrives. Use the same "
+                    f"{policy} at both ends."
+                )
+    return ""
+
+
+def _pairs(recording: Recording) -> list[tuple[Endpoint, Endpoint]]:
+    ends = product(recording.graph.publishers(), recording.graph.subscriptions())
+    return [
+        (publisher, subscription) for publisher, subscription in ends if publisher.name == subscription.name
+    ]
+
+
+def _value(endpoint: Endpoint, policy: str) -> str:
+    return str(endpoint.qos.get(policy, "")).lower()

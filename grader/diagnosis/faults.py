@@ -1,0 +1,70 @@
+"""Errors, hangs and early ends of a student's code, as a Fault."""
+
+from __future__ import annotations
+
+import re
+
+from grader.diagnosis.errors import advice
+from grader.diagnosis.fault import NOT_STARTED, Fault
+from sim.recording import CallbackError, Ended, Recording
+
+_HINTS = {
+    "error": "Read the last line of the error first: it says what Python did not like.",
+    "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
+    "something that "
+    "never comes. A callback should do one small step and return.",
+    "livelock": "Callbacks start each other without any time passing: two nodes that answer each "
+    "other's every "
+    "message, or a timer with period 0. Let a timer with a period set the pace.",
+    "blocked": "Everything waits for something that can't come. Inside a callback, don't wait for "
+    "another callback of "
+    "the same node (spin_until_future_complete, client.call): use call_async and add_done_callback, "
+    "or await.",
+}
+
+
+def find_fault(recording: Recording) -> Fault | None:
+    """The student's first error, or the way the run got stuck; None when it ran as it should."""
+    if recording.errors:
+        return _from_error(recording.errors[0])
+    ended = recording.ended
+    return _from_end(ended) if ended.reason in _HINTS else None
+
+
+def _from_error(error: CallbackError) -> Fault:
+    if error.type == "NotImplementedError":
+        text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
+        return Fault(
+            expected="your own code in place of `raise NotImplementedError`",
+            saw=f"This exercise is not started yet: {text}",
+            hint="Write your code, delete the line that raises, and run this cell again.",
+            before_start=True,
+            sentence=NOT_STARTED,
+        )
+    return Fault(
+        expected="no error",
+        saw=f"{error.type}: {_first_line(error.text)} ({where(error)})",
+        hint=advice(error),
+        before_start=error.stamp <= 0.0,
+    )
+
+
+def _from_end(ended: Ended) -> Fault:
+    return Fault(
+        expected="a run to the end",
+        saw=f"{ended.detail} ({ended.reason} at {ended.stamp:.3g} s)",
+        hint=_HINTS[ended.reason],
+        before_start=ended.stamp <= 0.0,
+    )
+
+
+def where(error: CallbackError) -> str:
+    """The place of an error in words: "in Talker.tick, line 12, at 0.5 s"."""
+    frames = re.findall(r'File "(.*?)", line (\d+)', error.traceback)
+    own = [line for file, line in frames if "site-packages" not in file]
+    line = f", line {own[-1]}" if own else ""
+    return f"in {error.callback}{line}, at {error.stamp:.3g} s"
+
+
+def _first_line(text: str) -> str:
+    return text.strip().split("\n")[0] or "no message"

@@ -1,0 +1,52 @@
+"""Topic names that nearly match."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+from sim.recording import INFRASTRUCTURE_TOPICS, Recording
+
+
+def typing_slip(recording: Recording) -> str:
+    """A topic with only publishers and one with only subscriptions, whose names are nearly the same."""
+    published = {e.name: e.node for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
+    heard = {e.name: e.node for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
+    lonely = [name for name in published if name not in heard]
+    for wanted in heard:
+        near = closest(wanted, lonely) if wanted not in published else ""
+        if near:
+            return (
+                f"{published[near]} publishes on {near}, {heard[wanted]} listens on {wanted}: "
+                f"two different topics. {difference(near, wanted)}"
+            )
+    return ""
+
+
+def closest(wanted: str, candidates: Iterable[str]) -> str:
+    """The candidate that was probably meant to be `wanted`, or ""."""
+    names = sorted(candidates)
+    for name in names:
+        if _leaf(name) == _leaf(wanted) or _folded(name) == _folded(wanted):
+            return name
+    return next(iter(difflib.get_close_matches(wanted, names, n=1, cutoff=0.75)), "")
+
+
+def difference(found: str, wanted: str) -> str:
+    """A sentence on what makes `found` another name than `wanted`."""
+    if found.lower() == wanted.lower():
+        return f"Capital letters count: write {wanted}."
+    if _leaf(found) == _leaf(wanted):
+        return (
+            f"Only the namespace differs: write {wanted}. A name that starts with a slash is taken as it is; "
+            "without the slash the node's namespace is put before it."
+        )
+    return f"Is {found} a typing slip? Did you mean {wanted}?"
+
+
+def _leaf(name: str) -> str:
+    return name.rsplit("/", 1)[-1]
+
+
+def _folded(name: str) -> str:
+    return name.lower().replace("_", "").replace("/", "")

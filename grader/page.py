@@ -1,0 +1,98 @@
+"""A score as HTML and as text.
+
+The HTML is one table with inline styles: no script, no class, no address. Text takes the page's colour and
+the marks have a middle brightness: light and dark themes show both well. Equal scores give equal bytes.
+"""
+
+from __future__ import annotations
+
+import html as escaping
+import re
+import textwrap
+from collections.abc import Iterator, Sequence
+
+from grader.checks.judge import Verdict
+
+# What a sanitiser has to let through for the table to look right: nbconvert's SanitizeHTML takes these lists.
+TAGS = ("table", "caption", "thead", "tbody", "tr", "th", "td", "div", "b", "code")
+ATTRIBUTES = {"*": ["style"], "th": ["scope"], "td": ["colspan"]}
+STYLES = ("border-collapse", "color", "font-weight", "text-align", "vertical-align", "white-space", "width")
+
+# Per status: symbol, word, colour. The colours have a contrast of 4 or more on white and on black.
+MARKS = {
+    "passed": ("✔", "passed", "#16883c"),
+    "partly": ("◐", "partly", "#aa7300"),
+    "failed": ("✘", "missed", "#d64541"),
+    "skipped": ("○", "skipped", "#787878"),
+    "broken": ("!", "our mistake", "#8a63d2"),
+}
+WIDTH = 88  # characters of a line in a terminal
+
+
+def html(title: str, points: float, most: float, verdicts: Sequence[Verdict]) -> str:
+    """The table that Jupyter shows."""
+    rows = "".join(_row(verdict) for verdict in verdicts)
+    return (
+        '<table style="border-collapse: collapse; text-align: left; width: 100%">'
+        f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
+        f"<b>{_escape(title)}: {number(points)} of {number(most)} points</b></caption>"
+        f"<thead><tr>{''.join(_heading(word) for word in ('', 'What is checked', 'Points'))}</tr></thead>"
+        f"<tbody>{rows}</tbody></table>"
+    )
+
+
+def text(title: str, points: float, most: float, verdicts: Sequence[Verdict]) -> str:
+    """The same for a terminal."""
+    lines = [f"{title}: {number(points)} of {number(most)} points"]
+    for verdict in verdicts:
+        symbol, word, _ = MARKS[mark(verdict)]
+        lines.append(f"  {symbol} {word:<11} {_points(verdict):>9}  {verdict.sentence}")
+        for label, content in details(verdict):
+            lines += textwrap.wrap(
+                f"{label}: {content}", WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 10
+            )
+    return "\n".join(lines)
+
+
+def mark(verdict: Verdict) -> str:
+    """The key into MARKS: the status, or "partly" for a miss that earned something."""
+    return "partly" if verdict.status == "failed" and verdict.credit > 0 else verdict.status
+
+
+def details(verdict: Verdict) -> Iterator[tuple[str, str]]:
+    """What is worth saying beyond the sentence, as label and content."""
+    content = {"Expected": verdict.expected, "Saw": verdict.saw}
+    yield from ((label, words) for label, words in content.items() if words)
+    if verdict.hint:
+        yield ("Note" if verdict.status in ("skipped", "broken") else "Hint"), verdict.hint
+    if verdict.alarm:
+        yield "For the instructor", verdict.alarm.strip().splitlines()[-1]
+
+
+def number(points: float) -> str:
+    """Points without needless zeros."""
+    return f"{points:.2f}".rstrip("0").rstrip(".")
+
+
+def _points(verdict: Verdict) -> str:
+    return f"{number(verdict.earned)} / {number(verdict.points)}" if verdict.points else ""
+
+
+def _row(verdict: Verdict) -> str:
+    symbol, word, colour = MARKS[mark(verdict)]
+    more = "".join(f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict))
+    cell = "text-align: left; vertical-align: top"
+    return (
+        f'<tr><td style="{cell}; white-space: nowrap"><b style="color: {colour}">{symbol} {word}</b></td>'
+        f'<td style="{cell}; white-space: normal"><div><b>{_escape(verdict.sentence)}</b></div>{more}</td>'
+        f'<td style="{cell}; white-space: nowrap">{_points(verdict)}</td></tr>'
+    )
+
+
+def _heading(word: str) -> str:
+    return f'<th scope="col" style="text-align: left; font-weight: bold">{word}</th>'
+
+
+def _escape(words: str) -> str:
+    """Safe HTML, with what stands between backticks as code."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escaping.escape(words))

@@ -1,0 +1,102 @@
+"""The outcome of an exercise: a float for nbgrader, a table for people."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from grader import page
+from grader.checks.judge import Verdict
+from grader.quiet import quiet_stderr
+from sim.recording import Recording
+
+
+class Score(float):
+    """Points between 0 and `max`; shows itself in Jupyter as a table, in a terminal as `text`.
+
+    nbgrader reads the points from `repr`, which is always a plain finite number between 0 and `max`.
+
+    max: the points that can be reached.
+    verdicts: one per check, and one for an error of the student's, if any.
+    recordings: what the verdicts speak of; `Verdict.run` is an index into it.
+    """
+
+    exercise: str
+    title: str
+    max: float
+    verdicts: tuple[Verdict, ...]
+    recordings: tuple[Recording, ...]
+
+    def __new__(
+        cls,
+        exercise: str,
+        verdicts: Iterable[Verdict],
+        recordings: Sequence[Recording] = (),
+        *,
+        title: str = "",
+    ) -> Score:
+        """Add up the verdicts. `exercise` is its name."""
+        verdicts = tuple(verdicts)
+        most = _rounded_down(math.fsum(verdict.points for verdict in verdicts))
+        earned = _rounded_down(math.fsum(verdict.earned for verdict in verdicts))
+        score = super().__new__(cls, min(max(earned, 0.0), most))
+        score.exercise, score.title, score.max = exercise, title or exercise, most
+        score.verdicts, score.recordings = verdicts, tuple(recordings)
+        return score
+
+    @property
+    def broken(self) -> list[Verdict]:
+        """Checks that failed by a mistake of ours: their `alarm` is for the instructor."""
+        return [verdict for verdict in self.verdicts if verdict.status == "broken"]
+
+    @property
+    def text(self) -> str:
+        """The table for a terminal."""
+        return page.text(self.title, float(self), self.max, self.verdicts)
+
+    @property
+    def pictures(self) -> list[tuple[str, bytes]]:
+        """Where a figure says more than words: pairs of a caption and a PNG, each of them once."""
+        from grader.pictures import draw
+
+        return draw(self.verdicts, self.recordings)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON; without the recordings."""
+        verdicts = [{**asdict(verdict), "earned": verdict.earned} for verdict in self.verdicts]
+        return {
+            "exercise": self.exercise,
+            "title": self.title,
+            "points": float(self),
+            "max": self.max,
+            "verdicts": verdicts,
+        }
+
+    def __repr__(self) -> str:
+        return f"{float(self):.4f}".rstrip("0").rstrip(".")
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        return page.html(self.title, float(self), self.max, self.verdicts)
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        # Pictures go out as images of their own: a sanitiser that is strict about HTML lets PNGs pass.
+        with quiet_stderr():
+            _show(self.pictures)
+        return {"text/plain": repr(self), "text/html": self._repr_html_()}
+
+
+def _show(pictures: list[tuple[str, bytes]]) -> None:
+    if pictures:
+        from IPython.display import Image, display
+
+        for caption, png in pictures:
+            display(Image(png, alt=caption))
+
+
+def _rounded_down(points: float) -> float:
+    """Points with the four decimals that `repr` shows, never more than were earned."""
+    return math.floor(points * 1e4 + 1e-3) / 1e4
