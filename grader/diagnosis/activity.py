@@ -8,7 +8,7 @@ from sim.recording import INFRASTRUCTURE_TOPICS, Recording
 def slow_callback(recording: Recording) -> str:
     """A timer that fires less often than it should because a callback of its node holds everything up."""
     for timer in recording.graph.timers:
-        if timer.period <= 0:
+        if timer.period <= 0 or is_robot(recording, timer.node):
             continue
         due = int(recording.ended.stamp / timer.period + 1e-6)
         of_node = [run for run in recording.callbacks if run.node == timer.node]
@@ -29,7 +29,7 @@ def never_spun(recording: Recording) -> str:
     """A node with timers or incoming messages, none of whose callbacks ever ran."""
     active = {run.node for run in recording.callbacks}
     for node in recording.graph.nodes:
-        if node in active:
+        if node in active or is_robot(recording, node):
             continue
         what = _waiting_work(recording, node)
         if what:
@@ -66,7 +66,7 @@ def unused_publisher(recording: Recording) -> str:
     """A publisher that never sent anything."""
     used = {(heard.sender, heard.topic) for heard in recording.heard}
     for end in recording.graph.publishers():
-        if (end.node, end.name) in used or end.name in INFRASTRUCTURE_TOPICS:
+        if (end.node, end.name) in used or end.name in INFRASTRUCTURE_TOPICS or is_robot(recording, end.node):
             continue
         what_next = _who_should_publish(recording, end.node)
         return f"{end.node} has a publisher on {end.name}, but never publishes. {what_next}"
@@ -91,6 +91,11 @@ def empty_node(recording: Recording) -> str:
         if node not in busy:
             return f"{node} has no publisher, no subscription and no timer: nothing can happen in it."
     return ""
+
+
+def is_robot(recording: Recording, node: str) -> bool:
+    """Is this the simulated robot's node? What it does or leaves is never the student's mistake."""
+    return recording.world is not None and node == "/robot"
 
 
 def _times(count: int) -> str:

@@ -1,0 +1,8 @@
+"""Pictures of a recording. The only part of the simulation that knows matplotlib and Jupyter."""
+
+from sim.view.animation import animate
+from sim.view.figure import png
+from sim.view.scene import plot_path
+from sim.view.timeline import plot_signal, plot_topics
+
+__all__ = ["animate", "plot_path", "plot_signal", "plot_topics", "png"]

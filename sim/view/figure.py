@@ -1,0 +1,33 @@
+"""Figures that stand on their own: none touches matplotlib's global state, which belongs to the student."""
+
+from __future__ import annotations
+
+import io
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+PATH, SOLID, WARNING, MUTED = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad"
+DPI = 100
+
+
+class Plot(Figure):
+    """A figure that Jupyter shows without pyplot."""
+
+    def _repr_png_(self) -> bytes:
+        return png(self)
+
+
+def plot(width: float, height: float) -> tuple[Plot, Axes]:
+    """An empty figure with one pair of axes; sizes in inches, of 100 pixels each."""
+    figure = Plot(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure, figure.add_subplot()
+
+
+def png(figure: Figure) -> bytes:
+    """The figure as a PNG; equal figures give equal bytes."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", metadata={"Software": None})
+    return buffer.getvalue()

@@ -1,0 +1,74 @@
+"""What happened when: messages, log lines and errors along simulated time."""
+
+from __future__ import annotations
+
+import functools
+import numbers
+from collections.abc import Sequence
+from typing import Any
+
+from sim.recording import Recording, rate, stamps
+from sim.view.figure import PATH, SOLID, WARNING, Plot, plot
+
+
+def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
+    """One row for each topic with a stroke for each message, then the log lines and the errors.
+
+    topics: names in the order from top to bottom; all topics of the run when left out.
+    """
+    names = list(recording.topics if topics is None else topics)
+    rows = [(_label(recording, name), stamps(recording.messages(name)), PATH) for name in names]
+    if recording.logs:
+        rows.append((f"log lines\n{len(recording.logs)}", [line.stamp for line in recording.logs], SOLID))
+    if recording.errors:
+        rows.append(("errors", [error.stamp for error in recording.errors], WARNING))
+    figure, axes = plot(7.2, 0.9 + 0.5 * max(len(rows), 1))
+    for height, (_, moments, colour) in enumerate(rows):
+        axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
+    axes.set(xlabel="time (s)", xlim=(-0.02 * _end(recording), 1.02 * _end(recording)))
+    axes.set_yticks(range(len(rows)), [label for label, _, _ in rows])
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.grid(axis="x", color="#e6e9ec")
+    return figure
+
+
+def _label(recording: Recording, topic: str) -> str:
+    moments = stamps(recording.messages(topic))
+    pace = f", {rate(moments):.3g} Hz" if rate(moments) else ""
+    return f"{topic}\n{len(moments)}{pace}"
+
+
+def plot_signal(recording: Recording, topic: str, *fields: str, unit: str = "") -> Plot:
+    """Numbers from the messages of a topic over time.
+
+    fields: such as "linear.x"; "data" when left out. unit: for the axis, such as "m/s".
+    Raises ValueError when there are no messages, no such field, or no numbers in it.
+    """
+    heard = recording.messages(topic)
+    if not heard:
+        known = ", ".join(recording.topics) or "no topics"
+        raise ValueError(f"there are no messages on {topic} to draw; this run has {known}")
+    messages = [item.message for item in heard]
+    figure, axes = plot(7.2, 3.2)
+    for field in fields or ("data",):
+        values = [_number(message, field, topic) for message in messages]
+        axes.plot(stamps(heard), values, ".-", linewidth=1.2, markersize=4, label=field)
+    axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
+    axes.grid(color="#e6e9ec")
+    axes.legend(frameon=False)
+    return figure
+
+
+def _number(message: Any, field: str, topic: str) -> float:
+    try:
+        value = functools.reduce(getattr, field.split("."), message)
+    except AttributeError:
+        fields = ", ".join(type(message).get_fields_and_field_types())
+        raise ValueError(f"the messages on {topic} have no field {field}; they have {fields}") from None
+    if not isinstance(value, numbers.Real):
+        raise ValueError(f"{field} on {topic} is no number, but {type(value).__name__}")
+    return float(value)
+
+
+def _end(recording: Recording) -> float:
+    return recording.ended.stamp or recording.seconds or 1.0
