@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -25,6 +24,23 @@ class Work(NamedTuple):
     call: Callable[..., Any]
     arguments: tuple = ()
     names: Callable[..., Any] | None = None  # the function to name to the reader, if it isn't `call`
+
+
+class Running(NamedTuple):
+    """A callback under way."""
+
+    name: str
+    node: str
+    kind: str
+    began: int
+    group: Any
+
+    @classmethod
+    def of(cls, engine: Engine, work: Work) -> Running:
+        """What a piece of work is called while it runs."""
+        group = None if work.entity is None else work.entity.callback_group
+        name = callback_name(work.names or work.call)
+        return cls(name, engine.recorder.name_of(work.node), work.kind, engine.now, group)
 
 
 def callback_name(function: Any) -> str:
@@ -56,12 +72,14 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
         return False
     engine.activity += 1
     if inspect.iscoroutinefunction(work.call):
-        task = Task(_recorded, (engine, work, group), executor=executor)
+        running = Running.of(engine, work)
+        task = Task(_recorded, (engine, work, running), executor=executor)
+        task._sim_running = running
         executor._tasks.append((task, work.entity, work.node))
         _step(engine, task)
         return True
     try:
-        with recording(engine, work):
+        with _OnStack(engine, Running.of(engine, work)):
             work.call(*work.arguments)
     finally:
         if group is not None:
@@ -69,13 +87,18 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
     return True
 
 
-async def _recorded(engine: Engine, work: Work, group: Any) -> Any:
+async def _recorded(engine: Engine, work: Work, running: Running) -> Any:
+    engine.suspended.append(running)
     try:
-        with recording(engine, work):
-            return await work.call(*work.arguments)
+        return await work.call(*work.arguments)
+    except BaseException as error:
+        engine.recorder.error(error, running.name, running.node)
+        raise
     finally:
-        if group is not None:
-            group.ending_execution(work.entity)
+        engine.suspended.remove(running)
+        engine.recorder.callback(running)
+        if running.group is not None:
+            running.group.ending_execution(work.entity)
 
 
 def _resume(engine: Engine, work: Work) -> bool:
@@ -84,19 +107,25 @@ def _resume(engine: Engine, work: Work) -> bool:
     if inspect.iscoroutine(task._handler):
         _step(engine, task)
     else:  # a done callback of a future, or a function given to create_task()
-        with recording(engine, work):
+        with _OnStack(engine, Running.of(engine, work)):
             _step(engine, task)
     if task.done() or _position(task) != before:
         engine.activity += 1
         return True
-    task._sim_seen = (
-        engine.activity
-    )  # it still waits for the same thing: ask again when something has happened
+    task._sim_seen = engine.activity  # it waits for the same thing still: ask again when something has happened
     return False
 
 
 def _step(engine: Engine, task: Task) -> None:
-    task()
+    running = getattr(task, "_sim_running", None)
+    stack = engine.current.callbacks
+    if running is not None:
+        stack.append(running)
+    try:
+        task()
+    finally:
+        if running is not None:
+            stack.remove(running)
     if task.done() and task.exception() is not None:
         error = task.exception()
         engine.recorder.error(error, callback_name(task))
@@ -112,19 +141,18 @@ def _position(task: Task) -> tuple[int, ...]:
     return tuple(place)
 
 
-@contextmanager
-def recording(engine: Engine, work: Work) -> Iterator[None]:
-    """Record a callback's name, node, duration in simulated time, and the exception that leaves it."""
-    name = callback_name(work.names or work.call)
-    node = engine.recorder.name_of(work.node)
-    began, names = engine.now, engine.current.callbacks
-    names.append((name, node, began))
-    try:
-        yield
-    except BaseException as error:
-        engine.recorder.error(error, name, node)
-        raise
-    finally:
-        if (name, node, began) in names:
-            names.remove((name, node, began))
-        engine.recorder.callback(began, name, node, work.kind)
+class _OnStack:
+    """Records a callback's name, node, duration in simulated time, and the exception that leaves it."""
+
+    def __init__(self, engine: Engine, running: Running) -> None:
+        self.engine, self.running = engine, running
+
+    def __enter__(self) -> None:
+        self.callbacks = self.engine.current.callbacks
+        self.callbacks.append(self.running)
+
+    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
+        if error is not None:
+            self.engine.recorder.error(error, self.running.name, self.running.node)
+        self.callbacks.pop()
+        self.engine.recorder.callback(self.running)

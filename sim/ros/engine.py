@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import contextlib
+import inspect
 import random
-import weakref
 from collections.abc import Callable, Iterable
 from typing import Any
 
 import rclpy
 import rclpy.context
 import rclpy.utilities
-from rclpy.clock import ROSClock
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
-from rclpy.time import Time
 
 from sim.recording import Ended, Recording
-from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT
+from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT, Running
+from sim.ros.endings import conclusion
 from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
-from sim.ros.guard import Guard, Hang, Interrupted
+from sim.ros.guard import Guard, Interrupted
 from sim.ros.processes import Process, StudentProcess
 from sim.ros.recorder import Recorder, destroy
+from sim.ros.simtime import SimulatedTime
 
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
@@ -46,8 +46,7 @@ class Engine(Scheduler):
         self.processes: list[StudentProcess] = []
         self.echo: Callable[[str], None] = lambda text: None
         self._callbacks = self._callbacks_before = 0
-        self._clocks: list[weakref.ref[ROSClock]] = []
-        self._handles: list[Any] = []
+        self.suspended: list[Running] = []  # coroutine callbacks that wait for something
         self._at_end: list[Callable[[], Any]] = []
         self._fault: Ended | None = None
 
@@ -57,8 +56,7 @@ class Engine(Scheduler):
         self._user = (rclpy.utilities.g_default_context, rclpy.__dict__["__executor"])
         self._log_users = rclpy.context.g_logging_ref_count
         self.context.init(args=["run"])
-        self.clock = ROSClock()
-        self.adopt_clock(self.clock)
+        self.time = SimulatedTime(self)
         activate(self)
         return self
 
@@ -80,8 +78,7 @@ class Engine(Scheduler):
             self.context.try_shutdown()
             self.context.destroy()
             rclpy.context.g_logging_ref_count = self._log_users
-            self._clocks.clear()
-            self._handles.clear()
+            del self.time
             self.executors.clear()
 
     def _wind_down(self) -> None:
@@ -117,21 +114,6 @@ class Engine(Scheduler):
 
     # -- time ----------------------------------------------------------------------------------------------------
 
-    def adopt_clock(self, clock: ROSClock) -> None:
-        """Let this ROS clock show the run's time."""
-        with clock.handle:
-            clock.handle.set_ros_time_override(self._time()._time_handle)
-            clock.handle.set_ros_time_override_is_enabled(True)
-        self._handles.append(clock.handle)
-        self._clocks.append(weakref.ref(clock))
-
-    def owns_clock(self, clock: Any) -> bool:
-        """Whether a clock shows the run's time."""
-        return any(reference() is clock for reference in self._clocks)
-
-    def _time(self) -> Time:
-        return Time(nanoseconds=self.now)
-
     def run_until(
         self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
     ) -> Ended:
@@ -150,41 +132,18 @@ class Engine(Scheduler):
                 if over is None and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
-                self._advance(self._next_moment(end))
+                self.time.move_to(self.time.next_moment(end))
+                self.activity += 1
+                self._callbacks_before = self._callbacks
                 self.settle()
         except Livelock as livelock:
             self._fault = self._fault or Ended("livelock", self.recorder.now, f"{livelock}.")
         self.recording.stamp = self.recorder.now
-        return self._fault or self._conclusion(over)
+        return self._fault or conclusion(self, over)
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""
         return any(fiber.process is process and not fiber.done for fiber in self.fibers)
-
-    def _next_moment(self, end: Nanoseconds) -> Nanoseconds:
-        moment = end
-        for fiber in self.fibers:
-            if fiber.wake_at is not None and self.now < fiber.wake_at < moment:
-                moment = fiber.wake_at
-            if fiber.executor is None:
-                continue
-            for timer in fiber.executor.timers:
-                try:
-                    handle = timer.handle
-                    left = None if handle.is_timer_canceled() else handle.time_until_next_call()
-                except InvalidHandle:
-                    continue
-                if left is not None and 0 < left < moment - self.now:
-                    moment = self.now + left
-        return moment
-
-    def _advance(self, moment: Nanoseconds) -> None:
-        self.now = moment
-        self.activity += 1
-        self._callbacks_before = self._callbacks
-        time = self._time()._time_handle
-        for handle in self._handles:
-            handle.set_ros_time_override(time)
 
     # -- what student code reports through the hooks -------------------------------------------------------------
 
@@ -245,8 +204,6 @@ class Engine(Scheduler):
                 self.recorder.error(error, name, self.recorder.name_of(node))
                 raise
 
-        import inspect
-
         return call_later if inspect.iscoroutinefunction(function) else call
 
     def describe_current(self) -> str:
@@ -255,8 +212,8 @@ class Engine(Scheduler):
         if fiber is None:
             return "The run"
         if fiber.callbacks:
-            name, node, _ = fiber.callbacks[-1]
-            return f"Callback {name} of node {node} at t = {self.recorder.now:g} s"
+            running = fiber.callbacks[-1]
+            return f"{running.name} of node {running.node} at t = {self.recorder.now:g} s"
         return f"{fiber.name}() at t = {self.recorder.now:g} s"
 
     # -- endings -------------------------------------------------------------------------------------------------
@@ -282,29 +239,6 @@ class Engine(Scheduler):
             if all(f.daemon for f in threads):
                 self._free(process)
 
-    def _conclusion(self, over: Nanoseconds | None) -> Ended:
-        now, errors = self.recorder.now, self.recording.errors
-        if errors:
-            first = errors[0]
-            return Ended("error", now, f"{first.callback} of {first.node} raised {first.type}: {first.text}")
-        if over is not None:
-            return Ended("finished", now, f"Every program had ended by t = {over / SECOND:g} s.")
-        blocked = self._blocked()
-        if blocked is not None:
-            return Ended("blocked", now, blocked)
-        return Ended("time", now, f"All {now:g} s were run.")
-
-    def _blocked(self) -> str | None:
-        for fiber in self.fibers:
-            if fiber.callbacks and fiber.wake_at is None and self.recorder.open:
-                name, node, began = fiber.callbacks[-1]
-                if self.now - began >= SECOND:
-                    return (
-                        f"Callback {name} of node {node} has waited since t = {began / SECOND:g} s for {fiber.waits_for}"
-                        " and never returned"
-                    )
-        return None
-
 
 class _Chance:
     """The run's own source of chance, so that the student's use of `random` doesn't shift it."""
@@ -315,5 +249,3 @@ class _Chance:
     def bytes(self, size: int) -> bytes:
         return self._random.randbytes(size)
 
-
-__all__ = ["Engine", "Hang"]

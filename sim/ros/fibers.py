@@ -48,8 +48,8 @@ class Fiber:
         self.thrown: BaseException | None = None
         self.started = False
         self.daemon = False
-        self.executor: Any = None  # the executor it spins while it waits in spin()
-        self.callbacks: list[str] = []  # names of the callbacks it is in, outermost first
+        self.spins: Any = None  # the executor's plan, while it waits in spin()
+        self.callbacks: list[Any] = []  # those on its stack, outermost first
         self.waits_for = ""
         self.ready: Callable[[], bool] | None = None
         self.wake_at: Nanoseconds | None = None
@@ -126,13 +126,13 @@ class Scheduler:
         fiber = self.current
         assert fiber is not None, "only a fiber can wait"
         fiber.ready, fiber.wake_at, fiber.waits_for, fiber.clock_reads = ready, until, waits_for, 0
-        fiber.executor = spinning
+        fiber.spins = spinning
         if spinning is None:
             self.activity += 1
         else:
             fiber.seen_activity = self.activity
         self.hub.switch()
-        fiber.ready = fiber.wake_at = fiber.seen_activity = fiber.executor = None
+        fiber.ready = fiber.wake_at = fiber.seen_activity = fiber.spins = None
         if fiber.thrown is not None:
             error, fiber.thrown = fiber.thrown, None
             raise error

@@ -87,7 +87,7 @@ class Guard:
 
     def _describe(self, frame: FrameType | None, computing: float, waiting: float) -> str:
         where = self.engine.describe_current()
-        line = _student_line(frame)
+        line = student_line(frame)
         if computing >= COMPUTING_LIMIT:
             what = f"computed for {COMPUTING_LIMIT:g} s without coming to an end"
         else:
@@ -95,12 +95,13 @@ class Guard:
         return f"{where} {what}{line}."
 
 
-def _student_line(frame: FrameType | None) -> str:
+def student_line(frame: FrameType | None) -> str:
+    """Where in the student's own code a stack stands, for the end of a sentence."""
     import linecache
 
-    from sim.ros.recorder import is_own_file
+    from sim.ros.recorder import is_library
 
-    while frame is not None and is_own_file(frame.f_code.co_filename):
+    while frame is not None and is_library(frame.f_code.co_filename):
         frame = frame.f_back
     if frame is None:
         return ""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
+import sysconfig
 import traceback
 from typing import Any
 
 import greenlet
-import rclpy
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException
 
@@ -21,7 +21,7 @@ from sim.recording import (
     Recording,
     TimerInfo,
 )
-from sim.ros.callbacks import callback_name
+from sim.ros.callbacks import Running, callback_name
 from sim.ros.cdr import canonical
 from sim.ros.codec import type_name
 from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
@@ -42,7 +42,8 @@ NO_FAULT = (
     greenlet.GreenletExit,
     ExternalShutdownException,
 )
-_OWN_FRAMES = (os.path.dirname(os.path.dirname(__file__)), os.path.dirname(rclpy.__file__))
+# Code that is no student's: this package, installed libraries, Python's own.
+_LIBRARIES = (os.path.dirname(os.path.dirname(__file__)), *sysconfig.get_paths().values(), "<frozen ")
 
 
 class Recorder:
@@ -109,11 +110,12 @@ class Recorder:
         self.recording.logs.append(line)
         return line
 
-    def callback(self, began: int, name: str, node: str, kind: str) -> None:
+    def callback(self, running: Running) -> None:
         """A callback has returned."""
         if self.open:
-            duration = (self.scheduler.now - began) / SECOND
-            self.recording.callbacks.append(CallbackRun(began / SECOND, duration, node, name, kind))
+            began = running.began / SECOND
+            duration = (self.scheduler.now - running.began) / SECOND
+            self.recording.callbacks.append(CallbackRun(began, duration, running.node, running.name, running.kind))
 
     def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
         """An exception left a callback, a thread or a main(). The same one is kept once."""
@@ -139,14 +141,14 @@ def _is_hang(error: BaseException) -> bool:
 
 
 def student_frames(error: BaseException) -> list[traceback.FrameSummary]:
-    """The frames of an exception that are the student's own: none of this package, none of rclpy."""
+    """The frames of an exception that are the student's own."""
     frames = traceback.extract_tb(error.__traceback__)
-    return [frame for frame in frames if not is_own_file(frame.filename)]
+    return [frame for frame in frames if not is_library(frame.filename)]
 
 
-def is_own_file(filename: str) -> bool:
-    """Whether a source file belongs to this package or to rclpy."""
-    return filename.startswith(_OWN_FRAMES)
+def is_library(filename: str) -> bool:
+    """Whether a source file is part of a library, this package or Python, and so not the student's."""
+    return filename.startswith(_LIBRARIES)
 
 
 def _qos(profile: Any) -> dict[str, Any]:

@@ -97,9 +97,13 @@ def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
         show(text)
 
     def complained(text: str) -> None:
+        show(text)
         recording.stderr = (recording.stderr + text)[:MAX_PRINTED]
 
-    with file_descriptor_2(complained), student_streams(printed, complained), engine.guard.watch():
+    def below_python(text: str) -> None:
+        recording.stderr = (recording.stderr + text)[:MAX_PRINTED]
+
+    with file_descriptor_2(below_python), student_streams(printed, complained), engine.guard.watch():
         with engine:
             yield engine
     show.close()

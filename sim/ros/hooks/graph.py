@@ -70,7 +70,7 @@ def create_client(original: Callable) -> Callable:
         if run is not None:
             run.has_clients = True
             run.endpoints_changed()
-            name = self.resolve_service_name(srv_name)
+            name = client._sim_name = self.resolve_service_name(srv_name)
             run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
         return client
 

@@ -35,6 +35,17 @@ def context_handle(original: property) -> property:
     return property(handle, doc=original.__doc__)
 
 
+@hook(rclpy, "ok", "`while rclpy.ok():` without a wait must take time, as on a robot")
+def ok(original: Callable) -> Callable:
+    def ok(**keywords: Any) -> bool:
+        run = engine()
+        if run is not None:
+            run.clock_was_read()
+        return original(**keywords)
+
+    return ok
+
+
 def _no_signal_handlers(name: str) -> None:
     @hook(rclpy, name, "rclpy's handlers would take the interrupt away from the notebook's kernel")
     def ignore(original: Callable) -> Callable:

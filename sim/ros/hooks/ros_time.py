@@ -32,7 +32,7 @@ def new_clock(original: Callable) -> Callable:
         clock = original(cls, **keywords)
         run = engine()
         if run is not None and clock.clock_type is ClockType.ROS_TIME:
-            run.adopt_clock(clock)
+            run.time.adopt(clock)
         return clock
 
     return __new__
@@ -91,9 +91,9 @@ def sleep_until(original: Callable) -> Callable:
 def timer_init(original: Callable) -> Callable:
     def __init__(self: Timer, callback: Any, group: Any, period: int, clock: Clock, **keywords: Any) -> None:
         run = engine()
-        if run is None or run.owns_clock(clock):
+        if run is None or run.time.shown_by(clock):
             return original(self, callback, group, period, clock, **keywords)
-        original(self, callback, group, period, run.clock, **keywords)
+        original(self, callback, group, period, run.time.clock, **keywords)
         self._clock = clock
         return None
 

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from sim.ros.callbacks import callback_name
 from sim.ros.fibers import SECOND, engine
 from sim.ros.hooks import hook
 from sim.ros.locks import FiberLock, FiberRLock
@@ -20,7 +21,9 @@ def start(original: Callable) -> Callable:
         if run is None:
             return original(self)
         self._started.set()
-        self._sim_fiber = run.spawn(self.run, f"thread {self.name}", run.current.process)
+        # Not the thread's name: it counts all threads of the kernel, and would make every run different.
+        name = f"thread {callback_name(self._target or type(self))}"
+        self._sim_fiber = run.spawn(self.run, name, run.current.process)
         self._sim_fiber.daemon = self.daemon
         return None
 

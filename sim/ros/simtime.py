@@ -1,0 +1,63 @@
+"""The simulated time of a run: all ROS clocks at once, and the next moment at which something is due."""
+
+from __future__ import annotations
+
+import weakref
+from typing import Any
+
+from rclpy.clock import ROSClock
+from rclpy.exceptions import InvalidHandle
+from rclpy.time import Time
+
+from sim.ros.fibers import Nanoseconds, Scheduler
+
+
+class SimulatedTime:
+    """Sets the time on rclpy's clocks directly: a /clock message would switch nodes one by one, and late."""
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+        self._clocks: list[weakref.ref[ROSClock]] = []
+        self._handles: list[Any] = []
+        self.clock = ROSClock()  # for timers whose own clock can't be set
+        self.adopt(self.clock)
+
+    def adopt(self, clock: ROSClock) -> None:
+        """Let this ROS clock show the run's time."""
+        with clock.handle:
+            clock.handle.set_ros_time_override(Time(nanoseconds=self._scheduler.now)._time_handle)
+            clock.handle.set_ros_time_override_is_enabled(True)
+        self._handles.append(clock.handle)
+        self._clocks.append(weakref.ref(clock))
+
+    def shown_by(self, clock: Any) -> bool:
+        """Whether a clock shows the run's time."""
+        return any(reference() is clock for reference in self._clocks)
+
+    def move_to(self, moment: Nanoseconds) -> None:
+        """Let it be `moment` everywhere."""
+        self._scheduler.now = moment
+        time = Time(nanoseconds=moment)._time_handle
+        for handle in self._handles:
+            handle.set_ros_time_override(time)
+
+    def next_moment(self, end: Nanoseconds) -> Nanoseconds:
+        """The next time at which a fiber wakes or a timer of a spinning executor is due; `end` at the latest.
+
+        To stop at every due time matters: a timer that is passed over drops its ticks.
+        """
+        now, moment = self._scheduler.now, end
+        for fiber in self._scheduler.fibers:
+            if fiber.wake_at is not None and now < fiber.wake_at < moment:
+                moment = fiber.wake_at
+            if fiber.spins is None:
+                continue
+            for timer in fiber.spins.timers:
+                try:
+                    handle = timer.handle
+                    left = None if handle.is_timer_canceled() else handle.time_until_next_call()
+                except InvalidHandle:
+                    continue
+                if left is not None and 0 < left < moment - now:
+                    moment = now + left
+        return moment
