@@ -1,0 +1,48 @@
+"""Print the type hash of every interface and whether it is upstream's: python interfaces/type_hashes.py
+
+Equal hashes mean equal names and fields, down to the last nested message (REP-2011).
+"""
+
+import json
+import sys
+import tomllib
+
+from build_tools.content import ROOT
+from build_tools.toolchain import ros_prefix
+
+
+def installed() -> dict[str, str]:
+    """Return {type name: hash} for every interface that definitions/ describes, and for its parts."""
+    hashes = {}
+    for package in sorted(path.name for path in (ROOT / "definitions").iterdir()):
+        for file in sorted(ros_prefix().glob(f"share/{package}/*/*.json")):
+            described = json.loads(file.read_text(encoding="utf-8"))["type_hashes"]
+            own = (entry for entry in described if entry["type_name"].startswith(f"{package}/"))
+            hashes |= {entry["type_name"]: entry["hash_string"] for entry in own}
+    return hashes
+
+
+def upstream() -> dict[str, str]:
+    """Return {type name: hash} for the interfaces whose upstream hash is known."""
+    return tomllib.loads((ROOT / "upstream_hashes.toml").read_text(encoding="utf-8"))
+
+
+def verdict(found: str, wanted: str | None) -> str:
+    """Return in words how a hash compares with upstream's (None: not recorded)."""
+    if wanted is None:
+        return "no upstream hash recorded"
+    return "as upstream" if found == wanted else f"upstream has {wanted}"
+
+
+def main() -> int:
+    """Print one line per interface and per recorded part; return 1 if one differs from upstream's."""
+    found, wanted = installed(), upstream()
+    for name, type_hash in sorted(found.items()):
+        # The hash of a service or action covers its parts, such as Spin_Goal.
+        if "_" not in name.split("/")[2] or name in wanted:
+            print(f"{name}  {type_hash}  {verdict(type_hash, wanted.get(name))}")
+    return int(not wanted.items() <= found.items())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,144 @@
+"""What the build says when it cannot go on, and that two builds are equal."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from build_tools import toolchain
+from build_tools.compile import compile_package
+from build_tools.generate import Package, generate
+from build_tools.toolchain import BuildError, require_compilers, ros_prefix
+
+NO_WHEELS = (
+    "Building the ROS interfaces needs the ROS wheels, but rosidl_generator_c is missing: "
+    "run `pip install 'ros-jazzy-rclpy[fastrtps]' ros-jazzy-common-interfaces` and try again."
+)
+
+
+def needs(missing: str, verb: str, command: str) -> str:
+    return (
+        f"Building the ROS interfaces needs gcc, g++ and Python.h, but {missing} {verb} missing: "
+        f"run `{command}` and try again."
+    )
+
+
+def package(directory: Path, **definitions: str) -> Package:
+    """A package whose messages are the keyword arguments, {name: text}."""
+    (directory / "source" / "msg").mkdir(parents=True)
+    for name, text in definitions.items():
+        (directory / "source" / "msg" / f"{name}.msg").write_text(text, encoding="utf-8")
+    return Package("try_msgs", directory / "source", directory / "output")
+
+
+def command(directory: Path, name: str, script: str) -> None:
+    """Put a program of ours before the machine's own."""
+    program = directory / name
+    program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+    program.chmod(0o755)
+
+
+def test_all_that_a_build_needs_is_found_here():
+    require_compilers()
+    assert ros_prefix() == Path(sys.prefix)
+
+
+def test_without_a_compiler_the_build_names_the_packages_to_install(monkeypatch, tmp_path):
+    command(tmp_path, "gcc", "exit 0")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(os, "geteuid", lambda: 1000)
+    with pytest.raises(BuildError) as stop:
+        require_compilers()
+    assert str(stop.value) == needs("g++", "is", "sudo apt install build-essential python3-dev")
+
+
+def test_root_in_a_container_is_told_to_install_without_sudo(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(os, "geteuid", lambda: 0)
+    monkeypatch.setattr(toolchain.sysconfig, "get_path", lambda name: str(tmp_path))
+    with pytest.raises(BuildError) as stop:
+        require_compilers()
+    missing = "gcc and g++ and Python.h"
+    assert str(stop.value) == needs(missing, "are", "apt install build-essential python3-dev")
+
+
+def test_without_the_ros_wheels_the_build_says_how_to_install_them(monkeypatch):
+    monkeypatch.setattr(toolchain.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(BuildError) as stop:
+        ros_prefix()
+    assert str(stop.value) == NO_WHEELS
+
+
+def test_a_package_without_definitions_is_refused(tmp_path):
+    empty = package(tmp_path)
+    with pytest.raises(BuildError) as stop:
+        generate(empty)
+    assert str(stop.value) == f"try_msgs has no .msg, .srv or .action file under {tmp_path}/source."
+
+
+def test_a_definition_that_uses_a_package_nobody_provides_is_refused(tmp_path):
+    with pytest.raises(BuildError) as stop:
+        generate(package(tmp_path, Lost="lost_msgs/Thing thing\ngone_msgs/Thing other\n"))
+    assert str(stop.value) == "try_msgs uses gone_msgs, lost_msgs, which no installed ROS wheel provides."
+
+
+def test_a_failing_compiler_is_quoted_with_its_command(monkeypatch, tmp_path):
+    made = package(tmp_path, Number="int32 data\n")
+    dependencies = generate(made)
+    command(tmp_path, "gcc", "echo no space left >&2; exit 1")
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    with pytest.raises(BuildError) as stop:
+        compile_package(made, dependencies)
+    first, words, last = str(stop.value).splitlines()
+    assert first == "This step of the interface build failed:"
+    assert words.startswith("gcc -std=gnu11 -DPy_LIMITED_API=0x030B0000 ")
+    assert last == "no space left"
+
+
+def test_a_library_that_does_not_load_is_refused_with_the_loaders_reason(monkeypatch, tmp_path):
+    made = package(tmp_path, Number="int32 data\n")
+    dependencies = generate(made)
+    # A linker that leaves everything out: the library links, and its first symbol is missing.
+    linker = shutil.which("g++")
+    lost = f'echo "int lost(); int x = lost();" | {linker} -shared -fPIC -x c++ - -o "$4"'
+    command(tmp_path, "g++", f'case "$*" in *-shared*) {lost};; *) exec {linker} "$@";; esac')
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    with pytest.raises(BuildError, match=r"undefined symbol: _Z4lostv$"):
+        compile_package(made, dependencies)
+
+
+def test_the_build_of_one_package_stops_with_the_reason_alone(tmp_path, definitions):
+    (tmp_path / "empty").mkdir()
+    words = [
+        sys.executable,
+        "-m",
+        "build_tools",
+        "try_msgs",
+        str(tmp_path / "empty"),
+        str(tmp_path / "output"),
+    ]
+    done = subprocess.run(words, cwd=definitions.parent, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1
+    assert done.stderr == f"try_msgs has no .msg, .srv or .action file under {tmp_path}/empty.\n"
+
+
+def test_two_builds_in_two_places_are_equal(tmp_path, definitions):
+    made = []
+    for place in ("here", "there"):
+        output = tmp_path / place / "output"
+        output.mkdir(parents=True)
+        words = [sys.executable, "-m", "build_tools", "tf2_msgs", str(definitions / "tf2_msgs"), str(output)]
+        seeded = {**os.environ, "PYTHONHASHSEED": "0"}
+        subprocess.run(
+            words, cwd=definitions.parent, env=seeded, check=True, capture_output=True, timeout=120
+        )
+        files = [
+            file
+            for file in output.glob("[sp]*/**/*.*")
+            if file.suffix in (".py", ".so", ".json", ".idl", ".msg")
+        ]
+        made.append({str(file.relative_to(output)): file.read_bytes() for file in files})
+    assert "python/tf2_msgs/tf2_msgs_s__rosidl_typesupport_c.so" in made[0]
+    assert made[0] == made[1]

@@ -1,0 +1,88 @@
+"""`python interfaces/install.py` is silent when there is nothing to do and clear when it cannot go on."""
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from importlib import metadata
+from pathlib import Path
+
+import install
+import pytest
+from build_tools.content import version
+
+
+@pytest.fixture
+def changed(tmp_path, definitions) -> Path:
+    """A copy of interfaces/ with one more package, so that its content is not installed and not cached."""
+    copy = tmp_path / "interfaces"
+    shutil.copytree(definitions.parent, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    message = copy / "definitions" / "a_msgs" / "msg" / "Broken.msg"
+    message.parent.mkdir(parents=True)
+    message.write_text("int32 two names\n", encoding="utf-8")
+    return copy
+
+
+def run(script: Path, *python: str, **variables: str) -> subprocess.CompletedProcess:
+    command = [sys.executable, *python, str(script / "install.py")]
+    environment = {**os.environ, **variables}
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+
+
+def files(directory: Path) -> set[Path]:
+    return {path for path in directory.rglob("*") if "__pycache__" not in path.parts}
+
+
+def test_the_content_at_hand_is_what_is_installed():
+    assert metadata.version("ros2-course-interfaces") == version()
+
+
+def test_a_second_call_is_silent_leaves_no_file_behind_and_takes_well_under_a_second(definitions):
+    before, start = files(definitions.parent), time.monotonic()
+    done = run(definitions.parent)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert time.monotonic() - start < 1.0
+    assert files(definitions.parent) == before
+
+
+def test_a_change_of_any_source_gives_another_version(changed):
+    asked = "from build_tools.content import version; print(version())"
+    words = [sys.executable, "-c", asked]
+    other = subprocess.run(words, cwd=changed, capture_output=True, text=True, check=True, timeout=60)
+    assert other.stdout.strip() != version()
+
+
+def test_without_a_compiler_it_stops_with_one_sentence(changed, tmp_path):
+    done = run(changed, PATH=str(tmp_path), XDG_CACHE_HOME=str(tmp_path / "cache"))
+    sudo = "sudo " if os.geteuid() else ""
+    assert done.returncode == 1
+    assert done.stderr == (
+        "Building the ROS interfaces needs gcc, g++ and Python.h, but gcc and g++ are missing: "
+        f"run `{sudo}apt install build-essential python3-dev` and try again.\n"
+    )
+
+
+def test_without_the_ros_wheels_it_stops_with_one_sentence(definitions):
+    done = run(definitions.parent, "-S")
+    assert done.returncode == 1
+    assert done.stderr == (
+        "Building the ROS interfaces needs the ROS wheels, but rosidl_generator_c is missing: "
+        "run `pip install 'ros-jazzy-rclpy[fastrtps]' ros-jazzy-common-interfaces` and try again.\n"
+    )
+
+
+def test_a_definition_with_an_error_stops_the_build_and_the_reason_is_shown(changed, tmp_path):
+    before = files(changed)
+    done = run(changed, XDG_CACHE_HOME=str(tmp_path / "cache"))
+    assert done.returncode == 1
+    assert "Broken.msg" in done.stderr
+    assert "The interface package a_msgs could not be built; the reason is above.\n" in done.stderr
+    assert done.stderr.endswith("\nThe ROS interfaces could not be built; the reason is above.\n")
+    assert files(changed) == before
+    assert not (tmp_path / "cache").exists()
+
+
+def test_without_an_installed_wheel_there_is_no_version(monkeypatch):
+    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
+    assert install.installed() is None
