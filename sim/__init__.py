@@ -1,4 +1,4 @@
-"""A simulated robot for ROS 2 nodes: run them on the real rclpy, in simulated time, and look at what they did."""
+"""A simulated robot for ROS 2 nodes: run them on the real rclpy, in simulated time; see what they did."""
 
 from sim import environment
 

@@ -32,6 +32,8 @@ def prepare() -> None:
         os.environ.pop(name, None)
     # rclpy.init() fails where it can't write its log files.
     os.environ.setdefault("ROS_LOG_DIR", os.path.join(tempfile.gettempdir(), f"ros-log-{os.getuid()}"))
+    # Where ROS looks for packages' shared files, such as message definitions: here, where pip put them.
+    os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
     for module in list(sys.modules.values()):  # message modules read the switch when they are imported
         if getattr(module, "ros_python_check_fields", None) is not None:
             module.ros_python_check_fields = "1"

@@ -1,9 +1,10 @@
 """What a run leaves behind: evidence as plain data.
 
-A recording holds no live node. Messages are kept as the bytes that were sent (CDR, the format on the wire), so nothing
-can change after the fact, and are turned back into message objects when somebody looks at them.
+A recording holds no live node. Messages are kept as the bytes that were sent (CDR, the format on the wire),
+so nothing can change after the fact, and are turned back into message objects when somebody looks at them.
 
-Stamps are simulated seconds since the start of the run. Poses are in the `map` frame: metres, and radians in (-pi, pi].
+Stamps are simulated seconds since the start of the run. Poses are in the `map` frame: metres, and radians in
+(-pi, pi].
 """
 
 from __future__ import annotations
@@ -103,6 +104,9 @@ class Ended(NamedTuple):
     detail: str  # one sentence for the reader
 
 
+STILL_RUNNING = Ended("running", 0.0, "The run has not ended yet.")
+
+
 @dataclass
 class Graph:
     """All nodes of a run and what they were connected to."""
@@ -129,7 +133,7 @@ INFRASTRUCTURE_TOPICS = frozenset({"/parameter_events", "/rosout", "/clock"})
 
 @dataclass
 class Recording:
-    """Everything one run left behind. `until` conditions see it while it grows; checks see it when it's complete."""
+    """Everything one run left behind. `until` sees it while it grows; checks see it when it is complete."""
 
     world: World | None = None  # None for a run without a robot
     seconds: Seconds = 0.0
@@ -144,7 +148,7 @@ class Recording:
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
-    ended: Ended = Ended("running", 0.0, "The run has not ended yet.")
+    ended: Ended = STILL_RUNNING
 
     def messages(self, topic: str | None = None, sender: str | None = None) -> list[Heard]:
         """Messages in the order they were sent; of one topic, of one node, or all but ROS's own chatter.
@@ -165,7 +169,7 @@ class Recording:
     def digest(self) -> str:
         """One hex string for the whole run: equal runs have equal digests.
 
-        What was printed is left out: it is for the screen, and may hold addresses that differ from process to process.
+        What was printed is left out: it is for the screen, and may hold addresses, which differ every time.
         """
         digest = hashlib.blake2b(digest_size=16)
         for heard in self.heard:

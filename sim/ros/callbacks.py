@@ -112,7 +112,9 @@ def _resume(engine: Engine, work: Work) -> bool:
     if task.done() or _position(task) != before:
         engine.activity += 1
         return True
-    task._sim_seen = engine.activity  # it waits for the same thing still: ask again when something has happened
+    task._sim_seen = (
+        engine.activity
+    )  # it waits for the same thing still: ask again when something has happened
     return False
 
 

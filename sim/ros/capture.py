@@ -13,7 +13,7 @@ from sim.ros.fibers import engine
 
 
 class StudentStream:
-    """Stands for a text stream during a run: student code's writes go to `write`, everybody else's to the original."""
+    """Stands for a text stream during a run: student code writes to `write`, all others to the original."""
 
     def __init__(self, original: TextIO, write: Callable[[str], None]) -> None:
         self._original, self._write = original, write

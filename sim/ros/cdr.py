@@ -1,7 +1,8 @@
 """Canonical message bytes: equal messages, equal bytes.
 
-CDR aligns each value to its size, and Fast CDR leaves whatever was in memory in the gaps and behind the end. `canonical`
-clears the gaps and cuts the end, so that recordings can be compared byte by byte. Layout: DDS-XTypes 1.3, 7.4 (plain CDR).
+CDR aligns each value to its size, and Fast CDR leaves whatever was in memory in the gaps and behind the
+end. `canonical` clears the gaps and cuts the end, so that recordings can be compared byte by byte. Layout:
+DDS-XTypes 1.3, 7.4 (plain CDR).
 """
 
 from __future__ import annotations

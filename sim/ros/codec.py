@@ -18,7 +18,7 @@ def type_name(message_class: type) -> str:
 
 @functools.cache
 def message_class(name: str) -> type:
-    """The class for a name such as "std_msgs/msg/String". Raises ImportError or AttributeError if there is none."""
+    """The class of that name, e.g. "std_msgs/msg/String". Raises ImportError or AttributeError for none."""
     package, kind, short = name.split("/")
     return getattr(importlib.import_module(f"{package}.{kind}"), short)
 

@@ -14,6 +14,7 @@ from sim.ros.guard import student_line
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
 
+AFTER_RETURN = "can only be handled in the same callback group, after it has returned."
 BLOCKED_AFTER = SECOND  # of waiting; until then a callback is just slow
 
 
@@ -38,19 +39,24 @@ def _blocked_call(engine: Engine) -> str | None:
         if running is None or fiber.wake_at is not None or engine.now - running.began < BLOCKED_AFTER:
             continue
         where = student_line(fiber.greenlet.gr_frame)
-        begin = (
-            f"{running.name} of node {running.node} has waited since t = {running.began / SECOND:g} s and never returned"
-        )
-        return f"{begin}{where}. {_why(engine, fiber, running)}"
+        return f"{_since(running)}{where}. {_why(engine, fiber, running)}"
     return None
+
+
+def _since(running: Running) -> str:
+    since = running.began / SECOND
+    return f"{running.name} of node {running.node} has waited since t = {since:g} s and never returned"
 
 
 def _why(engine: Engine, fiber: Fiber, running: Running) -> str:
     waited = _pending(engine, running)
     if not waited:
         return f"It waits for {fiber.waits_for}."
-    if isinstance(running.group, MutuallyExclusiveCallbackGroup) and waited[0].callback_group is running.group:
-        return f"{_answer_of(waited[0])} can only be handled in the same callback group, after it has returned."
+    if (
+        isinstance(running.group, MutuallyExclusiveCallbackGroup)
+        and waited[0].callback_group is running.group
+    ):
+        return f"{_answer_of(waited[0])} {AFTER_RETURN}"
     return f"{_answer_of(waited[0])} can only be handled by the thread that waits for it."
 
 
@@ -62,11 +68,7 @@ def _blocked_coroutine(engine: Engine) -> str | None:
             continue
         for client in _pending(engine, running):
             if client.callback_group is running.group:
-                return (
-                    f"{running.name} of node {running.node} has waited since t = {running.began / SECOND:g} s and never "
-                    f"returned. {_answer_of(client)} can only be handled in the same callback group, after it has "
-                    "returned."
-                )
+                return f"{_since(running)}. {_answer_of(client)} {AFTER_RETURN}"
     return None
 
 

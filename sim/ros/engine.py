@@ -50,7 +50,7 @@ class Engine(Scheduler):
         self._at_end: list[Callable[[], Any]] = []
         self._fault: Ended | None = None
 
-    # -- set-up and tear-down ------------------------------------------------------------------------------------
+    # -- set-up and tear-down ----------------------------------------------------------------------
 
     def __enter__(self) -> Engine:
         self._user = (rclpy.utilities.g_default_context, rclpy.__dict__["__executor"])
@@ -112,7 +112,7 @@ class Engine(Scheduler):
         """Have something done when the run is over."""
         self._at_end.append(undo)
 
-    # -- time ----------------------------------------------------------------------------------------------------
+    # -- time --------------------------------------------------------------------------------------
 
     def run_until(
         self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
@@ -145,7 +145,7 @@ class Engine(Scheduler):
         """Whether a program still has something to run."""
         return any(fiber.process is process and not fiber.done for fiber in self.fibers)
 
-    # -- what student code reports through the hooks -------------------------------------------------------------
+    # -- what student code reports through the hooks -----------------------------------------------
 
     @property
     def stretch(self) -> int:
@@ -157,7 +157,8 @@ class Engine(Scheduler):
         self._callbacks += 1
         if self._callbacks - self._callbacks_before > MAX_CALLBACKS_PER_INSTANT:
             raise Livelock(
-                f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self.recorder.now:g} s without letting time move on"
+                f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self.recorder.now:g} s"
+                " without letting time move on"
             )
 
     def endpoints_changed(self) -> None:
@@ -166,7 +167,7 @@ class Engine(Scheduler):
         self.activity += 1
 
     def subscribed(self, topic: str, subscription: Any) -> None:
-        """A subscription was made. Waits (in wall time) for the replay that a late joiner of a latched topic gets."""
+        """A subscription was made. Waits, in wall time, for what a late joiner of a latched topic gets."""
         self.endpoints_changed()
         self.rosout_wanted |= topic == "/rosout"
         if subscription.qos_profile.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
@@ -216,7 +217,7 @@ class Engine(Scheduler):
             return f"{running.name} of node {running.node} at t = {self.recorder.now:g} s"
         return f"{fiber.name}() at t = {self.recorder.now:g} s"
 
-    # -- endings -------------------------------------------------------------------------------------------------
+    # -- endings -----------------------------------------------------------------------------------
 
     def fiber_ended(self, fiber: Fiber) -> None:
         """Judge how a fiber ended, and end its process with its main()."""
@@ -248,4 +249,3 @@ class _Chance:
 
     def bytes(self, size: int) -> bytes:
         return self._random.randbytes(size)
-

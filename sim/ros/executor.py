@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rclpy.action import ActionClient, ActionServer
 from rclpy.event_handler import EventHandler
@@ -30,9 +30,11 @@ class OrderedNodes(dict):
     """Stands for an executor's set of nodes; a set's order differs from process to process."""
 
     def add(self, node: Any) -> None:
+        """As `set.add`."""
         self[node] = None
 
     def remove(self, node: Any) -> None:
+        """As `set.remove`."""
         del self[node]
 
 
@@ -49,7 +51,7 @@ class Plan:
         self._pass: Iterator[Work] | None = None
         self._depth = 0  # callbacks of this executor that are on the stack
 
-    # -- questions: the work that an entity has, or None ---------------------------------------------------------
+    # -- questions: the work that an entity has, or None -------------------------------------------
 
     def _build(self) -> None:
         self._questions, self._events, self.timers = [], [], []
@@ -160,7 +162,7 @@ class Plan:
             future._set_executor(self.executor)
         return Work(kind, waitable, node, waitable.execute, (data,))
 
-    _ACTIONS: dict[type, Callable] = {ActionServer: _action_server, ActionClient: _action_client}
+    _ACTIONS: ClassVar[dict[type, Callable]] = {ActionServer: _action_server, ActionClient: _action_client}
 
     def _free(self, entity: Any) -> bool:
         if not self._depth and not self.running and not self.executor._tasks:
@@ -168,7 +170,7 @@ class Plan:
         group = entity.callback_group
         return group is None or group.can_execute(entity)
 
-    # -- one pass over all questions -----------------------------------------------------------------------------
+    # -- one pass over all questions ---------------------------------------------------------------
 
     def _ready(self) -> Iterator[Work]:
         executor = self.executor
@@ -198,13 +200,12 @@ class Plan:
         for _ in range(1 if self._pass is None else 2):
             if self._pass is None:
                 self._pass = self._ready()
-            for (
-                work
-            ) in self._pass:  # not `yield from`, which would close the pass together with this generator
+            # Not `yield from`: that would close the pass together with this generator.
+            for work in self._pass:  # noqa: UP028
                 yield work
             self._pass = None
 
-    # -- spinning ------------------------------------------------------------------------------------------------
+    # -- spinning ----------------------------------------------------------------------------------
 
     def spin_once(
         self, timeout: float | TimeoutObject | None, done: Callable[[], bool], parallel: bool

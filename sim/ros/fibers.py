@@ -1,7 +1,8 @@
 """Fibers and the scheduler: everything in a run happens on one thread, in one order.
 
-Each student `main()`, thread and parallel callback is a fiber (a greenlet). A fiber runs until it would wait; then it
-says what it waits for and hands control back. When nobody can go on, and only then, the engine moves time.
+Each student `main()`, thread and parallel callback is a fiber (a greenlet). A fiber runs until it would
+wait; then it says what it waits for and hands control back. When nobody can go on, and only then, the
+engine moves time.
 """
 
 from __future__ import annotations
@@ -82,7 +83,8 @@ class Fiber:
     def park(self) -> None:
         """Leave this fiber where it is, for ever.
 
-        For code that swallows every exception thrown into it. Freeing its greenlet would throw once more, so it is made
+        For code that swallows every exception thrown into it. Freeing its greenlet would throw once more,
+        so it is made
         immortal: a small leak instead of a lost kernel. Call only from this fiber's own stack.
         """
         ctypes.pythonapi.Py_IncRef(ctypes.py_object(self.greenlet))
@@ -122,7 +124,10 @@ class Scheduler:
         until: Nanoseconds | None = None,
         spinning: Any = None,
     ) -> None:
-        """Suspend the current fiber until `ready()` is true, time `until` has come or, when spinning an executor, anything happened."""
+        """Suspend the current fiber until `ready()` is true or time `until` has come.
+
+        spinning: the plan of an executor that it spins; then it goes on whenever anything happened.
+        """
         fiber = self.current
         assert fiber is not None, "only a fiber can wait"
         fiber.ready, fiber.wake_at, fiber.waits_for, fiber.clock_reads = ready, until, waits_for, 0
@@ -138,7 +143,7 @@ class Scheduler:
             raise error
 
     def clock_was_read(self) -> None:
-        """Called whenever student code looks at a clock, so that waiting in a busy loop takes simulated time."""
+        """Student code looked at a clock. Often enough, that takes time: else a busy loop would never end."""
         fiber = self.current
         fiber.clock_reads += 1
         if fiber.clock_reads > FREE_CLOCK_READS:
@@ -196,7 +201,7 @@ def active() -> Scheduler | None:
 
 
 def engine() -> Any:
-    """The engine whose student code is calling, or None outside student code: the question every hook asks first."""
+    """The engine whose student code is calling, or None: the question that every hook asks first."""
     scheduler = _active
     if scheduler is None or scheduler.current is None or threading.get_ident() != scheduler.thread:
         return None

@@ -1,8 +1,8 @@
 """The guard: student code that never gives control back is stopped, and the kernel lives on.
 
-A timer signal looks in four times a second. If student code has been in one stretch since, and has used too much computing
-time, or waited too long in a call outside our reach, an exception is raised in it. Code that swallows even that is parked.
-Computing time is what is measured, so that a busy machine changes no verdict.
+A timer signal looks in four times a second. If student code has been in one stretch since, and has used too
+much computing time, or waited too long in a call outside our reach, an exception is raised in it. Code that
+swallows even that is parked. Computing time is what is measured, so that a busy machine changes no verdict.
 """
 
 from __future__ import annotations

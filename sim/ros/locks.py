@@ -1,4 +1,4 @@
-"""Locks for fibers. A real lock held by one fiber would stop the one thread that all fibers share, for ever."""
+"""Locks for fibers: a real lock held by one would stop, for ever, the one thread that all of them share."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def _deadline(now: int, timeout: float) -> int | None:
 
 
 class FiberLock:
-    """`threading.Lock` for student code: in a run, waiting for it suspends the fiber and takes simulated time."""
+    """`threading.Lock` for student code: waiting for it suspends the fiber and takes simulated time."""
 
     def __init__(self) -> None:
         self._lock = _thread.allocate_lock()

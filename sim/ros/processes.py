@@ -1,8 +1,9 @@
-"""Student processes: on a robot each `main()` is a program of its own, with its own rclpy.init(), ok() and shutdown().
+"""Student processes: on a robot each `main()` is a program of its own, with its own rclpy.init() and ok().
 
-In a run they share one thread and one real rcl context, because two contexts of one process don't hear each other.
-What each of them must have for itself is its default context and its global executor: those are swapped in whenever one of
-its fibers runs, so that rclpy's own functions need no change.
+In a run they share one thread and one real rcl context, because two contexts of one process don't hear each
+other.
+What each of them must have for itself is its default context and its global executor: those are swapped in
+whenever one of its fibers runs, so that rclpy's own functions need no change.
 """
 
 from __future__ import annotations
@@ -86,16 +87,20 @@ class SharedContext:
             process.global_arguments = words[words.index("--ros-args") + 1 :]
 
     def ok(self) -> bool:
+        """As rcl's context."""
         return self.alive
 
     def shutdown(self) -> None:
+        """As rcl's context, for this process alone."""
         self.alive = False
         self.process.engine.activity += 1
 
     def get_domain_id(self) -> int:
+        """As rcl's context."""
         return self.process.engine.context.get_domain_id()
 
     def destroy_when_not_in_use(self) -> None:
+        """As rcl's context, for this process alone."""
         self.alive = False
 
     def __enter__(self) -> SharedContext:

@@ -28,6 +28,7 @@ from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
 
 MAX_MESSAGES_PER_INSTANT = 20_000
 MAX_LOG_LINES = 100_000
+MAX_PRINTED = 1_000_000  # characters
 # Services that every node has: of no interest to a reader of the graph.
 NODE_SERVICES = frozenset({
     "describe_parameters", "get_parameter_types", "get_parameters", "list_parameters", "set_parameters",
@@ -53,6 +54,7 @@ class Recorder:
         self.scheduler, self.recording = scheduler, recording
         self.open = True
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
+        self._printed = 0
         self._known: list[BaseException] = []
         self._instant = (-1, 0)  # the last publish's time, and how many there were then
 
@@ -110,12 +112,25 @@ class Recorder:
         self.recording.logs.append(line)
         return line
 
+    def printed(self, text: str) -> None:
+        """Student code wrote to stdout."""
+        self._printed += len(text)
+        if self.open and self._printed < MAX_PRINTED:
+            self.recording.prints.append((self.now, text))
+
+    def complained(self, text: str) -> None:
+        """Student code, or a library that it called, wrote to stderr."""
+        if len(self.recording.stderr) < MAX_PRINTED:
+            self.recording.stderr += text
+
     def callback(self, running: Running) -> None:
         """A callback has returned."""
         if self.open:
             began = running.began / SECOND
             duration = (self.scheduler.now - running.began) / SECOND
-            self.recording.callbacks.append(CallbackRun(began, duration, running.node, running.name, running.kind))
+            self.recording.callbacks.append(
+                CallbackRun(began, duration, running.node, running.name, running.kind)
+            )
 
     def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
         """An exception left a callback, a thread or a main(). The same one is kept once."""

@@ -26,10 +26,10 @@ WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 class Robot(Node):
     """A differential-drive robot with a 360-ray lidar and a bumper.
 
-    Subscribes /cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
-    Publishes at 20 Hz /odom, /scan, /joint_states, /tf (odom -> base_link), /bumper (std_msgs/Bool) and /clock, all
-    reliable, which best-effort subscriptions can hear too. /odom starts at zero where the robot starts; the lidar sits
-    at base_link's origin.
+    Subscribes /cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored). Publishes
+    at 20 Hz /odom, /scan, /joint_states, /tf (odom -> base_link), /bumper (std_msgs/Bool) and /clock, all
+    reliable, which best-effort subscriptions can hear too. /odom starts at zero where the robot starts; the
+    lidar sits at base_link's origin.
     """
 
     def __init__(self, simulation: Simulation, recording: Recording) -> None:

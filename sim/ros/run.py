@@ -20,7 +20,7 @@ from sim.ros.processes import Process, as_process
 from sim.world import Simulation, World
 
 ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
-MAX_PRINTED = 1_000_000  # characters kept
+ECHO_CHARACTERS = 20_000
 
 
 def run(
@@ -33,16 +33,18 @@ def run(
 ) -> Recording:
     """Run ROS 2 nodes in simulated time, and return the evidence of what they did.
 
-    nodes: Node classes, functions that return a Node, main() functions, or `Process` objects with launch settings. All run
-        side by side, as programs of their own; what one raises or hangs in is in the recording and never raised here.
+    nodes: Node classes, functions that return a Node, main() functions, or `Process` objects with launch
+        settings. All run side by side, as programs of their own; what one raises or hangs in is in the
+        recording and never raised here.
     world: name of a world or a World, with a robot in it that hears /cmd_vel; None for no robot.
     seconds: simulated time at which the run ends at the latest.
     seed: for the sensors' noise, and for `random` and numpy's generators in the nodes.
-    until: called with the recording so far whenever time is about to move on; the run ends when it returns True.
+    until: called with the recording so far whenever time is about to move on; the run ends when it returns
+    True.
     quiet: don't show what the nodes log and print.
 
-    Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that can't be run,
-    WorldError for a bad world, KeyboardInterrupt when the user interrupts.
+    Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
+    can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts.
     """
     specs = [as_process(node) for node in nodes]
     if active() is not None:
@@ -91,21 +93,21 @@ def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
     show = _Screen(quiet)
     engine.echo = show
 
-    def printed(text: str) -> None:
-        if sum(len(kept) for _, kept in recording.prints[-1:]) < MAX_PRINTED and engine.recorder.open:
-            recording.prints.append((engine.recorder.now, text))
-        show(text)
-
     def complained(text: str) -> None:
         show(text)
-        recording.stderr = (recording.stderr + text)[:MAX_PRINTED]
+        engine.recorder.complained(text)
 
-    def below_python(text: str) -> None:
-        recording.stderr = (recording.stderr + text)[:MAX_PRINTED]
+    def printed(text: str) -> None:
+        show(text)
+        engine.recorder.printed(text)
 
-    with file_descriptor_2(below_python), student_streams(printed, complained), engine.guard.watch():
-        with engine:
-            yield engine
+    with (
+        file_descriptor_2(engine.recorder.complained),
+        student_streams(printed, complained),
+        engine.guard.watch(),
+        engine,
+    ):
+        yield engine
     show.close()
 
 
@@ -113,12 +115,14 @@ class _Screen:
     """Shows the first lines of what nodes say, on stdout: nbgrader takes any text on stderr for a failure."""
 
     def __init__(self, quiet: bool) -> None:
-        self.quiet, self.stream, self.lines = quiet, sys.stdout, 0
+        self.quiet, self.stream = quiet, sys.stdout
+        self.lines = self.characters = 0
 
     def __call__(self, text: str) -> None:
-        before, self.lines = self.lines, self.lines + text.count("\n")
-        if not self.quiet and before < ECHO_LINES:
-            self.stream.write(text)
+        if not self.quiet and self.lines < ECHO_LINES and self.characters < ECHO_CHARACTERS:
+            self.stream.write(text[:ECHO_CHARACTERS])
+        self.lines += text.count("\n")
+        self.characters += len(text)
 
     def close(self) -> None:
         if not self.quiet and self.lines > ECHO_LINES:

@@ -1,4 +1,4 @@
-"""A moving picture of the robot, as an animated PNG: it plays wherever a PNG is shown, and in nbgrader's feedback."""
+"""A moving picture of the robot, as an animated PNG: it plays wherever a PNG is shown, sanitised or not."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Every place where a run reaches into rclpy or Python, in one table.
 
-A hook replaces one attribute, once per process, when `sim` is imported. It asks first whether student code of a run is
-calling; if not, it does just what the original does. So the hooks are inert outside a run, and names that a student binds
-early (`from time import sleep`) go through them too.
+A hook replaces one attribute, once per process, when `sim` is imported. It asks first whether student code
+of a run is calling; if not, it does just what the original does. So the hooks are inert outside a run, and
+names that a student binds early (`from time import sleep`) go through them too.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def install() -> None:
 
 
 def rebind(names: dict[str, Any]) -> None:
-    """Let names bound before the hooks were there (`from time import sleep` in an earlier cell) mean the hooks."""
+    """Let names bound earlier (`from time import sleep` in a cell before) mean the hooks."""
     for name, value in list(names.items()):
         entry = _replaced.get(id(value))
         if entry is not None and entry[0] is value:

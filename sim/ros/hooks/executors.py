@@ -94,7 +94,8 @@ def _no_events_executor(module: ModuleType) -> None:
         def EventsExecutor(**keywords: Any) -> Executor:
             if engine() is not None:
                 raise NotImplementedError(
-                    "EventsExecutor can't run in simulated time. Use SingleThreadedExecutor or MultiThreadedExecutor."
+                    "EventsExecutor can't run in simulated time. "
+                    "Use SingleThreadedExecutor or MultiThreadedExecutor."
                 )
             return original(**keywords)
 

@@ -1,4 +1,4 @@
-"""What student code says and declares: messages, endpoints, timers, log lines. All of it goes into the recording."""
+"""What student code says and declares, for the recording: messages, endpoints, timers, log lines."""
 
 from __future__ import annotations
 

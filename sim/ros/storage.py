@@ -1,0 +1,164 @@
+"""Recordings as files: MCAP, ROS's own recording format, so that `ros2 bag` and Foxglove open them too.
+
+Messages are the file's messages. Everything else (path, contacts, logs, graph, ...) is one JSON attachment.
+Nothing in a file
+is ever executed: no pickle.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import get_package_share_directory
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap.writer import Writer
+
+from sim.recording import (
+    CallbackError,
+    CallbackRun,
+    Contact,
+    Ended,
+    Endpoint,
+    Graph,
+    Heard,
+    LogLine,
+    Pose,
+    Recording,
+    TimerInfo,
+)
+from sim.ros.fibers import SECOND
+from sim.world import Box, Circle, World
+
+ATTACHMENT = "recording.json"
+FORMAT = 1  # of the attachment; raise it when what is in there changes
+ROWS = {
+    "path": Pose,
+    "contacts": Contact,
+    "logs": LogLine,
+    "errors": CallbackError,
+    "callbacks": CallbackRun,
+}
+
+
+class StorageError(Exception):
+    """A file that isn't a recording of this course."""
+
+
+def write(recording: Recording, path: Path) -> Path:
+    """Write a recording to a file."""
+    rest = {
+        name: getattr(recording, name)
+        for name in (*ROWS, "seconds", "seed", "stamp", "prints", "stderr", "ended")
+    }
+    rest |= {"format": FORMAT, "graph": asdict(recording.graph)}
+    rest["world"] = asdict(recording.world) if recording.world is not None else None
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start(profile="ros2", library="sim")
+        _write_messages(writer, recording.heard)
+        writer.add_attachment(0, 0, ATTACHMENT, "application/json", json.dumps(rest, sort_keys=True).encode())
+        writer.finish()
+    return path
+
+
+def _write_messages(writer: Writer, heard: list[Heard]) -> None:
+    schemas: dict[str, int] = {}
+    channels: dict[tuple[str, str, str], int] = {}
+    for number, (stamp, topic, type_, sender, raw) in enumerate(heard):
+        if type_ not in schemas:
+            schemas[type_] = writer.register_schema(type_, "ros2msg", _definition(type_).encode())
+        key = (topic, type_, sender)
+        if key not in channels:
+            channels[key] = writer.register_channel(topic, "cdr", schemas[type_], {"sender": sender})
+        nanoseconds = round(stamp * SECOND)
+        writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
+
+
+def _definition(type_: str) -> str:
+    """A message's definition followed by those it needs, as MCAP's registry asks for encoding "ros2msg"."""
+    texts = {name: text for name, text in _definitions(type_, set())}
+    main = texts.pop(type_)
+    return main + "".join(
+        f"\n{'=' * 80}\nMSG: {name.replace('/msg/', '/')}\n{text}" for name, text in texts.items()
+    )
+
+
+def _definitions(type_: str, seen: set[str]) -> Iterator[tuple[str, str]]:
+    seen.add(type_)
+    package, kind, name = type_.split("/")
+    text = (Path(get_package_share_directory(package)) / kind / f"{name}.msg").read_text()
+    yield type_, text
+    for line in text.splitlines():
+        word = line.split("#")[0].split("[")[0].split("<")[0].split()
+        needs = word[0] if word else ""
+        if "/" in needs:
+            needs = needs.replace("/", "/msg/", 1)
+        elif needs[:1].isupper():
+            needs = f"{package}/msg/{needs}"
+        else:
+            continue
+        if needs not in seen:
+            yield from _definitions(needs, seen)
+
+
+def read(path: Path) -> Recording:
+    """Read a recording. Raises StorageError with one sentence if the file isn't one."""
+    try:
+        with path.open("rb") as file:
+            reader = make_reader(file)
+            attachments = {item.name: item.data for item in reader.iter_attachments()}
+            heard = sorted(_heard(reader))
+    except OSError as error:
+        raise StorageError(f"{path} can't be read: {error.strerror}.") from None
+    except (McapError, ValueError) as error:
+        raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
+    if ATTACHMENT not in attachments:
+        raise StorageError(
+            f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
+        )
+    rest = json.loads(attachments[ATTACHMENT])
+    if rest["format"] != FORMAT:
+        raise StorageError(
+            f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
+        )
+    return _recording(rest, [message for _, message in heard])
+
+
+def _heard(reader: Any) -> Iterator[tuple[int, Heard]]:
+    for schema, channel, message in reader.iter_messages():
+        stamp = message.log_time / SECOND
+        yield (
+            message.sequence,
+            Heard(stamp, channel.topic, schema.name, channel.metadata["sender"], message.data),
+        )
+
+
+def _recording(rest: dict[str, Any], heard: list[Heard]) -> Recording:
+    recording = Recording(
+        heard=heard, **{name: rest[name] for name in ("seconds", "seed", "stamp", "stderr")}
+    )
+    for name, row in ROWS.items():
+        setattr(recording, name, [row(*values) for values in rest[name]])
+    graph = rest["graph"]
+    recording.graph = Graph(
+        graph["nodes"], [Endpoint(*e) for e in graph["endpoints"]], [TimerInfo(*t) for t in graph["timers"]]
+    )
+    recording.prints = [(stamp, text) for stamp, text in rest["prints"]]
+    recording.ended = Ended(*rest["ended"])
+    recording.world = _world(rest["world"]) if rest["world"] is not None else None
+    return recording
+
+
+def _world(data: dict[str, Any]) -> World:
+    def tuples(value: Any) -> Any:
+        return tuple(tuples(item) for item in value) if isinstance(value, list) else value
+
+    data = {name: tuples(value) for name, value in data.items()}
+    data["boxes"] = tuple(Box(*box) for box in data["boxes"])
+    data["circles"] = tuple(Circle(*circle) for circle in data["circles"])
+    return World(**data)
