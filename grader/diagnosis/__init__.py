@@ -10,7 +10,6 @@ __all__ = ["explain", "find_fault"]
 DIAGNOSES = (
     activity.slow_callback,
     names.typing_slip,
-    connections.different_types,
     connections.incompatible_qos,
     activity.never_spun,
     activity.ended_early,

@@ -57,7 +57,7 @@ def ended_early(recording: Recording) -> str:
     if ended.reason != "finished" or ended.stamp >= recording.seconds - 1e-6:
         return ""
     return (
-        f"The program ended by itself after {ended.stamp:.3g} s of {recording.seconds:.3g} s. "
+        f"{ended.detail} The run goes on until t = {recording.seconds:.3g} s. "
         "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown."
     )
 

@@ -1,23 +1,10 @@
-"""Ends of one topic that can't talk to each other."""
+"""Ends of one topic that don't connect."""
 
 from __future__ import annotations
 
 from itertools import product
 
 from sim.recording import Endpoint, Recording
-
-
-def different_types(recording: Recording) -> str:
-    """One topic, two message types."""
-    for publisher, subscription in _pairs(recording):
-        if publisher.type != subscription.type:
-            return (
-                f"{publisher.node} publishes {publisher.type} on {publisher.name}, but "
-                f"{subscription.node} expects "
-                f"{subscription.type} there. Both ends of a topic must use the same message type."
-            )
-    return ""
-
 
 # Per policy: what the publisher offers and the subscription asks for when they don't match.
 _MISMATCHES = (

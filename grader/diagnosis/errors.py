@@ -1,186 +1,12 @@
-"""Exceptions as rclpy and Python word them, turned into advice for a beginner.
-
-The patterns are those of rclpy 7.1 and CPython 3.11 to 3.13. `{0}`, `{1}` ... stand for the pattern's groups.
-"""
+"""From an exception to advice for a beginner."""
 
 from __future__ import annotations
 
 import difflib
 import re
-from typing import NamedTuple
 
+from grader.diagnosis.rules import RULES
 from sim.recording import CallbackError
-
-
-class Rule(NamedTuple):
-    """One kind of error. `type` is the exception's class name, `pattern` is searched in its text."""
-
-    type: str
-    pattern: str
-    advice: str
-
-
-# What every rclpy node has once Node.__init__ has run; without it, one of these is missing first.
-_NODE_INSIDES = (
-    "_Node__\\w+|_default_callback_group|_logger|_parameters|_context|_clock|_time_source|_publishers|_subscriptions"
-    "|_clients|_services|_timers|_guards|_waitables|_rate_.*"
-)
-
-RULES = (
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'float'",
-        "`{0}` takes a number with a decimal point: set `msg.{0} = 1.0`, not `1`; `float(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'int'",
-        "`{0}` takes a whole number: set `msg.{0} = 1`, not `1.0`; `int(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'str'",
-        "`{0}` takes text: set `msg.{0} = 'text'`; `str(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be of type 'bool'",
-        "`{0}` takes True or False, not 1 or 0; `bool(value)` converts.",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be a sub message of type '(\w+)'",
-        "`{0}` is a message of its own, a {1}: set the fields inside it (`msg.{0}.x = 1.0`), or give "
-        "it a whole {1}().",
-    ),
-    Rule(
-        "AssertionError", r"The '(\w+)' field must be (an? .+)",
-        "`{0}` must be {1}: give it a value of that kind.",
-    ),
-    Rule(
-        "AssertionError", r"Invalid arguments passed to constructor: (.+)",
-        "This message has no field `{0}`. `get_fields_and_field_types()` of its class lists the fields.",
-    ),
-    Rule(
-        "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '(?:[\w.]*\.Metaclass_)(\w+)'>",
-        "publish() takes a message, not its class: make one first with `msg = {0}()`.",
-    ),
-    Rule(
-        "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '(str|int|float|bool)'>",
-        "This publisher sends {0} messages, and got a plain {1}: put it into a message first, "
-        "`msg = {0}()`, then `msg.data = ...`, then `publish(msg)`.",
-    ),
-    Rule(
-        "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '[\w.]*?(\w+)'>",
-        "This publisher was created for {0} and got a {1}: use the same type in create_publisher() "
-        "and publish().",
-    ),
-    Rule(
-        "TypeError", r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
-        "A node needs a name: `super().__init__('my_node')`.",
-    ),
-    Rule(
-        "TypeError", r"create_(publisher|subscription)\(\) missing .*'qos_profile'",
-        "create_{0}() is missing an argument. Write create_publisher(Type, 'topic', 10) or "
-        "create_subscription(Type, 'topic', self.callback, 10); the last number is the length of the queue.",
-    ),
-    Rule(
-        "TypeError", r"rclpy_resolve_name\(\): incompatible",
-        "The arguments are in the wrong order: first the message type, then the topic's name, "
-        "as in create_publisher(String, 'topic', 10).",
-    ),
-    Rule(
-        "TypeError", r"Expected QoSProfile or int",
-        "The last argument of create_publisher() and create_subscription() is a number, such as 10, "
-        "or a QoSProfile.",
-    ),
-    Rule(
-        "TypeError", r"rclpy_logging_rcutils_log\(\): incompatible|RcutilsLogger\.\w+\(\) (?:takes|missing)",
-        "A log line is one text: put values into it with an f-string, `info(f'count: {{count}}')`.",
-    ),
-    Rule(
-        "TypeError", r"float\(\) argument must be a string or a real number, not "
-        r"'(?:method|function|builtin_\w+)'",
-        "create_timer() takes the period first, then the callback: `self.create_timer(1.0, self.callback)`.",
-    ),
-    Rule(
-        "TypeError", r"'NoneType' object is not callable",
-        "A callback is handed over without parentheses: `self.callback`, not `self.callback()`.",
-    ),
-    Rule(
-        "TypeError", r"(\w+)\.__init__\(\) takes 1 positional argument but \d+ were given",
-        "The fields of a message are set by name: `{0}(data=...)`, or `msg = {0}()` and then "
-        "`msg.data = ...`.",
-    ),
-    Rule(
-        "TypeError", r"(\w+)\(\) takes 0 positional arguments but \d+ (?:was|were) given",
-        "A method's first parameter is `self`: write `def {0}(self):`; a subscription's callback is "
-        "`def {0}(self, msg):`.",
-    ),
-    Rule(
-        "TypeError", r"(\w+)\(\) takes 1 positional argument but 2 were given",
-        "`{0}` is called with a message: write `def {0}(self, msg):`.",
-    ),
-    Rule(
-        "TypeError", r"(\w+)\(\) missing \d+ required positional arguments?: (.+)",
-        "`{0}` is called without {1}. A timer's callback takes nothing but self, a subscription's "
-        "takes self and the "
-        "message; what else it needs comes from `self`, a lambda or functools.partial.",
-    ),
-    Rule(
-        "RuntimeError", r"callback should be either be callable with one argument",
-        "A subscription's callback takes the message: `def callback(self, msg):`, handed over as "
-        "`self.callback`.",
-    ),
-    Rule(
-        "RuntimeError", r"Context\.init\(\) must only be called once",
-        "rclpy.init() is called twice: call it once, at the start of main().",
-    ),
-    Rule(
-        "RuntimeError", r"Context must be initialized before it can be shutdown",
-        "rclpy.shutdown() is called twice, or before rclpy.init(): call it once, at the end of main().",
-    ),
-    Rule(
-        "NotInitializedException", r"",
-        "rclpy.init() has to come before the first node, and rclpy.shutdown() after the last one: "
-        "write `rclpy.init()` as the first line of main().",
-    ),
-    Rule(
-        "RCLError", r"context is invalid",
-        "Something is used after rclpy.shutdown(): make that the last line of main().",
-    ),
-    Rule(
-        "RCLError", r"timer period must be non-negative",
-        "The period of a timer is a number of seconds above 0: `self.create_timer(0.5, self.callback)`.",
-    ),
-    Rule(
-        "InvalidNodeNameException", r"",
-        "A node's name holds only letters, digits and underscores, such as `my_node`: no spaces, "
-        "dashes or slashes.",
-    ),
-    Rule(
-        "InvalidTopicNameException", r"",
-        "A topic's name holds only letters, digits, underscores and slashes, such as `/sensor/temperature`, "
-        "and no part of it starts with a digit.",
-    ),
-    Rule(
-        "ParameterNotDeclaredException", r"(\w+)$",
-        "A parameter is declared before it is read: `self.declare_parameter('{0}', default)`.",
-    ),
-    Rule(
-        "ModuleNotFoundError", r"No module named '([\w.]+)'",
-        "Python finds no module `{0}`: check its spelling. Message packages end in `_msgs` and `.msg`, "
-        "as in `from std_msgs.msg import String`.",
-    ),
-    Rule(
-        "ImportError", r"cannot import name '(\w+)' from '([\w.]+)'",
-        "`{1}` has no `{0}`: check the spelling and the capital letters.",
-    ),
-    Rule(
-        "AttributeError", rf"'(\w+)' object has no attribute '(?:{_NODE_INSIDES})'",
-        "{0} was never set up as a node: the first line of its __init__ has to be "
-        "`super().__init__('my_node')`.",
-    ),
-    Rule(
-        "AttributeError", r"'NoneType' object has no attribute '(\w+)'",
-        "What stands before `.{0}` is None: it was never set, or comes from a function without `return`.",
-    ),
-)  # fmt: skip
 
 _HOMES = {
     "rclpy": "import rclpy",
@@ -234,6 +60,8 @@ def _unknown_attribute(error: CallbackError) -> str:
         return (
             f"`self.{name}` does not exist (yet): check its spelling; set it in __init__ before it is used."
         )
+    if not owner[0].isupper():
+        return f"A {owner} has no `{name}`: check its spelling, and what the name before the dot stands for."
     return (
         f"{owner} has no `{name}`: check its spelling. Of a message, "
         f"`{owner}.get_fields_and_field_types()` lists "

@@ -52,7 +52,7 @@ def _from_error(error: CallbackError) -> Fault:
 def _from_end(ended: Ended) -> Fault:
     return Fault(
         expected="a run to the end",
-        saw=f"{ended.detail} ({ended.reason} at {ended.stamp:.3g} s)",
+        saw=ended.detail,
         hint=_HINTS[ended.reason],
         before_start=ended.stamp <= 0.0,
     )

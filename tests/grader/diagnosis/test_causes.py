@@ -1,0 +1,98 @@
+"""What goes wrong without an error: each cause is shown by real nodes and explained by its own sentence."""
+
+import pytest
+
+from grader.diagnosis import DIAGNOSES, explain
+from sim import run
+from tests.students import misfits
+
+SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
+CAUSES = {
+    (misfits.MisspeltTopic, misfits.Listener): SLIP.format("/chater")
+    + "Is /chater a typing slip? Did you mean /chatter?",
+    (misfits.CapitalTopic, misfits.Listener): SLIP.format("/Chatter")
+    + "Capital letters count: write /chatter.",
+    (misfits.TopicInNamespace, misfits.Listener): SLIP.format("/robot1/chatter")
+    + "Only the namespace differs: write /chatter. A name that starts with a slash is taken as it is; without the "
+    "slash the node's namespace is put before it.",
+    (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS doesn't fit: /talker publishes with "
+    "reliability best_effort, /listener asks for reliable, so nothing arrives. Use the same reliability at both ends.",
+    (
+        misfits.Talker,
+        misfits.LatchedListener,
+    ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
+    "volatile, /listener asks for transient_local, so nothing arrives. Use the same durability at both ends.",
+    (
+        misfits.SleepyTalker,
+    ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "
+    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
+    "Let the timer do the waiting.",
+    (
+        misfits.SilentTalker,
+    ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
+    "the timer's callback.",
+    (
+        misfits.TalkerWithoutTimer,
+    ): "/talker has a publisher on /chatter, but never publishes. It has no timer either: "
+    "self.create_timer(seconds, self.callback) calls a method again and again.",
+    (
+        misfits.Talker,
+        misfits.SilentEcho,
+    ): "/listener has a publisher on /echo, but never publishes. Call publish(msg) "
+    "on it in the callback of the subscription.",
+    (misfits.Empty,): "/talker has no publisher, no subscription and no timer: nothing can happen in it.",
+    (
+        misfits.main_without_spin,
+    ): "/talker has a timer, but none of its callbacks ever ran. Callbacks run while the "
+    "node spins: call rclpy.spin(node) in main().",
+    (
+        misfits.main_that_only_sleeps,
+    ): "/talker has a timer, but none of its callbacks ever ran. Callbacks run while "
+    "the node spins: call rclpy.spin(node) in main().",
+    (
+        misfits.Talker,
+        misfits.main_that_sleeps_over_messages,
+    ): "/listener has a subscription with messages waiting, "
+    "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main().",
+    (
+        misfits.main_that_listens_without_spin,
+    ): "/listener has a subscription, but none of its callbacks ever ran. "
+    "Callbacks run while the node spins: call rclpy.spin(node) in main().",
+    (
+        misfits.main_that_spins_three_seconds,
+    ): "Every program had ended by t = 4 s. The run goes on until t = 10 s. "
+    "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown.",
+    (
+        misfits.SleepyOnce,
+    ): "The timer of /talker fired once in 10 s; 10 were due. Most likely SleepyOnce.tick waits "
+    "(time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 8.5 s. "
+    "Let the timer do the waiting.",
+}
+
+
+def names(students):
+    return "+".join(student.__name__ for student in students)
+
+
+@pytest.mark.parametrize("students, sentence", CAUSES.items(), ids=map(names, CAUSES))
+def test_a_cause_is_explained(students, sentence):
+    assert explain(run(*students, seconds=10, quiet=True)) == sentence
+
+
+@pytest.mark.parametrize(
+    "students, world",
+    [
+        ((misfits.Talker,), None),
+        ((misfits.Talker, misfits.Listener), None),
+        ((misfits.Listener, misfits.Talker), "yard"),
+        ((misfits.Talker,), "room"),
+    ],
+)
+def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):
+    assert explain(run(*students, world=world, seconds=10, quiet=True)) == ""
+
+
+def test_every_diagnosis_is_earned_by_some_students():
+    recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
+    unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]
+    assert unearned == []

@@ -1,0 +1,89 @@
+"""Hangs, livelocks, deadlocks and work that is not started yet, as real runs end with them."""
+
+import pytest
+
+from grader.diagnosis import find_fault
+from grader.diagnosis.fault import Fault
+from sim import run
+from sim.recording import CallbackError, Ended, Recording
+from tests.students import misfits, mistakes
+
+
+def fault_of(student):
+    return find_fault(run(student, seconds=10, quiet=True))
+
+
+@pytest.mark.parametrize(
+    "student", [misfits.Talker, misfits.main_without_spin, misfits.main_that_only_sleeps]
+)
+def test_a_run_without_an_error_has_no_fault(student):
+    assert fault_of(student) is None
+
+
+def test_an_endless_loop_is_a_hang():
+    fault = fault_of(misfits.main_that_never_ends)
+    assert fault.expected == "a run to the end"
+    assert fault.saw.startswith("main_that_never_ends() at t = 0 s")
+    assert fault.hint == (
+        "Look there for a loop that never ends (`while True:` without a way out), or a wait for something that never "
+        "comes. A callback should do one small step and return."
+    )
+    assert fault.before_start
+
+
+def test_an_echo_of_itself_is_a_livelock():
+    fault = fault_of(misfits.Echo)
+    assert fault.saw == "20000 callbacks ran at t = 1 s without letting time move on."
+    assert fault.hint == (
+        "Callbacks start each other without any time passing: two nodes that answer each other's every message, or a "
+        "timer with period 0. Let a timer with a period set the pace."
+    )
+    assert not fault.before_start
+
+
+def test_a_call_to_oneself_is_blocked():
+    fault = fault_of(misfits.Deadlock)
+    assert "/poke" in fault.saw
+    assert fault.hint == (
+        "Everything waits for something that can't come. Inside a callback, don't wait for another callback of the "
+        "same node (spin_until_future_complete, client.call): use call_async and add_done_callback, or await."
+    )
+
+
+def test_work_not_started_says_what_is_to_do():
+    assert fault_of(mistakes.NotStarted) == Fault(
+        expected="your own code in place of `raise NotImplementedError`",
+        saw="This exercise is not started yet: publish a count once a second",
+        hint="Write your code, delete the line that raises, and run this cell again.",
+        before_start=True,
+        sentence="There is code of yours to run.",
+    )
+
+
+def test_work_not_started_in_a_callback_counts_as_not_started_too():
+    fault = fault_of(mistakes.NotStartedWithoutWords)
+    assert fault.before_start
+    assert fault.saw == (
+        "This exercise is not started yet: there is still a `raise NotImplementedError` in the code"
+    )
+
+
+def test_an_error_without_words_and_frames_still_makes_a_sentence():
+    recording = Recording(errors=[CallbackError(0.5, "/talker", "Talker.tick", "KeyError", "", "")])
+    assert find_fault(recording).saw == "KeyError: no message (in Talker.tick, at 0.5 s)"
+
+
+def test_an_attribute_error_of_unknown_form_gets_general_advice():
+    recording = Recording(
+        errors=[CallbackError(0.5, "/talker", "tick", "AttributeError", "can't set that", "")]
+    )
+    assert find_fault(recording).hint == "The name after the dot does not exist: check its spelling."
+
+
+def test_an_error_that_left_nothing_but_its_end_is_told():
+    recording = Recording(ended=Ended("error", 1.0, "A thread died."))
+    assert find_fault(recording) == Fault(
+        "a run to the end",
+        "A thread died.",
+        "Read the last line of the error first: it says what Python did not like.",
+    )

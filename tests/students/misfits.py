@@ -1,0 +1,155 @@
+"""Nodes that raise nothing and still go wrong: names, types, QoS, waiting callbacks, nodes nobody spins."""
+
+import time
+
+import rclpy
+from example_interfaces.srv import Trigger
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float64, String
+
+
+class Talker(Node):
+    """Says hello once a second; nothing is wrong with it."""
+
+    topic, type, qos = "/chatter", String, 10
+
+    def __init__(self):
+        super().__init__("talker")
+        self.publisher = self.create_publisher(self.type, self.topic, self.qos)
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.publisher.publish(self.type())
+
+
+class Listener(Node):
+    """Hears what is said on /chatter; nothing is wrong with it."""
+
+    topic, type, qos = "/chatter", String, 10
+
+    def __init__(self):
+        super().__init__("listener")
+        self.create_subscription(self.type, self.topic, self.hear, self.qos)
+
+    def hear(self, msg):
+        self.get_logger().info("heard")
+
+
+class MisspeltTopic(Talker):
+    topic = "/chater"
+
+
+class CapitalTopic(Talker):
+    topic = "/Chatter"
+
+
+class TopicInNamespace(Talker):
+    topic = "/robot1/chatter"
+
+
+class NumberTalker(Talker):
+    type = Float64
+
+
+class BestEffortTalker(Talker):
+    qos = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class LatchedListener(Listener):
+    qos = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class SleepyTalker(Talker):
+    def tick(self):
+        time.sleep(3.0)
+        super().tick()
+
+
+class SleepyOnce(Talker):
+    def tick(self):
+        time.sleep(8.5)
+        super().tick()
+
+
+class SilentTalker(Talker):
+    def tick(self):
+        pass
+
+
+class TalkerWithoutTimer(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+
+
+class SilentEcho(Listener):
+    """Hears /chatter, and should answer on /echo."""
+
+    def __init__(self):
+        super().__init__()
+        self.publisher = self.create_publisher(String, "/echo", 10)
+
+
+class Empty(Node):
+    def __init__(self):
+        super().__init__("talker")
+
+
+def main_without_spin():
+    rclpy.init()
+    node = Talker()
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+def main_that_only_sleeps():
+    rclpy.init()
+    Talker()
+    time.sleep(60.0)
+
+
+def main_that_sleeps_over_messages():
+    rclpy.init()
+    Listener()
+    time.sleep(60.0)
+
+
+def main_that_listens_without_spin():
+    rclpy.init()
+    Listener()
+    rclpy.shutdown()
+
+
+def main_that_spins_three_seconds():
+    rclpy.init()
+    node = Talker()
+    while node.get_clock().now().nanoseconds < 3.5e9:
+        rclpy.spin_once(node)
+    rclpy.shutdown()
+
+
+def main_that_never_ends():
+    rclpy.init()
+    while True:
+        pass
+
+
+class Echo(Node):
+    """Answers each message with another on the same topic: it hears itself."""
+
+    def __init__(self):
+        super().__init__("echo")
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+        self.create_subscription(String, "/chatter", self.publisher.publish, 10)
+        self.create_timer(1.0, lambda: self.publisher.publish(String()))
+
+
+class Deadlock(Node):
+    """Waits in a callback for the answer of a service of its own."""
+
+    def __init__(self):
+        super().__init__("deadlock")
+        self.create_service(Trigger, "poke", lambda request, response: response)
+        self.client = self.create_client(Trigger, "poke")
+        self.create_timer(1.0, lambda: self.client.call(Trigger.Request()))

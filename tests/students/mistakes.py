@@ -1,0 +1,296 @@
+"""Nodes with one mistake each, named by it: every exception that the diagnosis puts into words."""
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Bool, Float64, Int32, String
+
+
+class Talker(Node):
+    """What the others are built on: a publisher, and a timer that calls `tick` after 1 s."""
+
+    message_type = String
+
+    def __init__(self):
+        super().__init__("talker")
+        self.publisher = self.create_publisher(self.message_type, "chatter", 10)
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.publisher.publish(self.message_type())
+
+
+class WholeNumberForFloat(Talker):
+    def tick(self):
+        msg = Float64()
+        msg.data = 1
+
+
+class DecimalsForWholeNumber(Talker):
+    def tick(self):
+        msg = Int32()
+        msg.data = 1.5
+
+
+class NumberForText(Talker):
+    def tick(self):
+        msg = String()
+        msg.data = 5
+
+
+class NumberForBool(Talker):
+    def tick(self):
+        msg = Bool()
+        msg.data = 1
+
+
+class NumberForSubMessage(Talker):
+    def tick(self):
+        msg = Twist()
+        msg.linear = 0.5
+
+
+class NumberTooLarge(Talker):
+    def tick(self):
+        msg = Int32()
+        msg.data = 2**40
+
+
+class UnknownFieldInConstructor(Talker):
+    def tick(self):
+        String(text="hello")
+
+
+class FieldByPosition(Talker):
+    def tick(self):
+        String("hello")
+
+
+class UnknownField(Talker):
+    def tick(self):
+        msg = Twist()
+        msg.speed = 1.0
+
+
+class PublishesTheClass(Talker):
+    def tick(self):
+        self.publisher.publish(String)
+
+
+class PublishesPlainText(Talker):
+    def tick(self):
+        self.publisher.publish("hello")
+
+
+class PublishesAnotherType(Talker):
+    def tick(self):
+        self.publisher.publish(Float64(data=1.0))
+
+
+class NodeWithoutName(Node):
+    def __init__(self):
+        super().__init__()
+
+
+class NodeNameWithSpace(Node):
+    def __init__(self):
+        super().__init__("my node")
+
+
+class TopicNameWithSpace(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_publisher(String, "my topic", 10)
+
+
+class NoSuperInit(Node):
+    def __init__(self):
+        self.publisher = self.create_publisher(String, "chatter", 10)
+
+
+class NoQueueLength(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_publisher(String, "chatter")
+
+
+class SubscriptionWithoutCallback(Node):
+    def __init__(self):
+        super().__init__("listener")
+        self.create_subscription(String, "chatter", 10)
+
+
+class NameBeforeType(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_publisher("chatter", String, 10)
+
+
+class QueueLengthAsText(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_publisher(String, "chatter", "10")
+
+
+class CallbackBeforePeriod(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_timer(self.tick, 1.0)
+
+    def tick(self):
+        pass
+
+
+class CallbackCalled(Talker):
+    def __init__(self):
+        Node.__init__(self, "talker")
+        self.create_timer(1.0, self.tick())
+
+    def tick(self):
+        pass
+
+
+class NegativePeriod(Talker):
+    def __init__(self):
+        Node.__init__(self, "talker")
+        self.create_timer(-1.0, self.tick)
+
+
+class LogsTwoThings(Talker):
+    def tick(self):
+        self.get_logger().info("count", 3)
+
+
+class LogsANumber(Talker):
+    def tick(self):
+        self.get_logger().info(5)
+
+
+class TimerCallbackWithoutSelf(Talker):
+    def tick():
+        pass
+
+
+class TimerCallbackWantsMessage(Talker):
+    def tick(self, msg):
+        pass
+
+
+class Listener(Talker):
+    """Hears itself."""
+
+    def __init__(self):
+        super().__init__()
+        self.create_subscription(String, "chatter", self.hear, 10)
+
+    def hear(self, msg):
+        pass
+
+
+class SubscriptionCallbackWithoutMessage(Listener):
+    def hear(self):
+        pass
+
+
+class ForwardsToMethodWithoutMessage(Listener):
+    def hear(self, msg):
+        self.obey(msg)
+
+    def obey(self):
+        pass
+
+
+class UndeclaredParameter(Talker):
+    def tick(self):
+        self.get_parameter("speed")
+
+
+class MisspeltMethod(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_timer(1.0, self.tik)
+
+    def tick(self):
+        pass
+
+
+class ValueBeforeItIsSet(Talker):
+    def tick(self):
+        self.count += 1
+
+
+class NothingThere(Talker):
+    def tick(self):
+        self.other = None
+        self.other.publish(String())
+
+
+class ForgottenImport(Talker):
+    def tick(self):
+        self.publisher.publish(Imu())  # noqa: F821
+
+
+class MisspeltType(Talker):
+    def tick(self):
+        self.publisher.publish(Strng())  # noqa: F821
+
+
+class ForgottenSelf(Talker):
+    def __init__(self):
+        super().__init__()
+        self.count = 0
+
+    def tick(self):
+        print(count)  # noqa: F821
+
+
+class ForgottenModule(Talker):
+    def tick(self):
+        import std_msg.msg  # noqa: F401
+
+
+class WrongNameFromModule(Talker):
+    def tick(self):
+        from std_msgs.msg import Sting  # noqa: F401
+
+
+class DividesByZero(Talker):
+    def tick(self):
+        return 1 / 0
+
+
+class NotStarted(Node):
+    def __init__(self):
+        raise NotImplementedError("publish a count once a second")
+
+
+class NotStartedWithoutWords(Talker):
+    def tick(self):
+        raise NotImplementedError
+
+
+def main_without_init():
+    rclpy.spin(Talker())
+
+
+def main_with_two_inits():
+    rclpy.init()
+    rclpy.init()
+
+
+def main_with_two_shutdowns():
+    rclpy.init()
+    rclpy.shutdown()
+    rclpy.shutdown()
+
+
+def main_that_publishes_after_shutdown():
+    rclpy.init()
+    node = Talker()
+    rclpy.shutdown()
+    node.tick()
+
+
+def main_that_misuses_a_list():
+    rclpy.init()
+    print([1, 2].size)
