@@ -6,7 +6,6 @@ This is the part that upstream leaves to rosidl_generate_interfaces() in CMake.
 import json
 import re
 import shutil
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,7 +79,8 @@ def generate(package: Package) -> list[str]:
     if not package.interfaces:
         raise BuildError(f"{package.name} has no .msg, .srv or .action file under {package.source}.")
     _write_idls(package)
-    _write_descriptions(package, _installed_definitions(_used_packages(package), package.name))
+    _require_used_packages(package)
+    _write_descriptions(package)
     _write_sources(package)
     _write_visibility_headers(package)
     _write_index(package)
@@ -88,6 +88,7 @@ def generate(package: Package) -> list[str]:
 
 
 def _write_idls(package: Package) -> None:
+    # The generators are imported where they run: without the ROS wheels, ros_prefix() has the word first.
     from rosidl_adapter import convert_to_idl
 
     for interface in package.interfaces:
@@ -102,13 +103,13 @@ def _used_packages(package: Package) -> set[str]:
     return {used for text in texts for used in re.findall(r'#include "(\w+)/', text)} - {package.name}
 
 
-def _installed_definitions(used: Iterable[str], name: str) -> dict[str, Path]:
-    share = ros_prefix() / "share"
-    missing = sorted(package for package in used if not (share / package).is_dir())
+def _require_used_packages(package: Package) -> None:
+    lib = ros_prefix() / "lib"
+    # The libraries are asked for, not the definitions: a package built here has only the latter.
+    used = sorted(_used_packages(package))
+    missing = [name for name in used if not (lib / f"lib{name}__{GENERATOR_C}.so").exists()]
     if missing:
-        raise BuildError(f"{name} uses {', '.join(missing)}, which no installed ROS wheel provides.")
-    packages = sorted({path.parent for kind in KINDS for path in share.glob(f"*/{kind}")})
-    return {path.name: path for path in packages}
+        raise BuildError(f"{package.name} uses {', '.join(missing)}, which no installed ROS wheel provides.")
 
 
 def _arguments(package: Package, generator: str, output: Path, **more: object) -> str:
@@ -127,11 +128,13 @@ def _arguments(package: Package, generator: str, output: Path, **more: object) -
     return str(path)
 
 
-def _write_descriptions(package: Package, installed: dict[str, Path]) -> None:
+def _write_descriptions(package: Package) -> None:
     from rosidl_generator_type_description import generate_type_hash
 
+    share = ros_prefix() / "share"
+    installed = sorted({path.parent for kind in KINDS for path in share.glob(f"*/{kind}")})
     # An installed build of this very package must not stand in for the files at hand.
-    include_paths = [f"{name}:{path}" for name, path in installed.items() if name != package.name]
+    include_paths = [f"{path.name}:{path}" for path in installed if path.name != package.name]
     generate_type_hash(_arguments(package, DESCRIPTION, package.share, include_paths=include_paths))
     # Actions and services also leave a description of each part; upstream ships the whole ones only.
     whole = {package.description(idl) for idl in package.idls}

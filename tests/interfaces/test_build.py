@@ -80,8 +80,14 @@ def test_a_package_without_definitions_is_refused(tmp_path):
 
 def test_a_definition_that_uses_a_package_nobody_provides_is_refused(tmp_path):
     with pytest.raises(BuildError) as stop:
-        generate(package(tmp_path, Lost="lost_msgs/Thing thing\ngone_msgs/Thing other\n"))
-    assert str(stop.value) == "try_msgs uses gone_msgs, lost_msgs, which no installed ROS wheel provides."
+        generate(package(tmp_path, Lost="lost_msgs/Thing thing\nstd_msgs/Header header\n"))
+    assert str(stop.value) == "try_msgs uses lost_msgs, which no installed ROS wheel provides."
+
+
+def test_a_definition_that_uses_a_package_built_here_is_refused_too(tmp_path):
+    with pytest.raises(BuildError) as stop:
+        generate(package(tmp_path, Late="tf2_msgs/TFMessage transforms\n"))
+    assert str(stop.value) == "try_msgs uses tf2_msgs, which no installed ROS wheel provides."
 
 
 def test_a_failing_compiler_is_quoted_with_its_command(monkeypatch, tmp_path):
