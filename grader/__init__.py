@@ -4,5 +4,6 @@ from grader.catalogue import grade
 from grader.checks.check import Missed, check
 from grader.exercise import Exercise, Scenario
 from grader.score import Score
+from grader.tell import tell
 
-__all__ = ["Exercise", "Missed", "Scenario", "Score", "check", "grade"]
+__all__ = ["Exercise", "Missed", "Scenario", "Score", "check", "grade", "tell"]

@@ -1,0 +1,40 @@
+from grader import tell
+from sim import Recording
+from sim.recording import CallbackError, Ended
+
+
+def ended(reason, detail, *errors):
+    return Recording(seconds=3.0, errors=list(errors), ended=Ended(reason, 3.0, detail))
+
+
+def raised(type, text):
+    trace = '  File "<cell>", line 7, in tick\n'
+    return ended("error", "", CallbackError(1.0, "/talker", "Talker.tick", type, text, trace))
+
+
+def test_a_run_without_an_error(capsys):
+    tell(ended("time", "All 3 s were run."))
+    assert capsys.readouterr().out == "No error. All 3 s were run.\n"
+
+
+def test_an_exercise_that_is_not_started(capsys):
+    tell(raised("NotImplementedError", ""))
+    assert capsys.readouterr().out == (
+        "Not started yet: write your code where it says YOUR CODE HERE, delete the line that raises "
+        "NotImplementedError, and run both cells again.\n"
+    )
+
+
+def test_an_error_comes_with_its_place_and_a_hint(capsys):
+    tell(raised("NameError", "name 'String' is not defined"))
+    assert capsys.readouterr().out == (
+        "NameError: name 'String' is not defined (in Talker.tick, line 7, at 1 s)\n"
+        "Hint: `String` is not imported: write `from std_msgs.msg import String` at the top.\n"
+    )
+
+
+def test_a_run_that_hangs(capsys):
+    tell(ended("hang", "Talker.tick never returned."))
+    said, hint = capsys.readouterr().out.splitlines()
+    assert said == "Talker.tick never returned. (hang at 3 s)"
+    assert hint.startswith("Hint: Look there for a loop that never ends")
