@@ -38,8 +38,15 @@ class Running(NamedTuple):
     @classmethod
     def of(cls, engine: Engine, work: Work) -> Running:
         """What a piece of work is called while it runs."""
-        group = None if work.entity is None else work.entity.callback_group
-        name = callback_name(work.names or work.call)
+        function, entity = work.names or work.call, work.entity
+        if entity is None:
+            name, group = callback_name(function), None
+        else:
+            group = entity.callback_group
+            known, name = entity.__dict__.get("_sim_called", (None, ""))
+            if known is not function:
+                name = callback_name(function)
+                entity._sim_called = function, name
         return cls(name, engine.recorder.name_of(work.node), work.kind, engine.now, group)
 
 
@@ -59,6 +66,16 @@ def callback_name(function: Any) -> str:
     return name.rsplit("<locals>.", 1)[-1]
 
 
+def is_coroutine_function(function: Any) -> bool:
+    """As `inspect.iscoroutinefunction`, which is slow, for the functions that callbacks mostly are."""
+    code = getattr(function, "__code__", None)
+    return (
+        bool(code.co_flags & inspect.CO_COROUTINE)
+        if code is not None
+        else inspect.iscoroutinefunction(function)
+    )
+
+
 def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> bool:
     """Run a callback to its end or its first await; False if it could not begin or go on.
 
@@ -71,7 +88,7 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
     if group is not None and not begun and not group.beginning_execution(work.entity):
         return False
     engine.activity += 1
-    if inspect.iscoroutinefunction(work.call):
+    if is_coroutine_function(work.call):
         running = Running.of(engine, work)
         task = Task(_recorded, (engine, work, running), executor=executor)
         task._sim_running = running

@@ -33,12 +33,18 @@ SIZES = {
 VALUES, STRING, VALUE_SEQUENCE, SEQUENCE, ARRAY = range(5)
 
 
+class Canonical(bytes):
+    """Bytes that are known to be canonical."""
+
+
 class _NoLayout(Exception):
     """The type has a part whose layout isn't known here."""
 
 
 def canonical(type_name: str, raw: bytes) -> bytes:
     """The bytes of a message with all gaps zero and nothing behind its end."""
+    if isinstance(raw, Canonical):
+        return raw
     layout = _layout_of(type_name)
     if layout is None or raw[:2] != LITTLE_ENDIAN_PLAIN:
         return raw

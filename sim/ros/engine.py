@@ -43,6 +43,7 @@ class Engine(Scheduler):
         self.executors: list[Any] = []
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
+        self.sent: dict[str, int] = {}  # messages published on each topic
         self.processes: list[StudentProcess] = []
         self.echo: Callable[[str], None] = lambda text: None
         self._callbacks = self._callbacks_before = 0
@@ -129,7 +130,7 @@ class Engine(Scheduler):
                     return Ended(
                         "goal", self.recorder.now, f"The goal was reached at t = {self.recorder.now:g} s."
                     )
-                if over is None and not any(self.lives(process) for process in watched):
+                if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
                 self.time.move_to(self.time.next_moment(end))

@@ -19,6 +19,7 @@ from rclpy.subscription import Subscription
 
 from sim.ros.callbacks import Work, perform
 from sim.ros.fibers import SECOND, Fiber
+from sim.ros.processes import shared_context
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
@@ -78,10 +79,12 @@ class Plan:
         return Work("timer", timer, node, timer.callback)
 
     def _subscription(self, subscription: Any, node: Any) -> Work | None:
-        if not self._free(subscription):
+        sent = self.engine.sent.get(subscription._sim_topic)
+        if (sent is not None and sent == subscription._sim_seen) or not self._free(subscription):
             return None
         taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
         if taken is None:
+            subscription._sim_seen = sent
             return None
         arguments = (taken[0],) if subscription._callback_type is MESSAGE_ONLY else tuple(taken)
         return Work("subscription", subscription, node, subscription.callback, arguments)
@@ -228,7 +231,7 @@ class Plan:
     def _over(self, done: Callable[[], bool], parallel: bool) -> bool:
         if self.executor._is_shutdown or done():
             return True
-        if self.executor.context.ok():
+        if shared_context(self.executor.context).alive:
             return False
         if parallel:  # rclpy's MultiThreadedExecutor ends quietly
             return True

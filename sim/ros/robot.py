@@ -5,68 +5,75 @@ from __future__ import annotations
 import array
 import math
 
-import numpy as np
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped, Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.recording import Pose, Recording
+from sim.ros.fibers import SECOND
+from sim.ros.template import Template
 from sim.world import CommandError, Simulation
 
 SENSOR_RATE = 20.0  # Hz
 BASE, ODOM = "base_link", "odom"
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
+STAMP = ("header.stamp.sec", "header.stamp.nanosec")
+POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
+TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
 class Robot(Node):
     """A differential-drive robot with a 360-ray lidar and a bumper.
 
-    Subscribes /cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored). Publishes
-    at 20 Hz /odom, /scan, /joint_states, /tf (odom -> base_link), /bumper (std_msgs/Bool) and /clock, all
-    reliable, which best-effort subscriptions can hear too. /odom starts at zero where the robot starts; the
-    lidar sits at base_link's origin.
+    Subscribes /cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
+    Publishes at 20 Hz /odom, /scan, /joint_states, /tf (odom -> base_link), /bumper (std_msgs/Bool) and
+    /clock, all reliable, which best-effort subscriptions can hear too. /odom starts at zero where the robot
+    starts; the lidar sits at base_link's origin.
     """
 
     def __init__(self, simulation: Simulation, recording: Recording) -> None:
         super().__init__("robot", start_parameter_services=False)
         self.simulation, self.recording = simulation, recording
+        self._make_templates()
         self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
         self.clock_pub = self.create_publisher(Clock, "/clock", 1)
         self.odom_pub = self.create_publisher(Odometry, "odom", 10)
-        self.scan_pub = self.create_publisher(LaserScan, "scan", 10)
-        self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
         self.tf_pub = self.create_publisher(TFMessage, "/tf", 100)
+        self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
+        self.scan_pub = self.create_publisher(LaserScan, "scan", 10)
         self.bumper_pub = self.create_publisher(Bool, "bumper", 10)
-        self._make_messages()
         self.sense()
         self.create_timer(1.0 / SENSOR_RATE, self.sense)
 
-    def _make_messages(self) -> None:
-        """The messages are made once: only what changes is written at 20 Hz."""
+    def _make_templates(self) -> None:
+        self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
+        odom = Odometry(header=Header(frame_id=ODOM), child_frame_id=BASE)
+        pose = [f"pose.pose.{name}" for name in POSE]
+        self.odom = Template(odom, [*STAMP, *pose, "twist.twist.linear.x", "twist.twist.angular.z"])
+        transform = TransformStamped(header=Header(frame_id=ODOM), child_frame_id=BASE)
+        fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
+        self.tf = Template(TFMessage(transforms=[transform]), [f"transforms.0.{field}" for field in fields])
+        joints = JointState(name=WHEELS, position=[0.0, 0.0], velocity=[0.0, 0.0])
+        self.joints = Template(joints, [*STAMP, "position", "velocity"])
         lidar = self.simulation.lidar
-        self.clock, self.odom, self.scan = Clock(), Odometry(), LaserScan()
-        self.transform, self.joints, self.bumper = TransformStamped(), JointState(name=WHEELS), Bool()
-        self.odom.header.frame_id = self.transform.header.frame_id = ODOM
-        self.odom.child_frame_id = self.transform.child_frame_id = BASE
-        self.scan.header.frame_id = BASE
-        self.scan.angle_min, self.scan.angle_max = 0.0, 2 * math.pi * (1 - 1 / lidar.rays)
-        self.scan.angle_increment = 2 * math.pi / lidar.rays
-        self.scan.scan_time = 1 / SENSOR_RATE
-        self.scan.range_min, self.scan.range_max = lidar.range_min, lidar.range_max
-        self.tf = TFMessage(transforms=[self.transform])
-
-    def _now(self) -> tuple[float, Time]:
-        now = self.get_clock().now()
-        return now.nanoseconds / 1e9, now.to_msg()
+        scan = LaserScan(
+            header=Header(frame_id=BASE),
+            angle_max=math.tau - lidar.angle_increment,
+            angle_increment=lidar.angle_increment,
+            scan_time=1 / SENSOR_RATE,
+            range_min=lidar.range_min,
+            range_max=lidar.range_max,
+            ranges=array.array("f", [0.0] * lidar.rays),
+        )
+        self.scan = Template(scan, [*STAMP, "ranges"])
 
     def on_cmd_vel(self, command: Twist) -> None:
         """Drive on to now with the old command, then take the new one."""
-        self.simulation.advance(self._now()[0])
+        self.simulation.advance(self.get_clock().now().nanoseconds / SECOND)
         try:
             self.simulation.command(command.linear.x, command.angular.z)
         except CommandError as error:
@@ -74,35 +81,16 @@ class Robot(Node):
 
     def sense(self) -> None:
         """Move the world to now and publish what the sensors see."""
-        now, stamp = self._now()
-        self.simulation.advance(now)
-        self._remember(now)
-        self.clock.clock = stamp
-        self.clock_pub.publish(self.clock)
-        self._publish_odometry(stamp)
-        self.scan.header.stamp = stamp
-        self.scan.ranges = array.array(
-            "f", np.ascontiguousarray(self.simulation.scan(), dtype=np.float32).tobytes()
-        )
-        self.scan_pub.publish(self.scan)
-        self.bumper.data = bool(self.simulation.bumper)
-        self.bumper_pub.publish(self.bumper)
-
-    def _publish_odometry(self, stamp: Time) -> None:
-        x, y, yaw, v, w = self.simulation.odometry
-        odom, transform, joints = self.odom, self.transform, self.joints
-        odom.header.stamp = transform.header.stamp = joints.header.stamp = stamp
-        pose, twist, move = odom.pose.pose, odom.twist.twist, transform.transform
-        pose.position.x, pose.position.y = move.translation.x, move.translation.y = x, y
-        pose.orientation.z = move.rotation.z = math.sin(yaw / 2)
-        pose.orientation.w = move.rotation.w = math.cos(yaw / 2)
-        twist.linear.x, twist.angular.z = v, w
-        wheels = self.simulation.wheels
-        joints.position, joints.velocity = [wheels.left, wheels.right], [wheels.left_rate, wheels.right_rate]
-        self.odom_pub.publish(odom)
-        self.tf_pub.publish(self.tf)
-        self.joint_pub.publish(joints)
-
-    def _remember(self, now: float) -> None:
-        self.recording.path.append(Pose(now, *self.simulation.pose))
-        self.recording.contacts = self.simulation.contacts
+        simulation, now = self.simulation, self.get_clock().now().nanoseconds
+        simulation.advance(now / SECOND)
+        self.recording.path.append(Pose(now / SECOND, *simulation.pose))
+        self.recording.contacts = simulation.contacts
+        stamp = divmod(now, SECOND)
+        x, y, yaw, v, w = simulation.odometry
+        pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
+        self.clock_pub.publish(self.clock.fill(*stamp))
+        self.odom_pub.publish(self.odom.fill(*stamp, *pose, v, w))
+        self.tf_pub.publish(self.tf.fill(*stamp, *pose))
+        self.joint_pub.publish(self.joints.fill(*stamp, *simulation.wheels))
+        self.scan_pub.publish(self.scan.fill(*stamp, simulation.scan().tobytes()))
+        self.bumper_pub.publish(Bool(data=bool(simulation.bumper)))

@@ -89,7 +89,6 @@ def _seeded(seed: int) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
-    recording = engine.recording
     show = _Screen(quiet)
     engine.echo = show
 

@@ -96,7 +96,7 @@ class Lidar:
         begin = np.ceil(first / spacing - _EDGE).astype(np.intp)
         end = np.floor((first + width) / spacing + _EDGE).astype(np.intp)
         count = np.maximum(end - begin + 1, 0) * visible
-        obstacle = np.repeat(np.arange(len(count)), count)
-        shift = begin - (np.cumsum(count) - count)
+        obstacle = np.arange(len(count)).repeat(count)
+        shift = begin - (count.cumsum() - count)
         ray = (np.arange(len(obstacle)) + shift[obstacle]) % self._model.rays
         return ray, obstacle
