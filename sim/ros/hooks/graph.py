@@ -156,8 +156,8 @@ def publish(original: Callable) -> Callable:
 def log(original: Callable) -> Callable:
     def log(severity: Any, name: str, text: str, *place: Any) -> None:
         run = engine()
-        if run is None or run.rosout_wanted:
-            original(severity, name, text, *place)
+        if run is None or run.rosout_wanted or not isinstance(text, str):
+            original(severity, name, text, *place)  # raises TypeError for what is no text
         if run is not None:
             run.logged(severity, name, text)
 

@@ -72,8 +72,8 @@ def node_init(original: Callable) -> Callable:
         if process.global_arguments and keywords.get("use_global_arguments", True):
             own = list(keywords.get("cli_args") or ())
             keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments]
-        process.nodes.append(self)
         original(self, node_name, **keywords)
+        process.nodes.append(self)
         run.recorder.node(self)
         return None
 
