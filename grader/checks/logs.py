@@ -47,13 +47,15 @@ def answers(
     *,
     level: str = "",
     within: Seconds = 0.5,
+    where: Callable[[Heard], bool] = lambda heard: True,
 ) -> None:
     """Every message on a topic is answered by a log line soon after; partial credit for the part that is.
 
     pattern: regular expression, or a function that gives one for each message.
+    where: picks the messages that want an answer.
     Raises Missed for the first message without an answer, ValueError when there are no messages to answer.
     """
-    asked = recording.messages(topic)
+    asked = [heard for heard in recording.messages(topic) if where(heard)]
     if not asked:
         raise ValueError(f"nothing was sent on {topic}, so there is nothing to answer")
     wanted = [pattern(heard) if callable(pattern) else pattern for heard in asked]
