@@ -1,0 +1,81 @@
+"""All that waits, waits in simulated time; every clock shows it."""
+
+import pytest
+
+from sim import run
+from tests.sim.ros.evidence import said, times
+from tests.students.engine import timing
+
+
+def stamps(program, seconds=4):
+    recording = run(program, seconds=seconds, quiet=True)
+    assert (recording.errors, recording.stderr) == ([], "")
+    return said(recording)
+
+
+def test_timers_on_every_kind_of_clock_tick_together():
+    names = ["node", "steady", "system", "ros"]
+    assert stamps(timing.Timers, 2) == [(stamp, name) for stamp in (1.0, 2.0) for name in names]
+
+
+def test_timers_can_be_cancelled_reset_and_made_faster():
+    assert [stamp for stamp, _ in stamps(timing.ResetCancelChange)] == [0.5, 1.0, 2.5, 3.0, 3.5, 3.75, 4.0]
+    assert [stamp for stamp, _ in stamps(timing.Autostart, 2.5)] == [1.5, 2.0, 2.5]
+
+
+def test_a_callback_that_sleeps_holds_up_its_own_node():
+    recording = run(timing.SlowCallback, seconds=4, quiet=True)
+    assert times(recording, "slow") == [3.0]
+    assert times(recording, "fast") == [
+        0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 3.25, 3.5, 3.75, 4.0,
+    ]  # fmt: skip
+    held = [run for run in recording.callbacks if run.duration]
+    assert [tuple(run) for run in held] == [(2.0, 1.0, "/slow", "SlowCallback.slow", "timer")]
+
+
+def test_ten_thousand_ticks_are_exact():
+    recording = run(timing.Timers, seconds=2500, quiet=True)
+    assert times(recording, "steady") == [float(second) for second in range(1, 2501)]
+
+
+@pytest.mark.parametrize("program, expected", [
+    (timing.sleep_loop, [(0.0, "0"), (0.7, "1"), (1.4, "2")]),
+    (timing.early_bound_sleep, [(1.5, "1.5")]),
+    (timing.rate_in_a_thread, [(0.25, "rate"), (0.5, "rate"), (0.75, "rate"), (1.0, "rate")]),
+    (timing.rate_in_a_parallel_callback, [(1.0, "rate"), (1.5, "rate"), (2.0, "rate")]),
+    (timing.clock_sleeps, [(1.5, "for"), (4.0, "until"), (4.5, "system")]),
+    (timing.busy_wait, [(1.0, "over")]),
+    (timing.busy_wait_on_the_node_clock, [(1.0, "over")]),
+], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
+def test_waiting_takes_simulated_time(program, expected):
+    assert stamps(program, 5) == expected
+
+
+def test_all_clocks_show_simulated_time():
+    names = ["time", "time_ns", "monotonic", "perf_counter", "node", "steady", "system"]
+    assert stamps(timing.all_clocks) == [(2.5, f"{name} 2.5") for name in names]
+
+
+@pytest.mark.xfail(strict=True, reason="datetime.now() and time.strftime() still show the wall clock")
+def test_the_calendar_begins_with_2025():
+    assert stamps(timing.calendar, 4000) == [(3661.0, "2025-01-01 01:01:01")] * 2
+
+
+@pytest.mark.xfail(strict=True, reason="a timeout of 1e-17 s is rounded to no wait at all")
+def test_timeouts_add_up():
+    assert stamps(timing.three_timeouts) == [(0.2, "timeout"), (0.4, "timeout"), (0.6, "timeout")]
+
+
+def test_a_logger_throttles_by_simulated_time():
+    texts = stamps(timing.throttled_log)
+    assert [line for line in texts if line[1].startswith("throttled")] == [
+        (0.0, "throttled 0"), (1.0, "throttled 4"), (2.0, "throttled 8"),
+    ]  # fmt: skip
+    assert [line for line in texts if line[1] == "once"] == [(0.0, "once")]
+    skipped = [line for line in texts if line[1].startswith("not the first")]
+    assert skipped == [(0.25 * count, f"not the first {count}") for count in range(1, 10)]
+
+
+def test_once_means_once_in_each_run():
+    for _ in range(2):
+        assert (0.0, "once") in stamps(timing.throttled_log)

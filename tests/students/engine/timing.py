@@ -1,0 +1,194 @@
+"""Nodes that wait, each in its own way, and say in their log when they went on."""
+
+import time
+from datetime import UTC, datetime
+from time import monotonic, sleep
+
+import rclpy
+from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
+
+
+class Timers(Node):
+    """One timer on each kind of clock."""
+
+    def __init__(self):
+        super().__init__("timers")
+        kinds = {
+            "node": None,
+            "steady": Clock(clock_type=ClockType.STEADY_TIME),
+            "system": Clock(clock_type=ClockType.SYSTEM_TIME),
+            "ros": ROSClock(),
+        }
+        for name, clock in kinds.items():
+            self.create_timer(1.0, lambda name=name: self.get_logger().info(name), clock=clock)
+
+
+class ResetCancelChange(Node):
+    """A timer that is cancelled at 1.25 s, started again at 2 s, and made faster at 3.25 s."""
+
+    def __init__(self):
+        super().__init__("timer")
+        self.timer = self.create_timer(0.5, lambda: self.get_logger().info("tick"))
+        self.later(1.25, self.timer.cancel)
+        self.later(2.0, self.timer.reset)
+        self.later(3.25, self.faster)
+
+    def later(self, seconds, action):
+        timer = self.create_timer(seconds, lambda: (timer.cancel(), action()))
+
+    def faster(self):
+        self.timer.timer_period_ns = 250_000_000
+
+
+class Autostart(Node):
+    """A timer that only runs once somebody resets it."""
+
+    def __init__(self):
+        super().__init__("timer")
+        timer = self.create_timer(0.5, lambda: self.get_logger().info("tick"), autostart=False)
+        starter = self.create_timer(1.0, lambda: (starter.cancel(), timer.reset()))
+
+
+class SlowCallback(Node):
+    """A callback that sleeps 1 s of every 2 s; the fast timer's missed ticks are dropped."""
+
+    def __init__(self):
+        super().__init__("slow")
+        self.create_timer(0.25, lambda: self.get_logger().info("fast"))
+        self.create_timer(2.0, self.slow)
+
+    def slow(self):
+        time.sleep(1.0)
+        self.get_logger().info("slow")
+
+
+def sleep_loop():
+    rclpy.init()
+    node = Node("sleeper")
+    for second in range(3):
+        node.get_logger().info(str(second))
+        time.sleep(0.7)
+
+
+def early_bound_sleep():
+    """`sleep` and `monotonic` were bound by this module, perhaps before sim came."""
+    rclpy.init()
+    node = Node("sleeper")
+    before = monotonic()
+    sleep(1.5)
+    node.get_logger().info(f"{monotonic() - before:g}")
+
+
+def rate_in_a_thread():
+    """The usual recipe: spin in a thread, a rate in main."""
+    import threading
+
+    rclpy.init()
+    node = Node("rated")
+    thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+    thread.start()
+    rate = node.create_rate(4)
+    for _ in range(4):
+        rate.sleep()
+        node.get_logger().info("rate")
+    rclpy.shutdown()
+    thread.join()
+
+
+def rate_in_a_parallel_callback():
+    rclpy.init()
+    node = Node("rated")
+    rate = node.create_rate(2)
+
+    def once():
+        timer.cancel()
+        for _ in range(3):
+            rate.sleep()
+            node.get_logger().info("rate")
+
+    timer = node.create_timer(1.0, once)
+    executor = MultiThreadedExecutor()
+    executor.add_node(node)
+    executor.spin()
+
+
+def clock_sleeps():
+    rclpy.init()
+    node = Node("clocked")
+    clock = node.get_clock()
+    clock.sleep_for(Duration(seconds=1.5))
+    node.get_logger().info("for")
+    clock.sleep_until(Time(seconds=4, clock_type=ClockType.ROS_TIME))
+    node.get_logger().info("until")
+    Clock().sleep_for(Duration(seconds=0.5))
+    node.get_logger().info("system")
+
+
+def busy_wait():
+    """Waits as one should not: it asks for the time over and over."""
+    rclpy.init()
+    node = Node("busy")
+    start = time.time()
+    while time.time() - start < 1.0:
+        pass
+    node.get_logger().info("over")
+
+
+def busy_wait_on_the_node_clock():
+    rclpy.init()
+    node = Node("busy")
+    start = node.get_clock().now()
+    while node.get_clock().now() - start < Duration(seconds=1.0):
+        pass
+    node.get_logger().info("over")
+
+
+def all_clocks():
+    """What every clock shows after 2.5 s."""
+    rclpy.init()
+    node = Node("clocks")
+    time.sleep(2.5)
+    seconds = {
+        "time": time.time() - 1_735_689_600,
+        "time_ns": time.time_ns() / 1e9 - 1_735_689_600,
+        "monotonic": time.monotonic(),
+        "perf_counter": time.perf_counter(),
+        "node": node.get_clock().now().nanoseconds / 1e9,
+        "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9,
+        "system": Clock().now().nanoseconds / 1e9 - 1_735_689_600,
+    }
+    for name, value in seconds.items():
+        node.get_logger().info(f"{name} {value:g}")
+
+
+def calendar():
+    """The clocks that people read: they too must show simulated time, or no two runs are equal."""
+    rclpy.init()
+    node = Node("calendar")
+    time.sleep(3661)
+    node.get_logger().info(datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S"))
+    node.get_logger().info(time.strftime("%Y-%m-%d %H:%M:%S", time.gmtime()))
+
+
+def throttled_log():
+    rclpy.init()
+    node = Node("chatty")
+    for count in range(10):
+        node.get_logger().info(f"throttled {count}", throttle_duration_sec=1.0)
+        node.get_logger().info("once", once=True)
+        node.get_logger().info(f"not the first {count}", skip_first=True)
+        time.sleep(0.25)
+
+
+def three_timeouts():
+    """Waits three times 0.2 s for what never comes."""
+    rclpy.init()
+    node = Node("waiting")
+    for _ in range(3):
+        rclpy.spin_until_future_complete(node, Future(), timeout_sec=0.2)
+        node.get_logger().info("timeout")
