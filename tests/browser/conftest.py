@@ -1,0 +1,51 @@
+import shutil
+from collections.abc import Iterator
+
+import pytest
+
+from grader.marking.release import release
+from grader.marking.samples import SHARES, submit_samples
+from tests.browser.lab import Lab, copy_for_students, server
+from tests.marking.tiny import tiny
+
+CHROMIUM = shutil.which("chromium")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    missing = pytest.mark.skip(reason="no Chromium here: install it with `apt install chromium`")
+    for item in items:
+        if "browser" in item.keywords and not CHROMIUM:
+            item.add_marker(missing)
+
+
+@pytest.fixture(scope="session")
+def browser():
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        # Chromium's own sandbox does not run as root, the ordinary user in a container.
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="session")
+def address(tmp_path_factory) -> Iterator[str]:
+    """A running JupyterLab: the course as students have it, and the folder tiny/ with three submissions."""
+    folder = copy_for_students(tmp_path_factory.mktemp("students"))
+    course = tiny(tmp_path_factory.mktemp("tiny"))
+    release(course)
+    submit_samples(course, "01_tiny")
+    (folder / "tiny").mkdir()
+    for student in SHARES:
+        submitted = course / "class" / "submitted" / student / "01_tiny" / "tiny.ipynb"
+        shutil.copy(submitted, folder / "tiny" / f"{student}.ipynb")
+    with server(folder) as url:
+        yield url
+
+
+@pytest.fixture
+def lab(browser, address) -> Iterator[Lab]:
+    page = browser.new_page(viewport={"width": 1280, "height": 900})
+    yield Lab(page, address)
+    page.close()

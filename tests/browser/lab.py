@@ -1,0 +1,128 @@
+"""JupyterLab as students see it: a real server with their configuration, driven in Chromium."""
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from playwright.sync_api import Page
+
+ROOT = Path(__file__).parents[2]
+ARTIFACTS = ROOT / "test-artifacts"
+STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
+START_SECONDS = 60
+CELL_SECONDS = 60
+KERNEL_READY = """async () => {
+    const panel = window.jupyterapp.shell.currentWidget;
+    await panel.context.ready;
+    await panel.sessionContext.ready;
+    await panel.sessionContext.session.kernel.info;
+}"""
+# In the order of the cells: each has a count, up to one whose output is an error.
+ALL_CELLS_DONE = """() => {
+    for (const cell of window.jupyterapp.shell.currentWidget.content.model.cells) {
+        if (cell.type !== 'code' || !cell.sharedModel.getSource().trim()) continue;
+        if (cell.executionCount === null || cell.executionState === 'running') return false;
+        if (cell.outputs.toJSON().some(output => output.output_type === 'error')) return true;
+    }
+    return true;
+}"""
+
+
+def copy_for_students(target: Path) -> Path:
+    """Copy what a student works with into `target`, so that a test may save notebooks; return `target`."""
+    for name in STUDENTS_FILES:
+        source = ROOT / name
+        if source.is_dir():
+            shutil.copytree(source, target / name, ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
+        elif source.exists():
+            shutil.copy(source, target)
+    return target
+
+
+@contextmanager
+def server(folder: Path) -> Iterator[str]:
+    """Run JupyterLab for the course in `folder`; yield its address. Log: test-artifacts/jupyterlab.log."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address = f"http://127.0.0.1:{port}"
+    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token="]
+    options.append("--LabApp.expose_app_in_browser=True")  # for Lab.run_all and Lab.has_command
+    home = folder / "home"  # Lab keeps a student's layout and settings there
+    home.mkdir(exist_ok=True)
+    environment = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_PATH": str(folder / "jupyter")}
+    ARTIFACTS.mkdir(exist_ok=True)
+    with open(ARTIFACTS / "jupyterlab.log", "w") as log:
+        command = [sys.executable, "-m", "jupyterlab", *options]
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
+        try:
+            _wait_until_up(f"{address}/api", process, ARTIFACTS / "jupyterlab.log")
+            yield address
+        finally:
+            process.terminate()
+            process.wait(20)
+
+
+def _wait_until_up(url: str, process: subprocess.Popen, log: Path) -> None:
+    deadline = time.monotonic() + START_SECONDS
+    while time.monotonic() < deadline and process.poll() is None:
+        with suppress(OSError), urllib.request.urlopen(url, timeout=5):
+            return
+        time.sleep(0.2)
+    raise RuntimeError(f"JupyterLab did not answer at {url} within {START_SECONDS} s; its last words:\n"
+                       + log.read_text()[-2000:])
+
+
+class Lab:
+    """A browser tab with JupyterLab in it."""
+
+    def __init__(self, page: Page, address: str):
+        self.page = page
+        self.address = address
+
+    def open(self, notebook: str = "") -> None:
+        """Open a notebook, by its path in the course, or Lab's default page; wait for the kernel."""
+        workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
+        """Run all cells of the notebook; wait until all are done, or the first has failed."""
+        self.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
+        self.page.evaluate(KERNEL_READY)
+        self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
+
+    def run_all(self) -> None:
+        """Run all cells of the notebook, and wait until they are done or one has failed."""
+        self.page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+        deadline = time.monotonic() + CELL_SECONDS
+        while not self.page.evaluate(ALL_CELLS_DONE):
+            assert time.monotonic() < deadline, f"the cells were not done within {CELL_SECONDS} s"
+            self.page.wait_for_timeout(100)
+        self.page.wait_for_timeout(500)  # the last output is drawn after its message has come
+
+    def output(self) -> str:
+        """Return the text of all outputs that show."""
+        return "\n".join(self.page.locator(".jp-OutputArea-output").all_inner_texts())
+
+    def validate(self) -> str:
+        """Click nbgrader's Validate button and return what its dialog says."""
+        self.page.get_by_role("button", name="Validate").click()
+        dialog = self.page.locator(".jp-Dialog", has_text="Validation Results")
+        dialog.wait_for(timeout=CELL_SECONDS * 1000)
+        said = dialog.inner_text()
+        dialog.locator("button.jp-mod-accept").click()
+        return said
+
+    def has_command(self, name: str) -> bool:
+        """Return whether JupyterLab knows a command, such as nbgrader's `nbgrader:open-formgrader`."""
+        return self.page.evaluate("name => window.jupyterapp.commands.hasCommand(name)", name)
+
+    def screenshot(self, name: str) -> Path:
+        """Save a picture of the tab as test-artifacts/NAME.png and return its path."""
+        path = ARTIFACTS / f"{name}.png"
+        self.page.screenshot(path=path)
+        return path

@@ -1,0 +1,75 @@
+import os
+
+import pytest
+
+from grader.marking import secret
+from grader.marking.command import CommandFailed, nbgrader
+from grader.marking.demo import mark_samples
+from tests.marking.tiny import ROOT, answer, course, grade
+
+
+@pytest.fixture
+def secret_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("COURSE_SECRET", raising=False)
+    file = tmp_path / ".secret"
+    file.touch(mode=0o600)
+    return file
+
+
+def test_the_secret_shows_while_marking_only(secret_file):
+    secret_file.write_text("d1ce\n")
+    secret.show(assignment="01", student="*", notebooks=[])
+    assert os.environ["COURSE_SECRET"] == "d1ce"
+    secret.hide(assignment="01", student="*", notebooks=[])
+    assert "COURSE_SECRET" not in os.environ
+
+
+def test_without_the_file_marking_uses_the_public_seeds(secret_file):
+    secret_file.unlink()
+    secret.show()
+    assert "COURSE_SECRET" not in os.environ
+
+
+def test_a_secret_that_others_may_read_stops_the_marking(secret_file):
+    secret_file.write_text("d1ce")
+    secret_file.chmod(0o644)
+    with pytest.raises(SystemExit) as stopped:
+        secret.show()
+    assert str(stopped.value) == f"Others may read {secret_file}: run `chmod 600 .secret`, then mark again."
+
+
+def test_an_empty_secret_stops_the_marking(secret_file):
+    with pytest.raises(SystemExit) as stopped:
+        secret.show()
+    assert str(stopped.value) == f"{secret_file} is empty: write a long random line into it, or delete it."
+
+
+def test_a_secret_that_cannot_be_read_stops_the_marking(secret_file):
+    secret_file.unlink()
+    secret_file.mkdir(mode=0o700)
+    with pytest.raises(SystemExit) as stopped:
+        secret.show()
+    expected = f"{secret_file} cannot be read (Is a directory): mark as the user who owns it."
+    assert str(stopped.value) == expected
+
+
+def test_the_kernels_that_mark_get_the_secret_and_the_command_stops_on_a_bad_one(tmp_path):
+    folder = course(
+        tmp_path,
+        answer("import", "### BEGIN SOLUTION\nimport os\n### END SOLUTION"),
+        grade("test_secret", 1, "assert len(os.environ['COURSE_SECRET']) == 4"),
+    )
+    (folder / ".secret").touch(mode=0o600)
+    (folder / ".secret").write_text("d1ce")
+    points = {marked.student: marked.points["test_secret"][0] for marked in mark_samples(folder, "01_tiny")}
+    assert points == {"right": 1, "half_right": 1, "wrong": 0}
+    assert "d1ce" not in "".join(path.read_text() for path in (folder / "exercises").rglob("*.*"))
+
+    (folder / ".secret").chmod(0o640)
+    with pytest.raises(CommandFailed, match=r"run `chmod 600 \.secret`, then mark again\.$"):
+        nbgrader(folder, "autograde", "01_tiny", "--force")
+
+
+def test_the_secret_is_never_under_version_control():
+    assert "/.secret\n" in (ROOT / ".gitignore").read_text()
