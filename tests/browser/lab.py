@@ -90,7 +90,8 @@ class Lab:
     def open(self, notebook: str = "") -> None:
         """Open a notebook, by its path in the course, or Lab's default page; wait for the kernel."""
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
-        """Run all cells of the notebook; wait until all are done, or the first has failed."""
+        path = f"lab/workspaces/{workspace}/tree/{notebook}" if notebook else ""
+        self.page.goto(f"{self.address}/{path}")
         self.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
         self.page.evaluate(KERNEL_READY)
         self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
