@@ -30,8 +30,8 @@ demo: setup  ## release, mark three sample submissions, give feedback; no browse
 exercises: setup  ## make exercises/ from solutions/
 	$(BIN)/python -m grader.marking.release
 
-bench: setup  ## print the benchmarks
-	$(BIN)/python -m tests.bench
+bench: setup  ## print the benchmarks (make bench ARGS=scenario prints one)
+	$(BIN)/python -m tests.bench $(ARGS)
 
 tidy: setup  ## normalise the notebooks, sort imports
 	$(BIN)/python -m grader.notebooks
