@@ -12,18 +12,15 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 
-from tests.bench.report import fresh, table
+from tests.bench.report import avoider_run, fresh, table
 
 BUSY_LOOP = "while True: pass"
 
 
 def digest_here() -> None:
     """Print the digest of a run with a robot and a student's main(), as JSON."""
-    from sim import run
-    from tests.bench.avoider import main as avoider
-
     version = "{}.{}.{}".format(*sys.version_info)
-    print(json.dumps([version, run(avoider, world="maze", seconds=20, seed=1, quiet=True).digest]))
+    print(json.dumps([version, avoider_run(world="maze", seconds=20, seed=1).digest]))
 
 
 @contextlib.contextmanager

@@ -5,7 +5,7 @@ import os
 import threading
 from pathlib import Path
 
-from tests.bench.report import table
+from tests.bench.report import avoider_run, table
 
 RUNS, WARM_UP = 200, 10
 
@@ -27,12 +27,9 @@ def held() -> list[object]:
 
 def main() -> None:
     """Run the same program again and again, and look."""
-    from sim import run
-    from tests.bench.avoider import main as avoider
-
     rows = []
     for count in range(1, RUNS + 1):
-        digest = run(avoider, world="room", seconds=2, quiet=True).digest
+        digest = avoider_run(world="room", seconds=2).digest
         if count == WARM_UP or count % 50 == 0:
             rows.append([f"after {count} runs", *held(), digest[:8]])
     table(["", "threads", "of all kinds", "descriptors", "nodes", "memory, MB", "digest"], rows)

@@ -1,4 +1,4 @@
-"""What all benchmarks share: figures from a fresh process, and tables."""
+"""What all benchmarks share: a run, figures from a fresh process, and tables."""
 
 import json
 import os
@@ -9,6 +9,17 @@ from typing import Any
 
 # One virtual environment's ROS libraries must not leak into another's Python.
 NOT_INHERITED = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
+
+
+def avoider_run(**settings: Any) -> Any:
+    """The recording of the benchmarks' program, run quietly. Raises RuntimeError if it did not go its way."""
+    from sim import run
+    from tests.bench.avoider import main
+
+    recording = run(main, quiet=True, **settings)
+    if recording.ended.reason != "time" or recording.errors:
+        raise RuntimeError(f"the run should last {recording.seconds:g} s. {recording.ended.detail}")
+    return recording
 
 
 def fresh(module: str, *arguments: str, python: str = sys.executable, **environment: str) -> Any:

@@ -14,7 +14,7 @@ import time
 from functools import partial
 from typing import Any
 
-from tests.bench.report import fresh, table
+from tests.bench.report import avoider_run, fresh, table
 
 SECONDS, SECOND = 60, 1_000_000_000
 ROUNDS, RUNS = 3, 3
@@ -23,10 +23,7 @@ Counts = dict[str, Any]
 
 def lockstep() -> Counts:
     """Through `sim.run`, as a student's cell does it."""
-    from sim import run
-    from tests.bench.avoider import main
-
-    recording = run(main, world="room", seconds=SECONDS, quiet=True)
+    recording = avoider_run(world="room", seconds=SECONDS)
     called = [(call.node, call.callback) for call in recording.callbacks]
     return {
         "clocks": len([heard for heard in recording.messages("/clock") if heard.stamp > 0]),
