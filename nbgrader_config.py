@@ -22,9 +22,9 @@ course.solution_directory = "class/solution"
 course.source_with_tests_directory = "class/source_with_tests"
 course.db_url = f"sqlite:///{Path('class', 'gradebook.db').absolute()}"
 Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
-# Files beside a notebook are released with it, except these: answers, modules that a notebook writes itself
-# when it runs (my_*.py), and what tools leave behind.
-course.ignore = ["*answer*", "*solution*", "my_*.py", ".*", "*.pyc", "__pycache__", "feedback"]
+# nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A Python
+# file may be an answer that a cell wrote, or stand in for a library: a notebook's cells write what they need.
+course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]
 
 # The release is under version control, so it has the one form of our notebooks.
 c.GenerateAssignment.post_convert_hook = "grader.marking.release.tidy"
