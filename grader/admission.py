@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
@@ -14,7 +14,7 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
     """Why the first unusable one of these can't be run; None when all can."""
     if not nodes:
         return _fault("nothing", "Put the name of your class between the brackets: grade(MyNode).")
-    return next((fault for node in nodes if (fault := _refuse(node))), None)
+    return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
 
 
 def _refuse(node: Any) -> Fault | None:
@@ -35,6 +35,17 @@ def _refuse(node: Any) -> Fault | None:
         hint = "Give the class itself, by its name and without quotes."
         return _fault(f"{reprlib.repr(target)}, which is no node", hint)
     return None
+
+
+def _refuse_remappings(node: Any) -> Fault | None:
+    remappings = node.remappings if isinstance(node, Process) else ()
+    pairs = list(remappings) if isinstance(remappings, Iterable) else [remappings]
+    if all(isinstance(pair, (tuple, list)) and [type(name) for name in pair] == [str, str] for pair in pairs):
+        return None
+    return _fault(
+        f"remappings={reprlib.repr(remappings)}",
+        'Remappings are a list of pairs of names: remappings=[("from", "to")].',
+    )
 
 
 def _is_node_class(cls: type) -> bool:

@@ -102,14 +102,18 @@ def travelled(recording: Recording) -> float:
 
 
 def stands_still(recording: Recording, *, last: Seconds = 0.5, tolerance: float = 0.005) -> None:
-    """The robot moves less than `tolerance` metres in the last seconds of the run. Raises Missed if not."""
+    """In the last seconds of the run the robot moves less than `tolerance`, in metres and radians.
+
+    Raises Missed if not.
+    """
     end = last_pose(recording)
     final = [pose for pose in recording.path if pose.stamp >= end.stamp - last]
     moved = max(math.dist((end.x, end.y), (pose.x, pose.y)) for pose in final)
-    if moved > tolerance:
+    turned = max(abs(math.remainder(end.yaw - pose.yaw, math.tau)) for pose in final)
+    if moved > tolerance or turned > tolerance:
         raise Missed(
             f"the robot standing still for the last {last:g} s",
-            f"it moved {moved:.3f} m in that time",
+            f"it moved {moved:.3f} m in that time" if moved > tolerance else f"it turned by {turned:.3f} rad",
             "Publish a Twist() with all zeros when the robot has arrived.",
             picture="path",
         )

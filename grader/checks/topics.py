@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from grader.checks.check import Missed
+from grader.diagnosis.activity import is_robot
 from grader.diagnosis.names import closest, difference
 from sim.recording import INFRASTRUCTURE_TOPICS, Endpoint, Heard, Recording, Seconds
 from sim.recording import rate as mean_rate
@@ -46,7 +47,8 @@ def _declared(
         hint = f"Both ends of a topic must use the same message type: on {topic} it is {type}."
         raise Missed(expected, f"type {wrong.type} on {topic}", hint)
     if not found:
-        others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - _answered(recording))
+        mine = {end.name for end in ends if not is_robot(recording, end.node)}
+        others = sorted(mine - INFRASTRUCTURE_TOPICS - _answered(recording))
         near = closest(topic, others)
         saw = f"nobody {verb} there" + (f"; {verb} on {', '.join(others)}" if others else "")
         raise Missed(expected, saw, difference(near, topic) if near else "")

@@ -74,7 +74,13 @@ def unused_publisher(recording: Recording) -> str:
 
 
 def _who_should_publish(recording: Recording, node: str) -> str:
-    if any(timer.node == node for timer in recording.graph.timers):
+    periods = [timer.period for timer in recording.graph.timers if timer.node == node]
+    if periods and min(periods) > recording.ended.stamp:
+        return (
+            f"Its timer has a period of {min(periods):g} s, and the run lasts {recording.ended.stamp:.3g} s. "
+            "The period is 1 / rate, in seconds."
+        )
+    if periods:
         return "Call publish(msg) on it in the timer's callback."
     if any(e.name not in INFRASTRUCTURE_TOPICS and e.node == node for e in recording.graph.subscriptions()):
         return "Call publish(msg) on it in the callback of the subscription."

@@ -63,7 +63,7 @@ def where(error: CallbackError) -> str:
     frames = re.findall(r'File "(.*?)", line (\d+)', error.traceback)
     own = [line for file, line in frames if "site-packages" not in file]
     line = f", line {own[-1]}" if own else ""
-    return f"in {error.callback}{line}, at {error.stamp:.3g} s"
+    return f"in {error.callback or 'a callback'}{line}, at {error.stamp:.3g} s"
 
 
 def _first_line(text: str) -> str:

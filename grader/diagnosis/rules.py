@@ -163,6 +163,14 @@ RULES = (
         "and no part of it starts with a digit.",
     ),
     Rule(
+        "RCLInvalidROSArgsError", r"remap rule: '-r __ns:=(\w+)'",
+        "A namespace starts with a slash: `/{0}`.",
+    ),
+    Rule(
+        "RCLInvalidROSArgsError", r"remap rule: '-r (.+?)'",
+        "`{0}` is no remapping. Both names are made of letters, digits, underscores and slashes.",
+    ),
+    Rule(
         "ParameterNotDeclaredException", r"(\w+)$",
         "A parameter is declared before it is read: `self.declare_parameter('{0}', default)`.",
     ),

@@ -83,6 +83,15 @@ class TalkerWithoutTimer(Node):
         self.publisher = self.create_publisher(String, "/chatter", 10)
 
 
+class RateForPeriod(Node):
+    """Meant to talk 100 times a second."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+        self.create_timer(100, lambda: self.publisher.publish(String()))
+
+
 class SilentEcho(Listener):
     """Hears /chatter, and should answer on /echo."""
 

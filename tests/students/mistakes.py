@@ -269,6 +269,16 @@ class NotStartedWithoutWords(Talker):
         raise NotImplementedError
 
 
+def main_with_namespace_without_slash():
+    rclpy.init(args=["--ros-args", "-r", "__ns:=robot1"])
+    Node("talker")
+
+
+def main_with_space_in_a_remapping():
+    rclpy.init(args=["--ros-args", "-r", "chatter:=my chatter"])
+    Node("talker")
+
+
 def main_without_init():
     rclpy.spin(Talker())
 

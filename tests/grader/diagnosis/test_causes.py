@@ -32,6 +32,10 @@ CAUSES = {
     ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
     "the timer's callback.",
     (
+        misfits.RateForPeriod,
+    ): "/talker has a publisher on /chatter, but never publishes. Its timer has a period of 100 s, "
+    "and the run lasts 10 s. The period is 1 / rate, in seconds.",
+    (
         misfits.TalkerWithoutTimer,
     ): "/talker has a publisher on /chatter, but never publishes. It has no timer either: "
     "self.create_timer(seconds, self.callback) calls a method again and again.",

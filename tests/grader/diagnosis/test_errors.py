@@ -80,6 +80,9 @@ ADVICE = {
     "them.",
     mistakes.NotStarted: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.NotStartedWithoutWords: "Write your code, delete the line that raises, and run this cell again.",
+    mistakes.main_with_namespace_without_slash: "A namespace starts with a slash: `/robot1`.",
+    mistakes.main_with_space_in_a_remapping: "`chatter:=my chatter` is no remapping. Both names are made of letters, "
+    "digits, underscores and slashes.",
     mistakes.main_without_init: "rclpy.init() has to come before the first node, and rclpy.shutdown() after the last "
     "one: write `rclpy.init()` as the first line of main().",
     mistakes.main_with_two_inits: "rclpy.init() is called twice: call it once, at the start of main().",
