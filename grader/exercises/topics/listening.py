@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from grader.checks import Missed, answers, check, subscribes
 from grader.exercise import Exercise
+from grader.exercises.topics.advice import advising
 from grader.exercises.topics.partners import COMMANDS, Chatterbox, CommandSender
 from sim.recording import Heard, LogLine, Recording
 
 STRING, FLOAT64, BOOL = "std_msgs/msg/String", "std_msgs/msg/Float64", "std_msgs/msg/Bool"
 
 COMMAND = "/robot/command"
+PRINTED = "What is printed is no log line: use self.get_logger() in place of print(...)."
 DOING = {"stand": "standing", "walk": "walking", "stop": "stopping"}
+
+
+PATIENCE = 0.25  # seconds between a message and its log line; messages follow each other more slowly
 
 
 @check(points=3)
@@ -22,13 +27,31 @@ def listens_to_commands(recording: Recording) -> None:
 @check(points=6, after=listens_to_commands)
 def obeys(recording: Recording) -> None:
     """`stand`, `walk` and `stop` are answered at info level with standing, walking or stopping."""
-    answers(recording, COMMAND, lambda heard: DOING[heard.message.data], level="INFO", where=_is_command)
+    logging = "The word is in msg.data. Compare it with ==, and log with self.get_logger().info(...)."
+    with advising(recording, PRINTED if recording.prints else logging):
+        answers(
+            recording,
+            COMMAND,
+            lambda heard: DOING[_word(heard)],
+            level="INFO",
+            within=PATIENCE,
+            where=_is_command,
+        )
 
 
 @check(points=4, after=listens_to_commands)
 def warns(recording: Recording) -> None:
     """Any other word is answered with a warning that names the word."""
-    answers(recording, COMMAND, _word, level="WARN", where=lambda heard: not _is_command(heard))
+    logging = "In an else: self.get_logger().warning(...), with the word msg.data in the text."
+    with advising(recording, PRINTED if recording.prints else logging):
+        answers(
+            recording,
+            COMMAND,
+            _word,
+            level="WARN",
+            within=PATIENCE,
+            where=lambda heard: not _is_command(heard),
+        )
 
 
 @check(points=2, after=obeys)
@@ -57,7 +80,7 @@ def _answer(heard: Heard) -> str:
 
 
 def _lines_after(recording: Recording, stamp: float) -> list[LogLine]:
-    return [line for line in recording.logs if stamp <= line.stamp <= stamp + 0.5]
+    return [line for line in recording.logs if stamp <= line.stamp <= stamp + PATIENCE]
 
 
 def _contradicts(line: LogLine, word: str) -> bool:
@@ -83,30 +106,28 @@ CHATTERS = {"/chatter0": STRING, "/chatter1": FLOAT64, "/chatter2": BOOL}
 @check(points=6)
 def listens_to_all_three(recording: Recording) -> None:
     """The node listens to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
-    for heard_so_far, (topic, kind) in enumerate(CHATTERS.items()):
+    for found, (topic, kind) in enumerate(CHATTERS.items()):
         try:
-            subscribes(recording, topic, kind)
+            with advising(recording, "Make one subscription for each topic, in a loop or one by one."):
+                subscribes(recording, topic, kind)
         except Missed as missed:
-            raise Missed(missed.expected, missed.saw, missed.hint, credit=heard_so_far / 3) from None
+            raise Missed(missed.expected, missed.saw, missed.hint, credit=found / len(CHATTERS)) from None
 
 
-@check(points=7, after=listens_to_all_three)
+@check(points=6, after=listens_to_all_three)
 def knows_the_topic(recording: Recording) -> None:
     """Each message is logged at info level as `chatter0: word`: its topic, a colon, a space and its value."""
-    everything = [heard for topic in CHATTERS for heard in recording.messages(topic)]
-    missed = [heard for heard in everything if not _is_told(recording, heard, heard.topic)]
+    missed = {topic: heard for topic in CHATTERS if (heard := _first_untold(recording, topic))}
     if missed:
-        first = missed[0]
-        raise Missed(
-            f"“{_told(first, first.topic)}” at level INFO after the message at {first.stamp:.3g} s",
-            ", ".join(f"“{line.text}” ({line.level})" for line in _lines_after(recording, first.stamp))
-            or "no line",
-            _late_binding(recording, missed),
-            credit=1 - len(missed) / len(everything),
-        )
+        first = min(missed.values(), key=lambda heard: heard.stamp)
+        expected = f"“{_told(first, first.topic)}” at level INFO after the message at {first.stamp:.3g} s"
+        right = len(CHATTERS) - len(missed)
+        credit = right / len(CHATTERS) if right > 1 else 0.0  # a single one may be right by chance
+        with advising(recording, 'Log each message: self.get_logger().info(f"{topic}: {msg.data}").'):
+            raise Missed(expected, *_told_instead(recording, first), credit=credit)
 
 
-@check(points=2, after=knows_the_topic)
+@check(points=3, after=knows_the_topic)
 def uses_one_callback(recording: Recording) -> None:
     """One callback serves all three topics."""
     nodes = {end.node for topic in CHATTERS for end in recording.graph.subscriptions(topic)}
@@ -121,8 +142,11 @@ def uses_one_callback(recording: Recording) -> None:
 
 
 def _told(heard: Heard, topic: str) -> str:
-    value = heard.message.data
-    return f"{topic.lstrip('/')}: {value}"
+    return f"{topic.lstrip('/')}: {heard.message.data}"
+
+
+def _first_untold(recording: Recording, topic: str) -> Heard | None:
+    return next((h for h in recording.messages(topic) if not _is_told(recording, h, topic)), None)
 
 
 def _is_told(recording: Recording, heard: Heard, topic: str) -> bool:
@@ -131,14 +155,22 @@ def _is_told(recording: Recording, heard: Heard, topic: str) -> bool:
     return any(line.level == "INFO" and wanted in line.text.lower() for line in lines)
 
 
-def _late_binding(recording: Recording, missed: list[Heard]) -> str:
-    for topic in CHATTERS:
-        if all(_is_told(recording, heard, topic) for heard in missed):
-            return (
-                f"Every message is said to come from {topic}. A lambda made in a loop reads "
-                "the variable when it is called, after the loop: `lambda msg, topic=topic: ...` helps, or partial."
-            )
-    return ""
+def _told_instead(recording: Recording, heard: Heard) -> tuple[str, str]:
+    """What was said about a message, and a hint where the reason is known."""
+    lines = _lines_after(recording, heard.stamp)
+    if any("source_timestamp" in line.text for line in lines):
+        return (
+            "details of the message's way where its topic should be",
+            "A callback with two parameters gets such details as the second. "
+            "Give it the topic: partial(self.hear, topic=topic).",
+        )
+    saw = ", ".join(f"“{line.text}” ({line.level})" for line in lines) or "no line"
+    if heard.topic != "/chatter2" and _is_told(recording, heard, "/chatter2"):
+        return saw, (
+            "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when it "
+            "is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial."
+        )
+    return saw, ""
 
 
 chatters = Exercise(

@@ -7,6 +7,7 @@ import math
 
 from grader.checks import Missed, check, publishes, rate, series, within
 from grader.exercise import Exercise
+from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 
@@ -48,7 +49,8 @@ def temperature_once_a_second(recording: Recording) -> None:
 @check(points=4, after=temperature_is_published)
 def temperature_in_range(recording: Recording) -> None:
     """Every temperature is from 20 to 25 °C."""
-    within(recording, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
+    with advising(recording, "random.uniform(20.0, 25.0) gives a number in this range."):
+        within(recording, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
 
 
 @check(points=2, after=temperature_is_published)
@@ -59,7 +61,7 @@ def temperature_changes(recording: Recording) -> None:
     if len(values) < 2 or same > len(values) / 2:
         raise Missed(
             "a new temperature in each message",
-            f"{len(set(values))} different in {len(values)} messages, the first {values[0]:.4g} °C",
+            f"only {values[0]:.4g} °C" if len(set(values)) == 1 else f"{same} times the same as before",
             "Ask for a new number in the timer's callback: random.uniform(20.0, 25.0) gives one.",
         )
 
@@ -117,7 +119,8 @@ def imu_is_stamped(recording: Recording) -> None:
 @check(points=2, after=imu_is_published)
 def imu_feels_gravity(recording: Recording) -> None:
     """The acceleration along z is 9.81 m/s²."""
-    within(recording, IMU_TOPIC, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
+    with advising(recording, "msg.linear_acceleration.z = 9.81; upwards is positive."):
+        within(recording, IMU_TOPIC, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
 
 
 @check(points=3, after=imu_is_published)

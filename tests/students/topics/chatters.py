@@ -1,0 +1,146 @@
+"""Listeners to three topics: right ones, and wrong ones named by their defect."""
+
+from functools import partial
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Bool, Float64, String
+
+TYPES = {"/chatter0": String, "/chatter1": Float64, "/chatter2": Bool}
+
+
+class Listener(Node):
+    """As one would write it."""
+
+    def __init__(self):
+        super().__init__("chatter_listener")
+        for topic, kind in TYPES.items():
+            self.create_subscription(kind, topic, partial(self.hear, topic=topic), 10)
+
+    def hear(self, msg, topic):
+        self.get_logger().info(f"{topic}: {msg.data}")
+
+
+class ListenerWithLambdas(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        self.create_subscription(String, "chatter0", lambda msg: self.hear(msg, "chatter0"), 10)
+        self.create_subscription(Float64, "chatter1", lambda msg: self.hear(msg, "chatter1"), 10)
+        self.create_subscription(Bool, "chatter2", lambda msg: self.hear(msg, "chatter2"), 10)
+
+
+class ListenerWithDefaultArgument(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic, kind in TYPES.items():
+            self.create_subscription(kind, topic, lambda msg, name=topic: self.hear(msg, name), 10)
+
+
+def main_with_function_that_makes_callbacks():
+    rclpy.init()
+    node = Node("chatter_listener")
+
+    def listener_to(topic):
+        def hear(msg):
+            node.get_logger().info(f"I heard {topic}: {msg.data}!")
+
+        return hear
+
+    for topic, kind in TYPES.items():
+        node.create_subscription(kind, topic, listener_to(topic), 10)
+    rclpy.spin(node)
+
+
+class ListenerThatKnowsByType(Listener):
+    """The three types differ, so the type tells the topic."""
+
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic, kind in TYPES.items():
+            self.create_subscription(kind, topic, self.sort, 10)
+
+    def sort(self, msg):
+        self.hear(msg, {String: "/chatter0", Float64: "/chatter1", Bool: "/chatter2"}[type(msg)])
+
+
+class LambdaInLoop(Listener):
+    """Each lambda looks at `topic` when it is called, and then the loop is over."""
+
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic, kind in TYPES.items():
+            self.create_subscription(kind, topic, lambda msg: self.hear(msg, topic), 10)  # noqa: B023
+
+
+class ThreeCallbacks(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        self.create_subscription(String, "/chatter0", self.hear_word, 10)
+        self.create_subscription(Float64, "/chatter1", self.hear_number, 10)
+        self.create_subscription(Bool, "/chatter2", self.hear_answer, 10)
+
+    def hear_word(self, msg):
+        self.hear(msg, "/chatter0")
+
+    def hear_number(self, msg):
+        self.hear(msg, "/chatter1")
+
+    def hear_answer(self, msg):
+        self.hear(msg, "/chatter2")
+
+
+class OnlyTwoTopics(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic in ("/chatter0", "/chatter1"):
+            self.create_subscription(TYPES[topic], topic, partial(self.hear, topic=topic), 10)
+
+
+class AllOfOneType(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic in TYPES:
+            self.create_subscription(String, topic, partial(self.hear, topic=topic), 10)
+
+
+class CountsFromOne(Listener):
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for number, kind in enumerate(TYPES.values(), start=1):
+            topic = f"/chatter{number}"
+            self.create_subscription(kind, topic, partial(self.hear, topic=topic), 10)
+
+
+class ValueWithoutTopic(Listener):
+    def hear(self, msg, topic):
+        self.get_logger().info(f"{msg.data}")
+
+
+class TopicWithoutValue(Listener):
+    def hear(self, msg, topic):
+        self.get_logger().info(topic)
+
+
+class WholeMessage(Listener):
+    def hear(self, msg, topic):
+        self.get_logger().info(f"{topic}: {msg}")
+
+
+class DebugLevel(Listener):
+    def hear(self, msg, topic):
+        self.get_logger().debug(f"{topic}: {msg.data}")
+
+
+class ForgetsBool(Listener):
+    def hear(self, msg, topic):
+        if topic != "/chatter2":
+            super().hear(msg, topic)
+
+
+class CallbackOfTwoArguments(Listener):
+    """Nobody passes the second one."""
+
+    def __init__(self):
+        Node.__init__(self, "chatter_listener")
+        for topic, kind in TYPES.items():
+            self.create_subscription(kind, topic, self.hear, 10)

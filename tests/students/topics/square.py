@@ -1,0 +1,204 @@
+"""Drivers of a square: right ones, and wrong ones named by their defect."""
+
+import math
+import time
+
+import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+
+
+class SquareDriver(Node):
+    """By ticks of a timer: 2 s for each side, 2 s for each corner."""
+
+    topic, sides, speed, turn = "/cmd_vel", 4, 0.5, math.pi / 4
+
+    def __init__(self):
+        super().__init__("square_driver")
+        self.publisher = self.create_publisher(Twist, self.topic, 10)
+        self.ticks = 0
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        msg = Twist()
+        side, tick = divmod(self.ticks, 40)
+        if side < self.sides:
+            self.steer(msg, tick)
+        self.ticks += 1
+        self.publisher.publish(msg)
+
+    def steer(self, msg, tick):
+        if tick < 20:
+            msg.linear.x = self.speed
+        else:
+            msg.angular.z = self.turn
+
+
+def main_that_sleeps():
+    """Ends by itself, without a last command."""
+    rclpy.init()
+    node = Node("square")
+    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+
+    def drive(speed, turn, seconds):
+        msg = Twist()
+        msg.linear.x, msg.angular.z = speed, turn
+        for _ in range(round(seconds * 20)):
+            publisher.publish(msg)
+            time.sleep(0.05)
+
+    for _ in range(4):
+        drive(0.25, 0.0, 4.0)
+        drive(0.0, math.pi / 2, 1.0)
+    publisher.publish(Twist())
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+class SquareByOdometry(Node):
+    """Looks where it is: straight on to the next corner, then turn until it looks along the next side."""
+
+    corners = ((1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0))
+
+    def __init__(self):
+        super().__init__("square")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.leg = 0
+        self.create_subscription(Odometry, "/odom", self.drive, 10)
+
+    def drive(self, odometry):
+        msg = Twist()
+        if self.leg < 4:
+            pose = odometry.pose.pose
+            yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
+            dx, dy = self.corners[self.leg][0] - pose.position.x, self.corners[self.leg][1] - pose.position.y
+            error = math.remainder(math.atan2(dy, dx) - yaw, math.tau)
+            if math.hypot(dx, dy) < 0.03:
+                self.leg += 1
+            elif abs(error) > 0.2:
+                msg.angular.z = math.copysign(0.8, error)
+            else:
+                msg.linear.x, msg.angular.z = min(0.4, math.hypot(dx, dy) + 0.05), error
+        self.publisher.publish(msg)
+
+
+class SquareInOneCallback(Node):
+    """A one-shot timer whose callback drives the whole way and waits with the clock's sleep."""
+
+    def __init__(self):
+        super().__init__("square")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.timer = self.create_timer(0.5, self.go)
+
+    def go(self):
+        self.timer.cancel()
+        for speed, turn in [(0.4, 0.0), (0.0, math.pi / 5)] * 4:
+            msg = Twist()
+            msg.linear.x, msg.angular.z = speed, turn
+            for _ in range(25):
+                self.publisher.publish(msg)
+                time.sleep(0.1)
+        self.publisher.publish(Twist())
+
+
+class SlowSquare(SquareDriver):
+    """Takes 58 s of the 60."""
+
+    def drive(self):
+        msg = Twist()
+        side, tick = divmod(self.ticks, 145)
+        if side < 4 and tick < 125:
+            msg.linear.x = 0.08
+        elif side < 4:
+            msg.angular.z = math.pi / 4
+        self.ticks += 1
+        self.publisher.publish(msg)
+
+
+class StandsStill(SquareDriver):
+    sides = 0
+
+
+class MisspeltTopic(SquareDriver):
+    topic = "/cmd_val"
+
+
+class TurnsRight(SquareDriver):
+    turn = -math.pi / 4
+
+
+class DegreesNotRadians(SquareDriver):
+    turn = 45.0
+
+
+class ThreeSides(SquareDriver):
+    sides = 3
+
+
+class HalfSides(SquareDriver):
+    speed = 0.25
+
+
+class OneSideOnly(SquareDriver):
+    sides = 1
+
+
+class NeverStops(SquareDriver):
+    sides = 10**6
+
+
+class CommandsTooRarely(Node):
+    """One command for each side and corner: the robot stops on its own 0.5 s later."""
+
+    def __init__(self):
+        super().__init__("square_driver")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.leg = 0
+        self.create_timer(2.0, self.drive)
+
+    def drive(self):
+        msg = Twist()
+        if self.leg < 8:
+            msg.linear.x, msg.angular.z = ((0.5, 0.0), (0.0, math.pi / 4))[self.leg % 2]
+        self.leg += 1
+        self.publisher.publish(msg)
+
+
+class Circle(SquareDriver):
+    """A circle whose way is as long as the square's."""
+
+    def steer(self, msg, tick):
+        msg.linear.x, msg.angular.z = 0.25, 2 * math.pi / 16
+
+
+class RoundCorners(SquareDriver):
+    """Goes on at full speed while it turns: swings far out of each corner."""
+
+    def steer(self, msg, tick):
+        super().steer(msg, tick)
+        msg.linear.x = self.speed
+
+
+class TurnsALittleTooFar(SquareDriver):
+    turn = math.pi / 4 * 1.06
+
+
+class DrivesSideways(SquareDriver):
+    """A differential drive has no linear.y."""
+
+    def steer(self, msg, tick):
+        side = self.ticks // 40
+        setattr(msg.linear, "xyxy"[side], 0.25 if side < 2 else -0.25)
+
+
+class ThereAndBack(SquareDriver):
+    """Comes back to the start, but along one side only."""
+
+    def steer(self, msg, tick):
+        msg.linear.x = self.speed if self.ticks < 80 and tick < 20 else -self.speed if tick < 20 else 0.0
+
+
+class WholeNumber(SquareDriver):
+    def steer(self, msg, tick):
+        msg.linear.x = 1

@@ -1,0 +1,130 @@
+"""Thermometers: right ones, and wrong ones named by their defect."""
+
+import math
+import random
+import time
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32, Float64
+
+
+class Thermometer(Node):
+    """As one would write it."""
+
+    type, topic, period = Float32, "/sensor/temperature", 1.0
+
+    def __init__(self):
+        super().__init__("thermometer")
+        self.publisher = self.create_publisher(self.type, self.topic, 10)
+        self.create_timer(self.period, self.measure)
+
+    def measure(self):
+        self.publisher.publish(self.type(data=self.read()))
+
+    def read(self):
+        return random.uniform(20.0, 25.0)
+
+
+class RoundedThermometer(Thermometer):
+    """Whole degrees, so a value comes twice in a row now and then."""
+
+    def read(self):
+        return float(random.randint(20, 25))
+
+
+def main_with_rate():
+    rclpy.init()
+    node = Node("sensor")
+    publisher = node.create_publisher(Float32, "sensor/temperature", 10)
+    while rclpy.ok():
+        now = node.get_clock().now().nanoseconds / 1e9
+        publisher.publish(Float32(data=22.5 + 2.5 * math.sin(now)))
+        rclpy.spin_once(node, timeout_sec=1.0)
+
+
+def thermometer_made_by_a_function():
+    node = Node("thermometer", namespace="sensor")
+    publisher = node.create_publisher(Float32, "temperature", 10)
+    node.create_timer(1.0, lambda: publisher.publish(Float32(data=20 + 5 * random.random())))
+    return node
+
+
+class ThermometerWithAsyncTimer(Thermometer):
+    async def measure(self):
+        super().measure()
+
+
+class Float64InPlaceOfFloat32(Thermometer):
+    type = Float64
+
+
+class TopicWithoutNamespace(Thermometer):
+    topic = "temperature"
+
+
+class TenTimesASecond(Thermometer):
+    period = 0.1
+
+
+class OnceOnly(Thermometer):
+    def measure(self):
+        if self.get_clock().now().nanoseconds < 1.5e9:
+            super().measure()
+
+
+class SleepsASecondMore(Thermometer):
+    def measure(self):
+        time.sleep(1.5)
+        super().measure()
+
+
+class TooWarm(Thermometer):
+    def read(self):
+        return random.uniform(20.0, 30.0)
+
+
+class Fahrenheit(Thermometer):
+    def read(self):
+        return random.uniform(68.0, 77.0)
+
+
+class NotANumber(Thermometer):
+    def read(self):
+        return math.nan
+
+
+class AlwaysTheSame(Thermometer):
+    def read(self):
+        return 22.0
+
+
+class NewEveryFourSeconds(Thermometer):
+    def read(self):
+        return 20.0 + self.get_clock().now().nanoseconds // 4_000_000_000
+
+
+class DrawnOnceInInit(Thermometer):
+    def __init__(self):
+        super().__init__()
+        self.value = random.uniform(20.0, 25.0)
+
+    def read(self):
+        return self.value
+
+
+class WholeNumber(Thermometer):
+    def read(self):
+        return random.randint(20, 25)
+
+
+class PublishesTheBareNumber(Thermometer):
+    def measure(self):
+        self.publisher.publish(self.read())
+
+
+class CallsTheCallback(Thermometer):
+    def __init__(self):
+        Node.__init__(self, "thermometer")
+        self.publisher = self.create_publisher(Float32, self.topic, 10)
+        self.create_timer(1.0, self.measure())
