@@ -1,0 +1,20 @@
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+ROOT = Path(__file__).parents[2]
+LESSONS = sorted(ROOT.glob("course/*/*.ipynb"))
+
+
+@pytest.mark.parametrize("lesson", LESSONS, ids=lambda path: path.parent.name)
+def test_a_lesson_runs_from_top_to_bottom(lesson, tmp_path):
+    notebook = nbformat.read(lesson, as_version=4)
+    NotebookClient(notebook, timeout=60, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    assert any(cell.get("outputs") for cell in notebook.cells), "a lesson shows something"
+
+
+def test_every_assignment_has_a_lesson():
+    assignments = {path.parent.name for path in ROOT.glob("solutions/*/*.ipynb")}
+    assert {path.parent.name for path in LESSONS} == assignments
