@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable
 
@@ -9,22 +10,26 @@ from grader.checks.check import Missed
 from sim.recording import Heard, LogLine, Recording, Seconds
 
 
-def logs(recording: Recording, pattern: str, *, level: str = "", at_least: int = 1) -> list[LogLine]:
+def logs(
+    recording: Recording, pattern: str, *, level: str = "", at_least: int = 1, example: str = ""
+) -> list[LogLine]:
     """The log lines in which a regular expression is found (capital letters don't count).
 
-    level: DEBUG, INFO, WARN, ERROR or FATAL; "" for any. Raises Missed when there are fewer than `at_least`.
+    level: DEBUG, INFO, WARN, ERROR or FATAL; "" for any. example: such a line, for who reads no patterns.
+    Raises Missed when there are fewer than `at_least`.
     """
+    example = example or pattern
     texts = [line for line in recording.logs if re.search(pattern, line.text, re.IGNORECASE)]
     found = [line for line in texts if level in ("", line.level)]
     if len(found) < at_least:
         many = "a log line" if at_least == 1 else f"{at_least} log lines"
-        expected = f"{many}{f' at level {level}' if level else ''} like “{pattern}”"
-        raise Missed(expected, *_nearest(recording, pattern, texts, found, level))
+        expected = f"{many}{f' at level {level}' if level else ''} like “{example}”"
+        raise Missed(expected, *_nearest(recording, pattern, example, texts, found, level))
     return found
 
 
 def _nearest(
-    recording: Recording, pattern: str, texts: list[LogLine], found: list[LogLine], level: str
+    recording: Recording, pattern: str, example: str, texts: list[LogLine], found: list[LogLine], level: str
 ) -> tuple[str, str]:
     """What was seen instead, and a hint."""
     if found:
@@ -35,9 +40,20 @@ def _nearest(
     printed = next((text for _, text in recording.prints if re.search(pattern, text, re.IGNORECASE)), "")
     if printed:
         return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) in place of print(...)."
+    unfilled = next((line.text for line in recording.logs if re.search(r"\{\w[^}]*\}", line.text)), "")
+    if unfilled:
+        return f"“{unfilled}”", "Put an f before the quotes: f\"...\" fills in what stands in braces."
+    similar = _most_similar(recording, example)
+    if similar:
+        return f"“{similar}”", "Compare the two texts letter by letter."
     if recording.logs:
-        return f"other lines, such as “{recording.logs[0].text}”", "Compare the two texts letter by letter."
+        return f"no such line; the first line is “{recording.logs[0].text}”", ""
     return "no log line at all", ""
+
+
+def _most_similar(recording: Recording, example: str) -> str:
+    folded = {line.text.casefold(): line.text for line in reversed(recording.logs)}
+    return next((folded[near] for near in difflib.get_close_matches(example.casefold(), folded, 1, 0.7)), "")
 
 
 def answers(

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import rclpy
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
 from grader.exercise import Scenario
-from sim.recording import Recording, Seconds
+from sim.recording import Recording
 
 LOGGER, OBSERVER = "after_main", "observer"
 
@@ -24,24 +24,21 @@ class AfterMain(Scenario):
         return super().run([_observed(node) for node in nodes], seed)
 
 
-class Trace:
-    """What a main() left behind.
+class Trace(NamedTuple):
+    """What a main() left behind."""
 
-    interrupted: KeyboardInterrupt came out of it. still_up: rclpy.shutdown() is missing.
-    nodes: those not destroyed, by their full names, separated by commas. stamp: when main() was over.
-    """
-
-    def __init__(self, stamp: Seconds, text: str) -> None:
-        words = dict(part.split("=") for part in text.split(" "))
-        self.stamp = stamp
-        self.interrupted, self.still_up = words["interrupted"] == "True", words["still_up"] == "True"
-        self.nodes = words["nodes"]
+    raised: str  # the name of the exception that came out of it, "" if none did
+    still_up: bool  # rclpy.ok() is still True
+    nodes: str  # full names of those not destroyed, separated by commas
 
 
 def trace_of(recording: Recording) -> Trace | None:
     """What main() left behind; None when it never came to its end."""
-    lines = [line for line in recording.logs if line.node == LOGGER]
-    return Trace(lines[0].stamp, lines[0].text) if lines else None
+    for line in recording.logs:
+        if line.node == LOGGER:
+            words = dict(part.split("=") for part in line.text.split(" "))
+            return Trace(words["raised"], words["still_up"] == "True", words["nodes"])
+    return None
 
 
 def _observed(main: Any) -> Any:
@@ -51,25 +48,25 @@ def _observed(main: Any) -> Any:
 
     @functools.wraps(main)
     def main_and_look(**arguments: Any) -> Any:
-        interrupted, result = False, None
         try:
             result = main(**arguments)
-        except KeyboardInterrupt:
-            interrupted = True
+        except (Exception, KeyboardInterrupt) as error:
+            _look(type(error).__name__)
+            raise
         if not isinstance(result, Node):
-            _look(interrupted)
+            _look("")
         return result
 
     return main_and_look
 
 
-def _look(interrupted: bool) -> None:
+def _look(raised: str) -> None:
     still_up = rclpy.ok()
     if not still_up:
         rclpy.init()
     observer = Node(OBSERVER)
     found = observer.get_node_names_and_namespaces()
     left = ",".join(sorted(f"{space.rstrip('/')}/{name}" for name, space in found if name != OBSERVER))
-    get_logger(LOGGER).info(f"interrupted={interrupted} still_up={still_up} nodes={left}")
+    get_logger(LOGGER).info(f"raised={raised} still_up={still_up} nodes={left}")
     observer.destroy_node()
     rclpy.shutdown()

@@ -33,13 +33,13 @@ def _reports(recording: Recording) -> list[Found]:
 @check(points=5)
 def beats(recording: Recording) -> None:
     """“Beat” is logged every 0.25 s."""
-    come_every(recording, _beats(recording), 0.25)
+    come_every(recording, _beats(recording), 0.25, credit=0.2)
 
 
 @check(points=5)
 def reports(recording: Recording) -> None:
     """A report like “Beats: 4” is logged every second."""
-    come_every(recording, [line for line, _ in _reports(recording)], 1.0)
+    come_every(recording, [line for line, _ in _reports(recording)], 1.0, credit=0.2)
 
 
 @check(points=6, after=(beats, reports))

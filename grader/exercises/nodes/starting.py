@@ -16,7 +16,7 @@ def says_hello(recording: Recording) -> None:
     except Missed as missed:
         if recording.logs or recording.prints:
             raise
-        hint = "Debug lines are hidden; and a method that nobody calls says nothing."
+        hint = "Debug lines are hidden, so use info; and a method that nobody calls says nothing."
         raise Missed(missed.expected, missed.saw, hint) from None
 
 

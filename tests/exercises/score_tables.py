@@ -1,0 +1,124 @@
+"""What the score tables of all assignments share: pages of scores, and notebooks that were run.
+
+An exercise has a module of nodes, tests/students/<assignment>/<exercise>.py, and a page, tests/exercises/
+<assignment>/<exercise>.txt, that says what each of the nodes earns and the red lines it gets, word by word.
+Only the numbers of code lines are left out: they change with every edit of the module.
+"""
+
+from __future__ import annotations
+
+import functools
+import html
+import importlib
+import re
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import nbformat
+from nbclient import NotebookClient
+from nbformat import NotebookNode
+
+from grader import Exercise, Score
+from sim import Process
+
+ROOT = Path(__file__).parents[2]
+NOT_STARTED = "This exercise is not started yet"
+
+
+class Miss(NamedTuple):
+    """A red line of a score, word by word."""
+
+    sentence: str
+    expected: str
+    saw: str
+    hint: str
+
+
+def misses(score: Score) -> tuple[Miss, ...]:
+    """The red lines of a score; lines that others explain (skipped) are left out."""
+    failed = [verdict for verdict in score.verdicts if verdict.status == "failed"]
+    return tuple(Miss(verdict.sentence, verdict.expected, verdict.saw, verdict.hint) for verdict in failed)
+
+
+def students(assignment: str, exercise: str) -> dict[str, Any]:
+    """Name to node, for every node of an exercise's module but those in its PARTS."""
+    module = importlib.import_module(f"tests.students.{assignment}.{exercise}")
+    found = {
+        name: item
+        for name, item in vars(module).items()
+        if isinstance(item, Process) or getattr(item, "__module__", "") == module.__name__
+    }
+    return {name: item for name, item in found.items() if name not in getattr(module, "PARTS", ())}
+
+
+def page(assignment: str, exercise: str) -> dict[str, str]:
+    """Name to what the exercise's page says of the node: points, and the red lines."""
+    text = Path(__file__).with_name(assignment).joinpath(f"{exercise}.txt").read_text(encoding="utf-8")
+    return {block.split(":")[0]: block for block in text.strip().split("\n\n")}
+
+
+def shown(name: str, score: Score) -> str:
+    """What a page says of a node."""
+    lines = [f"{name}: {score!r}"]
+    for miss in misses(score):
+        lines.append(f"- {miss.sentence}")
+        lines += [f"  Expected: {miss.expected}", f"  Saw: {miss.saw}", f"  Hint: {miss.hint}".rstrip()]
+    return re.sub(r", line \d+", "", "\n".join(lines))
+
+
+class Answer(NamedTuple):
+    """What a cell shows once the notebook has run."""
+
+    source: str
+    most: float  # points nbgrader can give for it; 0 for cells without
+    points: float | None  # the number nbgrader reads, if there is one
+    text: str  # printed text and tables as plain text
+    problems: str  # errors, and whatever went to stderr
+
+
+@functools.cache
+def executed(folder: str, assignment: str) -> dict[str, Answer]:
+    """Run the notebook of an assignment in a copy of its folder; what its code cells show, by their ids.
+
+    folder: "solutions", "exercises" or "course".
+    """
+    with tempfile.TemporaryDirectory() as place:
+        copy = Path(shutil.copytree(ROOT / folder / assignment, Path(place, assignment)))
+        notebook = nbformat.read(next(copy.glob("*.ipynb")), 4)
+        client = NotebookClient(notebook, timeout=120, kernel_name="python3", allow_errors=True)
+        client.execute(cwd=str(copy))
+    return {cell.id: _answer(cell) for cell in notebook.cells if cell.cell_type == "code"}
+
+
+def graded(folder: str, assignment: str) -> dict[str, Answer]:
+    """The cells that give points."""
+    return {name: answer for name, answer in executed(folder, assignment).items() if answer.most}
+
+
+def _answer(cell: NotebookNode) -> Answer:
+    said, problems, points = [], [], None
+    for output in cell.outputs:
+        if output.output_type == "error" or output.get("name") == "stderr":
+            problems.append(output.get("text") or "\n".join(output.traceback))
+            continue
+        data = output.get("data", {})
+        if output.output_type == "execute_result" and points is None:
+            points = _number(data.get("text/plain", ""))
+        said.append(output.get("text") or _plain(data.get("text/html", "")) or data.get("text/plain", ""))
+    most = cell.metadata.get("nbgrader", {}).get("points", 0.0)
+    return Answer(cell.source, most, points, "\n".join(said), "\n".join(problems))
+
+
+def _number(text: str) -> float | None:
+    return float(text) if re.fullmatch(r"\d+(\.\d+)?", text) else None
+
+
+def _plain(page: str) -> str:
+    return html.unescape(re.sub(r"<[^>]+>", " ", page))
+
+
+def exercise_of(answer: Answer, exercises: Any) -> Exercise:
+    """The exercise that a test cell such as `nodes.hello.grade(Hello)` grades."""
+    return getattr(exercises, re.fullmatch(r"(?:\w+\.)?(\w+)\.grade\(.*\)", answer.source)[1])
