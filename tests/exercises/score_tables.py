@@ -2,7 +2,7 @@
 
 An exercise has a module of nodes, tests/students/<assignment>/<exercise>.py, and a page, tests/exercises/
 <assignment>/<exercise>.txt, that says what each of the nodes earns and the red lines it gets, word by word.
-Only the numbers of code lines are left out: they change with every edit of the module.
+Only the numbers of code lines read N: they change with every edit of the module.
 """
 
 from __future__ import annotations
@@ -39,7 +39,11 @@ class Miss(NamedTuple):
 def misses(score: Score) -> tuple[Miss, ...]:
     """The red lines of a score; lines that others explain (skipped) are left out."""
     failed = [verdict for verdict in score.verdicts if verdict.status == "failed"]
-    return tuple(Miss(verdict.sentence, verdict.expected, verdict.saw, verdict.hint) for verdict in failed)
+    return tuple(Miss(it.sentence, it.expected, _without_numbers(it.saw), it.hint) for it in failed)
+
+
+def _without_numbers(saw: str) -> str:
+    return re.sub(r", line \d+", ", line N", saw)
 
 
 def students(assignment: str, exercise: str) -> dict[str, Any]:
@@ -65,7 +69,7 @@ def shown(name: str, score: Score) -> str:
     for miss in misses(score):
         lines.append(f"- {miss.sentence}")
         lines += [f"  Expected: {miss.expected}", f"  Saw: {miss.saw}", f"  Hint: {miss.hint}".rstrip()]
-    return re.sub(r", line \d+", "", "\n".join(lines))
+    return "\n".join(lines)
 
 
 class Answer(NamedTuple):
