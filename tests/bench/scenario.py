@@ -124,7 +124,7 @@ def main() -> None:
         figures = [f"{first:.2f}", f"{usual[name]:.2f}", f"{min(times[name]):.2f}"]
         ratios = [f"{SECONDS / usual[name]:.0f}", f"{min(times[name]) / min(times['engine']):.1f}"]
         rows.append([name, *figures, *ratios, *counts, " ".join(f"{value:.3f}" for value in pose)])
-    print(f"{SECONDS} s of simulated time, in {ROUNDS} processes with {RUNS} runs each. Wall time in s of first")
+    print(f"{SECONDS} s of simulated time; {ROUNDS} processes with {RUNS} runs each. Wall time in s of first")
     print("runs (median) and of later ones (median, best); times real time (median); / engine (best).")
     header = ["", "first", "later", "best", "x real time", "/ engine"]
     table([*header, "/clock", "/scan", "/odom", "/cmd_vel", "ends at (m, m, rad)"], rows)
