@@ -22,8 +22,8 @@ course.solution_directory = "class/solution"
 course.source_with_tests_directory = "class/source_with_tests"
 course.db_url = f"sqlite:///{Path('class', 'gradebook.db').absolute()}"
 Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
-# nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A Python
-# file may be an answer that a cell wrote, or stand in for a library: a notebook's cells write what they need.
+# nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A
+# Python file may be an answer that a cell wrote, or stand in for a library: cells write what they need.
 course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]
 
 # The release is under version control, so it has the one form of our notebooks.
@@ -41,3 +41,6 @@ c.Autograde.pre_convert_hook = "grader.marking.secret.show"
 c.Autograde.post_convert_hook = "grader.marking.secret.hide"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
+SAFE_HTML = "grader.marking.safe_html.clean"
+# The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
+c.HTMLExporter.filters = {"clean_html": SAFE_HTML, "strip_files_prefix": SAFE_HTML}
