@@ -3,6 +3,6 @@
 from sim.view.animation import animate
 from sim.view.figure import png
 from sim.view.scene import plot_path
-from sim.view.timeline import plot_signal, plot_topics
+from sim.view.timeline import plot_logs, plot_signal, plot_topics
 
-__all__ = ["animate", "plot_path", "plot_signal", "plot_topics", "png"]
+__all__ = ["animate", "plot_logs", "plot_path", "plot_signal", "plot_topics", "png"]

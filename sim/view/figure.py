@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-PATH, SOLID, WARNING, MUTED = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad"
+PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 DPI = 100
 
 

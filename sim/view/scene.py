@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from sim.recording import Pose, Recording
-from sim.view.figure import MUTED, PATH, SOLID, WARNING, Plot, plot
+from sim.view.figure import CAUTION, MUTED, PATH, SOLID, WARNING, Plot, plot
 from sim.world import RobotModel, World
 
 MARGIN = 0.2  # metres around what is shown
@@ -66,7 +66,7 @@ def draw_world(axes: Axes, world: World) -> None:
     for pillar in world.circles:
         axes.add_patch(Circle((pillar.x, pillar.y), pillar.radius, facecolor=MUTED, edgecolor=SOLID))
     if world.goal:
-        axes.plot(*world.goal, "*", color="#e8a33d", markersize=15, label="goal", linestyle="none")
+        axes.plot(*world.goal, "*", color=CAUTION, markersize=15, label="goal", linestyle="none")
 
 
 def _arrow(axes: Axes, pose: Pose, label: str, colour: str) -> None:

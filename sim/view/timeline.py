@@ -7,8 +7,12 @@ import numbers
 from collections.abc import Sequence
 from typing import Any
 
+from matplotlib.axes import Axes
+
 from sim.recording import Recording, rate, stamps
-from sim.view.figure import PATH, SOLID, WARNING, Plot, plot
+from sim.view.figure import CAUTION, MUTED, PATH, SOLID, WARNING, Plot, plot
+
+LEVELS = {"DEBUG": MUTED, "INFO": PATH, "WARN": CAUTION, "ERROR": WARNING, "FATAL": "black"}
 
 
 def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
@@ -25,11 +29,31 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
     figure, axes = plot(7.2, 0.9 + 0.5 * max(len(rows), 1))
     for height, (_, moments, colour) in enumerate(rows):
         axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
-    axes.set(xlabel="time (s)", xlim=(-0.02 * _end(recording), 1.02 * _end(recording)))
-    axes.set_yticks(range(len(rows)), [label for label, _, _ in rows])
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    axes.grid(axis="x", color="#e6e9ec")
+    _along_time(recording, axes, [label for label, _, _ in rows])
     return figure
+
+
+def plot_logs(recording: Recording) -> Plot:
+    """One row for each logger with a stroke for each log line; the colour is the line's level."""
+    names = sorted({line.node for line in recording.logs})
+    figure, axes = plot(7.2, 0.9 + 0.5 * max(len(names), 1))
+    for level, colour in LEVELS.items():
+        lines = [line for line in recording.logs if line.level == level]
+        if lines:
+            moments, rows = [line.stamp for line in lines], [names.index(line.node) for line in lines]
+            axes.plot(moments, rows, "|", color=colour, markersize=16, markeredgewidth=2, label=level)
+    _along_time(recording, axes, names)
+    if names:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return figure
+
+
+def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
+    """Time to the right, and the rows from top to bottom."""
+    axes.set(xlabel="time (s)", xlim=(-0.02 * _end(recording), 1.02 * _end(recording)))
+    axes.set_yticks(range(len(rows)), rows)
+    axes.set_ylim(max(len(rows), 1) - 0.5, -0.5)
+    axes.grid(axis="x", color="#e6e9ec")
 
 
 def _label(recording: Recording, topic: str) -> str:
