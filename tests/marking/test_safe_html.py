@@ -9,7 +9,7 @@ from tests.marking.tiny import answer, course, grade
 @pytest.mark.parametrize(
     "html",
     [
-        '<table style="width: 9em;"><caption>3 of 4</caption><tbody><tr><td colspan="2">x</td></tr></tbody></table>',
+        '<table style="width: 9em;"><caption>3/4</caption><tbody><tr><td>x</td></tr></tbody></table>',
         '<img src="data:image/png;base64,iVBORw0KGgo=" alt="the path" width="300">',
         "<details><summary>Hint 1</summary><p>Begin with the timer.</p></details>",
         "<h2>Task</h2>\n<blockquote>\n<p>Write a <code>Node</code>.</p>\n</blockquote>",
