@@ -1,0 +1,151 @@
+"""Code that never gives control back is stopped and named; the next run in the same process is as usual."""
+
+import pytest
+
+from sim import run
+from sim.ros import guard
+from tests.sim.ros.evidence import raised, why
+from tests.students.engine import hangs, mains
+
+LOOP = "{} computed for {} s without coming to an end, at line {}: {}."
+STUCK = (
+    "{}.tick of node /hanging has waited since t = 1 s and never returned, at line {}: {}. It waits for {}."
+)
+BUSY = "{} of node /hanging at t = 1 s"
+
+
+def line_in(node, text, method="tick"):
+    """Number of the line of a class that reads so."""
+    code = getattr(node, method).__code__
+    with open(code.co_filename) as file:
+        lines = file.readlines()
+    start = code.co_firstlineno
+    return next(number for number in range(start, len(lines)) if lines[number - 1].strip() == text)
+
+
+@pytest.fixture
+def usual(monkeypatch):
+    """The digest of a usual run before; afterwards it must be the same. Hangs are noticed sooner here."""
+    monkeypatch.setattr(guard, "COMPUTING_LIMIT", 0.4)
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
+    before = run(mains.classic, world="yard", seconds=2, quiet=True).digest
+    yield
+    assert run(mains.classic, world="yard", seconds=2, quiet=True).digest == before
+
+
+def test_a_loop_is_stopped_after_two_seconds_of_computing():
+    recording = run(hangs.Loop, seconds=3, quiet=True)
+    detail = LOOP.format(BUSY.format("Loop.tick"), 2, line_in(hangs.Loop, "while True:"), "while True:")
+    assert why(recording) == ("hang", 1.0, detail)
+    assert recording.errors == []
+
+
+@pytest.mark.parametrize("node, where, stamp, method", [
+    (hangs.LoopInMain, "main() at t = 0 s", 0.0, "main"),
+    (hangs.LoopInThread, "thread LoopInThread.work() at t = 1 s", 1.0, "work"),
+    (hangs.LoopInInit, "LoopInInit() at t = 0 s", 0.0, "__init__"),
+], ids=["main", "thread", "init"])  # fmt: skip
+@pytest.mark.usefixtures("usual")
+def test_a_loop_is_named_wherever_it_is(node, where, stamp, method):
+    recording = run(getattr(node, "main", node), seconds=3, quiet=True)
+    detail = LOOP.format(where, 0.4, line_in(node, "while True:", method), "while True:")
+    assert why(recording) == ("hang", stamp, detail)
+
+
+@pytest.mark.parametrize("node", [
+    hangs.LoopThatSwallows, hangs.LoopThatSwallowsExceptions, hangs.LoopWithPrint, hangs.LoopWithLog,
+    hangs.Allocates,
+])  # fmt: skip
+@pytest.mark.usefixtures("usual")
+def test_a_loop_is_stopped_whatever_it_does(node):
+    recording = run(node, seconds=3, quiet=True)
+    reason, stamp, detail = why(recording)
+    assert (reason, stamp) == ("hang", 1.0)
+    name = f"{node.__name__}.tick"
+    assert detail.startswith(f"{BUSY.format(name)} computed for 0.4 s without coming to an end, at line ")
+
+
+def test_a_program_that_only_spins_once_is_stopped(usual):
+    recording = run(hangs.SpinsWithoutWaiting.main, seconds=3, quiet=True)
+    assert recording.ended.reason == "hang"
+    assert recording.ended.detail.startswith("main() at t = 0 s computed for 0.4 s without coming to an end")
+
+
+@pytest.mark.xfail(run=False, reason="the guard measures its waiting in simulated time")
+def test_a_call_that_nobody_answers_is_interrupted(usual):
+    recording = run(hangs.Pipe, seconds=3, quiet=True)
+    line = line_in(hangs.Pipe, "os.read(read, 1)")
+    assert why(recording) == (
+        "hang", 1.0, "Pipe.tick of node /hanging at t = 1 s waited for 1 s in a call that simulated time "
+        f"can't shorten, at line {line}: os.read(read, 1).",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("node, line, waits_for", [
+    (hangs.Lock, "with lock, lock:", "a lock"),
+    (hangs.EventNobodySets, "threading.Event().wait()", "a lock"),
+    (hangs.EmptyQueue, "queue.Queue().get()", "a lock"),
+], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
+@pytest.mark.usefixtures("usual")
+def test_waiting_for_ever_is_told_with_its_line(node, line, waits_for):
+    recording = run(node, seconds=3, quiet=True)
+    detail = STUCK.format(node.__name__, line_in(node, line), line, waits_for)
+    assert why(recording) == ("blocked", 3.0, detail)
+
+
+@pytest.mark.xfail(strict=True, reason="the thread's number counts all threads of the process")
+def test_waiting_for_a_thread_is_told_alike_each_time():
+    first, second = (run(hangs.JoinsItself, seconds=3, quiet=True) for _ in range(2))
+    assert first.ended == second.ended
+    assert first.ended.reason == "blocked"
+
+
+@pytest.mark.parametrize("node", [hangs.Sleep, hangs.SleepLoop])
+@pytest.mark.usefixtures("usual")
+def test_sleeping_is_no_hang(node):
+    assert why(run(node, seconds=3, quiet=True)) == ("time", 3.0, "All 3 s were run.")
+
+
+@pytest.mark.parametrize(
+    "node", [hangs.PingPong, hangs.GuardCondition, hangs.TaskThatMakesTasks, hangs.ZeroTimer]
+)
+@pytest.mark.usefixtures("usual")
+def test_callbacks_that_never_let_time_go_on_are_stopped(node):
+    assert why(run(node, seconds=3, quiet=True)) == (
+        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time move on.",
+    )  # fmt: skip
+
+
+def test_a_flood_of_messages_is_stopped(usual):
+    recording = run(hangs.LoopWithPublish, seconds=3, quiet=True)
+    assert why(recording) == (
+        "livelock", 1.0, "/hanging published 20000 messages at t = 1 s without letting time move on.",
+    )  # fmt: skip
+    assert len(recording.messages("/data")) == 20_000
+
+
+def test_what_a_flood_leaves_is_bounded(usual):
+    recording = run(hangs.LoopWithPrint, hangs.LoopWithLog, seconds=3, quiet=True)
+    assert sum(len(text) for _, text in recording.prints) <= 1_000_000
+    assert len(recording.logs) <= 100_000
+
+
+def test_a_flood_shows_its_first_lines_only(usual, capsys):
+    run(hangs.LoopWithLog, seconds=3)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 101
+    assert lines[0] == "[INFO] [1.000] [hanging]: still here"
+    assert lines[-1].startswith("... and ") and lines[-1].endswith(" more lines, all in the recording")
+
+
+def test_endless_recursion_is_an_error(usual):
+    recording = run(hangs.Recursion, seconds=3, quiet=True)
+    assert raised(recording) == [
+        (1.0, "/hanging", "Recursion.tick", "RecursionError", "maximum recursion depth exceeded")
+    ]
+    assert len(recording.errors[0].traceback.splitlines()) < 20
+
+
+def test_the_others_are_recorded_to_the_end_of_that_moment(usual):
+    recording = run(hangs.Loop, mains.Counter, seconds=3, quiet=True)
+    assert [heard.stamp for heard in recording.messages("/count")] == [0.5, 1.0]
