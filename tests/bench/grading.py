@@ -1,4 +1,4 @@
-"""Grading: wall time of every test cell in the solution notebooks, run in a kernel."""
+"""Wall time of every test cell in the solution notebooks, run in a kernel."""
 
 from datetime import datetime
 from pathlib import Path
