@@ -6,11 +6,10 @@ environment.prepare()
 
 from sim.recording import Recording  # noqa: E402
 from sim.ros import hooks  # noqa: E402
-from sim.world import World  # noqa: E402
-
-hooks.install()
-
 from sim.ros.processes import Process  # noqa: E402
 from sim.ros.run import run  # noqa: E402
+from sim.world import World  # noqa: E402
+
+hooks.install()  # last: what the engine itself has bound are the real clocks
 
 __all__ = ["Process", "Recording", "World", "run"]

@@ -6,26 +6,36 @@ import contextlib
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from types import SimpleNamespace
 from typing import Any, TextIO
 
 from sim.ros.fibers import engine
 
 
 class StudentStream:
-    """Stands for a text stream during a run: student code writes to `write`, all others to the original."""
+    """Stands for a text stream during a run: student code writes to the run, all others to the original.
 
-    def __init__(self, original: TextIO, write: Callable[[str], None]) -> None:
-        self._original, self._write = original, write
+    It holds on to no run, for a library that is first imported in a run may keep it for ever.
+    """
+
+    def __init__(self, original: Any, channel: str) -> None:
+        self._original, self._channel = original, channel
 
     def write(self, text: str) -> int:
         """As `TextIO.write`."""
-        if engine() is None:
+        run = engine()
+        if run is None:
             return self._original.write(text)
-        self._write(text)
+        getattr(run, self._channel)(text)
         return len(text)
 
-    def writelines(self, lines: Any) -> None:
+    def flush(self) -> None:
+        """As `TextIO.flush`; a notebook's stream would wait for a thread, which a fiber can't do."""
+        if engine() is None:
+            self._original.flush()
+
+    def writelines(self, lines: Iterable[str]) -> None:
         """As `TextIO.writelines`."""
         for line in lines:
             self.write(line)
@@ -35,30 +45,28 @@ class StudentStream:
 
 
 @contextlib.contextmanager
-def student_streams(on_stdout: Callable[[str], None], on_stderr: Callable[[str], None]) -> Iterator[None]:
-    """Redirect Python's stdout and stderr for the time of a run."""
+def student_streams() -> Iterator[None]:
+    """Redirect Python's stdout and stderr for the time of a run to its `printed` and `complained`."""
     stdout, stderr = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = StudentStream(stdout, on_stdout), StudentStream(stderr, on_stderr)
-    # Handlers of Python's logging hold on to the stream object itself.
-    held = vars(stderr) if hasattr(stderr, "__dict__") else None
-    if held is not None:
-        held["write"] = StudentStream(_Unbound(stderr), on_stderr).write
+    sys.stdout, sys.stderr = StudentStream(stdout, "printed"), StudentStream(stderr, "complained")
+    held = _hold(stderr)
     try:
         yield
     finally:
-        if held is not None:
-            held.pop("write", None)
+        for name in held:
+            delattr(stderr, name)
         sys.stdout, sys.stderr = stdout, stderr
 
 
-class _Unbound:
-    """A stream's own class's `write`, past what is set on the object."""
-
-    def __init__(self, stream: Any) -> None:
-        self._stream = stream
-
-    def write(self, text: str) -> int:
-        return type(self._stream).write(self._stream, text)
+def _hold(stream: TextIO) -> tuple[str, ...]:
+    """Redirect the stream object itself as far as it lets us: handlers of Python's logging hold on to it."""
+    original = SimpleNamespace(write=stream.write, flush=stream.flush)
+    student = StudentStream(original, "complained")
+    try:
+        stream.write, stream.flush = student.write, student.flush
+    except AttributeError:  # a stream of Python's own writes to file descriptor 2, which is caught
+        return ()
+    return "write", "flush"
 
 
 @contextlib.contextmanager

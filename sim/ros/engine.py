@@ -125,7 +125,7 @@ class Engine(Scheduler):
             while self._fault is None and self.now < end:
                 self.recording.stamp = self.recorder.now
                 if self.guard.interrupted:
-                    raise Interrupted
+                    return Ended("interrupted", self.recorder.now, "The user interrupted the run.")
                 if goal is not None and goal(self.recording):
                     return Ended(
                         "goal", self.recorder.now, f"The goal was reached at t = {self.recorder.now:g} s."
@@ -183,6 +183,16 @@ class Engine(Scheduler):
             ):
                 publisher.wait_for_all_acked(REPLAY_WAIT)
 
+    def printed(self, text: str) -> None:
+        """Student code wrote to stdout."""
+        self.echo(text)
+        self.recorder.printed(text)
+
+    def complained(self, text: str) -> None:
+        """Student code wrote to stderr."""
+        self.echo(text)
+        self.recorder.complained(text)
+
     def logged(self, severity: Any, logger: str, text: str) -> None:
         """A node wrote a log line."""
         line = self.recorder.log(severity, logger, text)
@@ -208,11 +218,8 @@ class Engine(Scheduler):
 
         return call_later if inspect.iscoroutinefunction(function) else call
 
-    def describe_current(self) -> str:
-        """Which callback of which node is running, for a message."""
-        fiber = self.current
-        if fiber is None:
-            return "The run"
+    def describe(self, fiber: Fiber) -> str:
+        """Which callback of which node a fiber is in, for a message."""
         if fiber.callbacks:
             running = fiber.callbacks[-1]
             return f"{running.name} of node {running.node} at t = {self.recorder.now:g} s"

@@ -15,15 +15,17 @@ from rclpy.action import ActionClient, ActionServer
 from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, TimeoutObject
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
 from sim.ros.callbacks import Work, perform
-from sim.ros.fibers import SECOND, Fiber
+from sim.ros.fibers import Fiber, nanoseconds
 from sim.ros.processes import shared_context
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
 
+RCLError = _rclpy.RCLError
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
@@ -190,7 +192,7 @@ class Plan:
         for question, entity, node in questions:
             try:
                 work = question(self, entity, node)
-            except InvalidHandle:  # destroyed since the pass began
+            except (InvalidHandle, RCLError):  # destroyed since the pass began
                 continue
             if work is not None:
                 yield work
@@ -218,7 +220,7 @@ class Plan:
         engine.current.process.check_init()
         if isinstance(timeout, TimeoutObject):
             timeout = timeout.timeout
-        until = None if timeout is None or timeout < 0 else engine.now + round(timeout * SECOND)
+        until = None if timeout is None or timeout < 0 else engine.now + nanoseconds(timeout)
         try:
             while not self._over(done, parallel):
                 self._collect()

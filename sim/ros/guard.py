@@ -10,10 +10,12 @@ from __future__ import annotations
 import contextlib
 import signal
 import threading
-import time
 from collections.abc import Iterator
+from time import monotonic, thread_time
 from types import FrameType
 from typing import TYPE_CHECKING
+
+from sim.ros.fibers import Fiber, outside_student_code
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
@@ -72,21 +74,22 @@ class Guard:
         fiber, stretch = self.engine.current, self.engine.stretch
         if fiber is None or stretch != self._stretch:
             self._stretch, self._asked = stretch, 0
-            self._computing, self._waiting = time.thread_time(), time.monotonic()
+            self._computing, self._waiting = thread_time(), monotonic()
             return
-        computing, waiting = time.thread_time() - self._computing, time.monotonic() - self._waiting
+        computing, waiting = thread_time() - self._computing, monotonic() - self._waiting
         share = 0.1 if self.impatient or self.interrupted else 1.0
         if computing < share * COMPUTING_LIMIT and waiting < share * WAITING_LIMIT:
             return
         self._asked += 1
         if self.hang is None:
-            self.hang = Hang(self._describe(frame, computing, waiting))
+            with outside_student_code():
+                self.hang = Hang(self._describe(fiber, frame, computing))
         if self._asked > 2:
             fiber.park()
         raise self.hang
 
-    def _describe(self, frame: FrameType | None, computing: float, waiting: float) -> str:
-        where = self.engine.describe_current()
+    def _describe(self, fiber: Fiber, frame: FrameType | None, computing: float) -> str:
+        where = self.engine.describe(fiber)
         line = student_line(frame)
         if computing >= COMPUTING_LIMIT:
             what = f"computed for {COMPUTING_LIMIT:g} s without coming to an end"

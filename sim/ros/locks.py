@@ -5,11 +5,11 @@ from __future__ import annotations
 import _thread
 from typing import Any
 
-from sim.ros.fibers import SECOND, Fiber, engine
+from sim.ros.fibers import Fiber, engine, nanoseconds
 
 
 def _deadline(now: int, timeout: float) -> int | None:
-    return None if timeout is None or timeout < 0 else now + round(timeout * SECOND)
+    return None if timeout is None or timeout < 0 else now + nanoseconds(timeout)
 
 
 class FiberLock:

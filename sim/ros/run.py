@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import random
 import sys
 from collections.abc import Callable, Iterator
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from sim.recording import Ended, Recording
 from sim.ros import hooks
 from sim.ros.capture import file_descriptor_2, student_streams
 from sim.ros.engine import Engine
-from sim.ros.fibers import SECOND, active
+from sim.ros.fibers import SECOND, active, outside_student_code
 from sim.ros.processes import Process, as_process
 from sim.world import Simulation, World
 
@@ -60,19 +60,23 @@ def run(
         )
     with _seeded(seed), _watched(Engine(recording, seed), quiet) as engine:
         if simulation is not None:
-            engine.start(Process(robot_of(simulation, recording)))
+            engine.start(Process(_robot(simulation, recording)))
         watched = [engine.start(spec) for spec in specs]
         recording.ended = engine.run_until(round(seconds * SECOND), until, watched)
+    del watched
+    gc.collect(1)  # rclpy's nodes are full of cycles; left alone, they pile up from run to run
     if engine.guard.interrupted:
-        raise KeyboardInterrupt("the run was interrupted")
+        raise KeyboardInterrupt("The run was interrupted.")
     return recording
 
 
-def robot_of(simulation: Simulation, recording: Recording) -> Callable[[], Any]:
-    """A function that makes the robot's node."""
-    from sim.ros.robot import Robot
+def _robot(simulation: Simulation, recording: Recording) -> Callable[[], Any]:
+    def robot() -> Any:
+        from sim.ros.robot import Robot
 
-    return partial(Robot, simulation, recording)
+        return Robot(simulation, recording)
+
+    return robot
 
 
 @contextlib.contextmanager
@@ -92,17 +96,9 @@ def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
     show = _Screen(quiet)
     engine.echo = show
 
-    def complained(text: str) -> None:
-        show(text)
-        engine.recorder.complained(text)
-
-    def printed(text: str) -> None:
-        show(text)
-        engine.recorder.printed(text)
-
     with (
         file_descriptor_2(engine.recorder.complained),
-        student_streams(printed, complained),
+        student_streams(),
         engine.guard.watch(),
         engine,
     ):
@@ -119,7 +115,8 @@ class _Screen:
 
     def __call__(self, text: str) -> None:
         if not self.quiet and self.lines < ECHO_LINES and self.characters < ECHO_CHARACTERS:
-            self.stream.write(text[:ECHO_CHARACTERS])
+            with outside_student_code():
+                self.stream.write(text[:ECHO_CHARACTERS])
         self.lines += text.count("\n")
         self.characters += len(text)
 

@@ -7,9 +7,12 @@ from typing import Any
 
 from rclpy.clock import ROSClock
 from rclpy.exceptions import InvalidHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.time import Time
 
 from sim.ros.fibers import Nanoseconds, Scheduler
+
+RCLError = _rclpy.RCLError
 
 
 class SimulatedTime:
@@ -56,7 +59,7 @@ class SimulatedTime:
                 try:
                     handle = timer.handle
                     left = None if handle.is_timer_canceled() else handle.time_until_next_call()
-                except InvalidHandle:
+                except (InvalidHandle, RCLError):  # destroyed, and not yet taken out of the plan
                     continue
                 if left is not None and 0 < left < moment - now:
                     moment = now + left

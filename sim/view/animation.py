@@ -21,6 +21,9 @@ COLOURS = 32
 class MovingPicture(bytes):
     """The bytes of an animated PNG; Jupyter shows it playing."""
 
+    def __repr__(self) -> str:
+        return f"<MovingPicture of {len(self) / 1024:.0f} KiB>"  # notebooks keep this text beside the picture
+
     def _repr_png_(self) -> bytes:
         return bytes(self)
 

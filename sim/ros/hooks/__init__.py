@@ -24,6 +24,9 @@ class Hook:
     make: Callable[[Any], Any]
 
 
+# Modules of Python that bound a clock by name, for their timeouts.
+READS_CLOCKS = ("queue", "sched", "threading")
+
 HOOKS: list[Hook] = []
 _replaced: dict[int, tuple[Any, Any]] = {}  # id of an original function -> (it, its replacement)
 
@@ -59,7 +62,7 @@ def install() -> None:
             _replaced[id(plain)] = (plain, replacement)
         setattr(entry.owner, entry.name, staticmethod(replacement) if plain is not original else replacement)
     for module in list(sys.modules.values()):
-        if not _library(module):
+        if not _library(module) or module.__name__ in READS_CLOCKS:
             rebind(vars(module))
 
 
@@ -73,6 +76,8 @@ def rebind(names: dict[str, Any]) -> None:
 
 def _library(module: ModuleType) -> bool:
     file = getattr(module, "__file__", None)
+    if module.__name__.startswith("sim."):
+        return True
     if file is None:
         return module.__name__ != "__main__"
     return file.startswith((sys.base_prefix, sys.prefix)) or "site-packages" in file

@@ -13,7 +13,7 @@ from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
 
 from sim.ros.executor import OrderedNodes, Plan
-from sim.ros.fibers import SECOND, engine
+from sim.ros.fibers import engine, nanoseconds
 from sim.ros.hooks import hook
 
 PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number; rclpy's answer depends on the machine
@@ -123,7 +123,7 @@ def wait_for_message(original: Callable) -> Callable:
                 taken.append(message[0])
             return bool(taken) or not node.context.ok()
 
-        until = None if time_to_wait < 0 else run.now + round(time_to_wait * SECOND)
+        until = None if time_to_wait < 0 else run.now + nanoseconds(time_to_wait)
         try:
             if not arrived():
                 run.wait(f"a message on {topic}", ready=arrived, until=until)

@@ -70,8 +70,9 @@ def node_init(original: Callable) -> Callable:
         if keywords.get("context") is None and not rclpy.ok():
             process.lend_init()
         if process.global_arguments and keywords.get("use_global_arguments", True):
-            own = list(keywords.get("cli_args") or ())
-            keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments]
+            # The node's own come first and last: the first remapping wins, and the last parameter.
+            own = ["--ros-args", *(keywords.get("cli_args") or ())]
+            keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments, *own]
         original(self, node_name, **keywords)
         process.nodes.append(self)
         run.recorder.node(self)

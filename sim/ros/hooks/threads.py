@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from sim.ros.callbacks import callback_name
-from sim.ros.fibers import SECOND, engine
+from sim.ros.fibers import engine, nanoseconds
 from sim.ros.hooks import hook
 from sim.ros.locks import FiberLock, FiberRLock
 
@@ -24,7 +24,7 @@ def start(original: Callable) -> Callable:
         # Not the thread's name: it counts all threads of the kernel, and would make every run different.
         name = f"thread {callback_name(self._target or type(self))}"
         self._sim_fiber = run.spawn(self.run, name, run.current.process)
-        self._sim_fiber.daemon = self.daemon
+        self._sim_fiber.daemon, self._sim_fiber.thread = self.daemon, self
         return None
 
     return start
@@ -38,7 +38,7 @@ def join(original: Callable) -> Callable:
             return original(self, timeout)
         run = engine()
         if run is not None and not fiber.done:
-            until = None if timeout is None else run.now + round(max(timeout, 0) * SECOND)
+            until = None if timeout is None else run.now + nanoseconds(max(timeout, 0))
             run.wait(f"thread {self.name} to end", ready=lambda: fiber.done, until=until)
         return None
 
@@ -52,6 +52,24 @@ def is_alive(original: Callable) -> Callable:
         return original(self) if fiber is None else not fiber.done
 
     return is_alive
+
+
+@hook(threading, "current_thread", "each fiber that is a thread has the name its student gave it")
+def current_thread(original: Callable) -> Callable:
+    def current_thread() -> threading.Thread:
+        run = engine()
+        return (run.current.thread if run is not None else None) or original()
+
+    return current_thread
+
+
+@hook(threading, "get_ident", "all fibers are one thread; a student's threads differ")
+def get_ident(original: Callable) -> Callable:
+    def get_ident() -> int:
+        run = engine()
+        return original() if run is None or run.current.thread is None else id(run.current.thread)
+
+    return get_ident
 
 
 def _students_own(depth: int = 2) -> bool:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy.random
 
-from sim.ros.fibers import SECOND, engine
+from sim.ros.fibers import SECOND, engine, nanoseconds
 from sim.ros.hooks import hook
 
 EPOCH = 1_735_689_600  # 2025-01-01 00:00 UTC: what time.time() says at the start of every run
@@ -29,7 +29,7 @@ def sleep(original: Callable) -> Callable:
             return original(seconds)
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
-        run.wait(f"time.sleep({seconds:g})", until=run.now + round(seconds * SECOND))
+        run.wait(f"time.sleep({seconds:g})", until=run.now + nanoseconds(seconds))
         return None
 
     return sleep
@@ -52,6 +52,45 @@ for _name in ("time", "monotonic", "perf_counter"):
     _epoch = EPOCH if _name == "time" else 0
     _clock(_name, _epoch, lambda nanoseconds: nanoseconds / SECOND)
     _clock(f"{_name}_ns", _epoch, int)
+
+
+def _computing_time(name: str) -> None:
+    @hook(time, name, "computing time differs from run to run")
+    def clock(original: Callable) -> Callable:
+        def read() -> float:
+            run = engine()
+            return original() if run is None else run.now / SECOND
+
+        return read
+
+
+def _calendar(name: str) -> None:
+    @hook(time, name, "without an argument it means now")
+    def convert(original: Callable) -> Callable:
+        def at(seconds: float | None = None) -> Any:
+            run = engine()
+            if seconds is None and run is not None:
+                seconds = EPOCH + run.now / SECOND
+            return original(seconds)
+
+        return at
+
+
+for _name in ("process_time", "thread_time"):
+    _computing_time(_name)
+for _name in ("gmtime", "localtime", "ctime"):
+    _calendar(_name)
+
+
+@hook(time, "strftime", "without a time it means now")
+def strftime(original: Callable) -> Callable:
+    def strftime(form: str, *moment: Any) -> str:
+        run = engine()
+        if run is not None and not moment:
+            moment = (time.localtime(),)
+        return original(form, *moment)
+
+    return strftime
 
 
 @hook(os, "urandom", "uuid4(), and with it every action goal's id, must be the same in every run")
