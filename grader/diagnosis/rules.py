@@ -119,6 +119,24 @@ RULES = (
         "message; what else it needs comes from `self`, a lambda or functools.partial.",
     ),
     Rule(
+        "TypeError", r"unsupported format string passed to NoneType",
+        "A value in the f-string is None: it was never set, or comes from a function without `return`.",
+    ),
+    Rule(
+        "ValueError", r"Logger severity cannot be changed between calls",
+        "Each place in the code logs at one level only: with if and else, write a line of its own for each "
+        "level.",
+    ),
+    Rule(
+        "ValueError", r"'(\w+)' is not a valid LoggingSeverity",
+        "A level is no text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` and so "
+        "on.",
+    ),
+    Rule(
+        "IndexError", r"(\w+) index out of range",
+        "The {0} has no item of that number: the first is number 0, the last is len(...) - 1.",
+    ),
+    Rule(
         "RuntimeError", r"callback should be either be callable with one argument",
         "A subscription's callback takes the message: `def callback(self, msg):`, handed over as "
         "`self.callback`.",
@@ -187,6 +205,11 @@ RULES = (
         "AttributeError", rf"'(\w+)' object has no attribute '(?:{_NODE_INSIDES})'",
         "{0} was never set up as a node: the first line of its __init__ has to be "
         "`super().__init__('my_node')`.",
+    ),
+    Rule(
+        "AttributeError", r"'(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'",
+        "Brackets are missing before `.{0}`: a method is called with them, as in "
+        "`self.get_logger().info(...)`.",
     ),
     Rule(
         "AttributeError", r"'NoneType' object has no attribute '(\w+)'",

@@ -264,6 +264,32 @@ class NotStarted(Node):
         raise NotImplementedError("publish a count once a second")
 
 
+class FormatsNothing(Talker):
+    def tick(self):
+        self.get_logger().info(f"{self.publisher.publish(String()):.1f}")
+
+
+class OneLineForTwoLevels(Talker):
+    def tick(self):
+        for log in (self.get_logger().info, self.get_logger().warning):
+            log("Is this bad?")
+
+
+class LevelAsText(Talker):
+    def tick(self):
+        self.get_logger().set_level("debug")
+
+
+class BeyondTheLast(Talker):
+    def tick(self):
+        print((1, 2)[2])
+
+
+class LoggerWithoutBrackets(Talker):
+    def tick(self):
+        self.get_logger.info("tick")
+
+
 class NotStartedWithoutWords(Talker):
     def tick(self):
         raise NotImplementedError

@@ -78,6 +78,15 @@ ADVICE = {
     mistakes.WrongNameFromModule: "`std_msgs.msg` has no `Sting`: check the spelling and the capital letters.",
     mistakes.DividesByZero: "Read the line it names, and think what its values are at that moment; `print` shows "
     "them.",
+    mistakes.FormatsNothing: "A value in the f-string is None: it was never set, or comes from a function without "
+    "`return`.",
+    mistakes.OneLineForTwoLevels: "Each place in the code logs at one level only: with if and else, write a line of "
+    "its own for each level.",
+    mistakes.LevelAsText: "A level is no text: `from rclpy.logging import LoggingSeverity`, then "
+    "`LoggingSeverity.DEBUG` and so on.",
+    mistakes.BeyondTheLast: "The tuple has no item of that number: the first is number 0, the last is len(...) - 1.",
+    mistakes.LoggerWithoutBrackets: "Brackets are missing before `.info`: a method is called with them, as in "
+    "`self.get_logger().info(...)`.",
     mistakes.NotStarted: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.NotStartedWithoutWords: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.main_with_namespace_without_slash: "A namespace starts with a slash: `/robot1`.",
