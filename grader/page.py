@@ -36,7 +36,8 @@ def html(title: str, points: float, most: float, verdicts: Sequence[Verdict]) ->
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
         f"<b>{_escape(title)}: {number(points)} of {number(most)} points</b></caption>"
-        f"<thead><tr>{''.join(_heading(word) for word in ('', 'What is checked', 'Points'))}</tr></thead>"
+        f"<thead><tr>{_heading('', '6.5em')}{_heading('What is checked')}{_heading('Points', '5em')}</tr>"
+        "</thead>"
         f"<tbody>{rows}</tbody></table>"
     )
 
@@ -89,8 +90,9 @@ def _row(verdict: Verdict) -> str:
     )
 
 
-def _heading(word: str) -> str:
-    return f'<th scope="col" style="text-align: left; font-weight: bold">{word}</th>'
+def _heading(word: str, width: str = "auto") -> str:
+    # Jupyter gives all columns of a table one width, unless the table says better.
+    return f'<th scope="col" style="text-align: left; font-weight: bold; width: {width}">{word}</th>'
 
 
 def _escape(words: str) -> str:

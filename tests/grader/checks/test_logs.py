@@ -90,6 +90,13 @@ def test_answers_wants_the_level_and_the_time():
     assert missed(answers, late, "/command", "stand|walk", level="WARN", within=1.0).credit == 0.0
 
 
+def test_answers_asks_only_for_the_messages_that_are_picked():
+    one = conversation((1.0, "INFO", "stand!"))
+    answers(one, "/command", said, where=lambda heard: said(heard) == "stand")
+    with pytest.raises(ValueError, match=r"^nothing was sent on /command, so there is nothing to answer$"):
+        answers(one, "/command", said, where=lambda heard: said(heard) == "dance")
+
+
 def test_answers_needs_messages_to_answer():
     with pytest.raises(ValueError, match=r"^nothing was sent on /command, so there is nothing to answer$"):
         answers(recording(), "/command", "stand")
