@@ -129,8 +129,8 @@ RULES = (
     ),
     Rule(
         "ValueError", r"'(\w+)' is not a valid LoggingSeverity",
-        "A level is no text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` and so "
-        "on.",
+        "A level is no text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` "
+        "and so on.",
     ),
     Rule(
         "IndexError", r"(\w+) index out of range",
