@@ -136,7 +136,7 @@ def _resume(engine: Engine, work: Work) -> bool:
 
 
 def _step(engine: Engine, task: Task) -> None:
-    running = getattr(task, "_sim_running", None)
+    running, name = getattr(task, "_sim_running", None), callback_name(task)
     stack = engine.current.callbacks
     if running is not None:
         stack.append(running)
@@ -147,7 +147,7 @@ def _step(engine: Engine, task: Task) -> None:
             stack.remove(running)
     if task.done() and task.exception() is not None:
         error = task.exception()
-        engine.recorder.error(error, callback_name(task))
+        engine.recorder.error(error, name)
         raise error
 
 

@@ -142,13 +142,20 @@ class Recorder:
         text = "".join(traceback.format_list(frames) + traceback.format_exception_only(error))
         name = node if node is not None else self.name_of(None)
         self.recording.errors.append(
-            CallbackError(self.now, name, callback, type(error).__name__, str(error), text)
+            CallbackError(self.now, name, callback, type(error).__name__, _text(error), text)
         )
 
     def close(self) -> None:
         """The run is over: what student code does while it is taken down is not evidence."""
         self.open = False
         self._known.clear()
+
+
+def _text(error: BaseException) -> str:
+    try:
+        return str(error)
+    except Exception:  # a student's class may raise here too
+        return f"<{type(error).__name__} without text>"
 
 
 def _is_hang(error: BaseException) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first message: 0.1 s that no run should pay)
 
 from sim.recording import Ended, Recording
 from sim.ros import hooks

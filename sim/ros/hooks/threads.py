@@ -39,7 +39,7 @@ def join(original: Callable) -> Callable:
         run = engine()
         if run is not None and not fiber.done:
             until = None if timeout is None else run.now + nanoseconds(max(timeout, 0))
-            run.wait(f"thread {self.name} to end", ready=lambda: fiber.done, until=until)
+            run.wait(f"{fiber.name} to end", ready=lambda: fiber.done, until=until)
         return None
 
     return join
