@@ -3,7 +3,7 @@
 import pytest
 
 from grader.exercises import nodes
-from tests.exercises.score_tables import NOT_STARTED, exercise_of, graded, page, shown, students
+from tests.exercises.score_tables import NOT_STARTED, executed, exercise_of, graded, page, shown, students
 
 EXERCISES = ["hello", "counter", "battery", "heart", "whole_main", "weather"]
 
@@ -43,6 +43,30 @@ def test_the_starter_earns_nothing_and_is_told_so_kindly():
     for name, cell in graded("exercises", "01_nodes").items():
         assert (name, cell.points, cell.problems) == (name, 0.0, "")
         assert NOT_STARTED in cell.text
+
+
+def test_the_starter_says_so_wherever_a_node_is_run():
+    cells = executed("exercises", "01_nodes")
+    assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
+    said = [cell.text for name, cell in cells.items() if name.endswith("-see")]
+    assert len(said) == len(EXERCISES)
+    assert all(text.startswith("Not started yet: write your code") for text in said)
+
+
+def test_the_lesson_shows_what_it_speaks_of():
+    cells = executed("course", "01_nodes")
+    assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
+    assert cells["first-node-run"].text == "[INFO] [0.000] [greeter]: I am up\n"
+    assert "voltage" not in cells["levels-class"].text
+    assert "[DEBUG]" in cells["levels-debug-class"].text
+    assert "severity cannot be changed" in cells["levels-wrong-class"].text
+    assert "'NoneType' object is not callable" in cells["timer-brackets-class"].text
+    assert cells["waiting-other-class"].text == "[2.5, 4.5, 6.5]\n"
+    assert "['/left/lamp', '/right/lamp', '/roof_lamp']" in cells["names-process-run"].text
+    careless, careful = cells["main-finally-run"].text.split("careful_main")
+    assert "Light off" not in careless
+    assert "Light off" in careful
+    assert cells["modules-reload-run"].text == "False\nTrue\n"
 
 
 def test_a_test_cell_offers_the_points_of_its_exercise():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from grader.checks import Missed, check
+from grader.checks import Missed, check, named
 from grader.exercise import Exercise
 from grader.exercises.nodes.lines import Found, come_every, in_words, lines_like
 from sim.recording import LogLine, Recording
@@ -36,13 +36,19 @@ def _share(recording: Recording, wanted: Callable[[LogLine, re.Match], str], saw
     return 1.0
 
 
-@check(points=4)
+@check(points=2)
+def called_weather(recording: Recording) -> None:
+    """The node is called weather."""
+    named(recording, "/weather")
+
+
+@check(points=3)
 def tells_the_weather(recording: Recording) -> None:
     """A line like “12 C = 53.6 F, mild” comes every second."""
     come_every(recording, [line for line, _ in _lines(recording)], 1.0, credit=0.25)
 
 
-@check(points=4, after=tells_the_weather)
+@check(points=3, after=tells_the_weather)
 def takes_readings_in_turn(recording: Recording) -> None:
     """The readings come in their order, and after the last one the first again."""
     found = [round(float(match[1])) for _, match in _lines(recording)]
@@ -92,6 +98,13 @@ def warns_of_frost_and_heat(recording: Recording) -> float:
 weather = Exercise(
     "weather",
     "A weather station with a module of its own",
-    [tells_the_weather, takes_readings_in_turn, converts, describes, warns_of_frost_and_heat],
+    [
+        called_weather,
+        tells_the_weather,
+        takes_readings_in_turn,
+        converts,
+        describes,
+        warns_of_frost_and_heat,
+    ],
     seconds=10,
 )

@@ -81,6 +81,13 @@ def main_with_a_loop(args=None):
 # Wrong
 
 
+class WithoutAName(Weather):
+    def __init__(self):
+        Node.__init__(self, "my_node")
+        self.next = 0
+        self.create_timer(1.0, self.report)
+
+
 class AddsBeforeItMultiplies(Weather):
     def to_fahrenheit(self, celsius):
         return (celsius + 32) * 9 / 5
