@@ -165,3 +165,10 @@ class CallbackWithoutMessage(Listener):
 class CallsAMethodThatIsNotThere(Listener):
     def obey(self, msg):
         self.get_logger().inform(msg.data)
+
+
+class CommandSender(Listener):
+    """Called like the node that sends the words, and fails."""
+
+    def obey(self, msg):
+        raise ZeroDivisionError("by a student")
