@@ -21,7 +21,7 @@ from sim.recording import Ended, Recording
 from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT, Running
 from sim.ros.endings import conclusion
 from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
-from sim.ros.guard import Guard, Interrupted
+from sim.ros.guard import Guard
 from sim.ros.processes import Process, StudentProcess
 from sim.ros.recorder import Recorder, destroy
 from sim.ros.simtime import SimulatedTime
@@ -230,8 +230,6 @@ class Engine(Scheduler):
     def fiber_ended(self, fiber: Fiber) -> None:
         """Judge how a fiber ended, and end its process with its main()."""
         error, process = fiber.error, fiber.process
-        if isinstance(error, Interrupted) or self.guard.interrupted:
-            self.guard.interrupted = True
         if self.guard.hang is not None and self.recorder.open:
             self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
         elif isinstance(error, Livelock) and self.recorder.open:

@@ -11,7 +11,7 @@ import contextlib
 import signal
 import threading
 from collections.abc import Iterator
-from time import monotonic, thread_time
+from time import thread_time
 from types import FrameType
 from typing import TYPE_CHECKING
 
@@ -22,17 +22,12 @@ if TYPE_CHECKING:
 
 LOOK_EVERY = 0.25  # s of wall time
 COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
-WAITING_LIMIT = 10.0  # s of wall time in one stretch
+WAITING_LIMIT = 10.0  # s of wall time in one stretch in which nothing was computed
+IDLE = 0.001  # s of computing time between two looks; more is no waiting, however busy the machine
 
 
 class Hang(BaseException):
     """Student code did not give control back."""
-
-    stops_the_run = True
-
-
-class Interrupted(BaseException):
-    """The user interrupted the kernel."""
 
     stops_the_run = True
 
@@ -46,7 +41,7 @@ class Guard:
         self.hang: Hang | None = None
         self.impatient = False  # while the run is taken down, student code gets less time
         self._stretch = -1
-        self._computing = self._waiting = 0.0
+        self._begun = self._seen = self._waiting = 0.0
         self._asked = 0
 
     @contextlib.contextmanager
@@ -68,15 +63,19 @@ class Guard:
     def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True
         if self.engine.current is not None:
-            raise Interrupted
+            raise KeyboardInterrupt  # what a program on a robot gets
 
     def _look(self, number: int, frame: FrameType | None) -> None:
         fiber, stretch = self.engine.current, self.engine.stretch
         if fiber is None or stretch != self._stretch:
             self._stretch, self._asked = stretch, 0
-            self._computing, self._waiting = thread_time(), monotonic()
+            self._begun = self._seen = thread_time()
+            self._waiting = 0.0
             return
-        computing, waiting = thread_time() - self._computing, monotonic() - self._waiting
+        seen, self._seen = self._seen, thread_time()
+        if self._seen - seen < IDLE:
+            self._waiting += LOOK_EVERY
+        computing, waiting = self._seen - self._begun, self._waiting
         share = 0.1 if self.impatient or self.interrupted else 1.0
         if computing < share * COMPUTING_LIMIT and waiting < share * WAITING_LIMIT:
             return
