@@ -126,13 +126,11 @@ def test_leaving_the_program_ends_it_and_nothing_else(program):
     assert raised(recording) == []
 
 
-@pytest.mark.xfail(strict=True, reason="the exception of str(error) comes out of run()", raises=ValueError)
 def test_an_exception_without_a_text_is_kept():
     (error,) = run(errors.odd_exception, seconds=3, quiet=True).errors
     assert (error.callback, error.type) == ("odd_exception", "Odd")
 
 
-@pytest.mark.xfail(strict=True, reason="a task that is done has forgotten its function")
 def test_an_exception_in_a_task_names_the_task():
     recording = run(errors.InTask, seconds=3, quiet=True)
     assert raised(recording) == [(1.0, "/tasks", "InTask.work", "OSError", "no such device")]

@@ -27,7 +27,6 @@ def line_in(node, text, method="tick"):
 def usual(monkeypatch):
     """The digest of a usual run before; afterwards it must be the same. Hangs are noticed sooner here."""
     monkeypatch.setattr(guard, "COMPUTING_LIMIT", 0.4)
-    monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
     before = run(mains.classic, world="yard", seconds=2, quiet=True).digest
     yield
     assert run(mains.classic, world="yard", seconds=2, quiet=True).digest == before
@@ -71,8 +70,8 @@ def test_a_program_that_only_spins_once_is_stopped(usual):
     assert recording.ended.detail.startswith("main() at t = 0 s computed for 0.4 s without coming to an end")
 
 
-@pytest.mark.xfail(run=False, reason="the guard measures its waiting in simulated time")
-def test_a_call_that_nobody_answers_is_interrupted(usual):
+def test_a_call_that_nobody_answers_is_interrupted(usual, monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
     recording = run(hangs.Pipe, seconds=3, quiet=True)
     line = line_in(hangs.Pipe, "os.read(read, 1)")
     assert why(recording) == (
@@ -93,7 +92,6 @@ def test_waiting_for_ever_is_told_with_its_line(node, line, waits_for):
     assert why(recording) == ("blocked", 3.0, detail)
 
 
-@pytest.mark.xfail(strict=True, reason="the thread's number counts all threads of the process")
 def test_waiting_for_a_thread_is_told_alike_each_time():
     first, second = (run(hangs.JoinsItself, seconds=3, quiet=True) for _ in range(2))
     assert first.ended == second.ended

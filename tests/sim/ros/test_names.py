@@ -41,7 +41,6 @@ def test_arguments_to_one_node_are_followed():
     assert sent(names.arguments_to_node) == ("/r3/chatter", "/r3/talker", "own")
 
 
-@pytest.mark.xfail(strict=True, reason="the last of two parameter rules wins, and the process's come last")
 def test_a_nodes_own_parameters_win():
     assert sent(Process(names.arguments_to_node, parameters={"word": "general"}))[2] == "own"
 
@@ -90,7 +89,6 @@ def test_wait_for_message_takes_one_or_gives_up():
     assert said(recording) == [(1.0, "True hello"), (1.5, "False None")]
 
 
-@pytest.mark.xfail(strict=True, reason="a timer destroyed in a callback makes spin() raise")
 def test_a_lifecycle_node_publishes_while_it_is_active():
     recording = run(names.lifecycle, seconds=4, quiet=True)
     assert said(recording) == [(0.75, "configured"), (3.0, "cleaned up")]
@@ -98,7 +96,6 @@ def test_a_lifecycle_node_publishes_while_it_is_active():
     assert raised(recording) == []
 
 
-@pytest.mark.xfail(strict=True, reason="a timer destroyed in a callback makes spin() raise")
 def test_entities_may_come_and_go():
     recording = run(names.Restless, seconds=4, quiet=True)
     assert said(recording) == [(1.4, "heard"), (1.8, "heard"), (3.4, "heard"), (3.8, "heard")]

@@ -55,7 +55,6 @@ def test_a_multi_threaded_executor_runs_no_more_than_its_threads():
     ]  # fmt: skip
 
 
-@pytest.mark.xfail(strict=True, reason="queue and threading still measure their timeouts on the real clock")
 def test_timeouts_of_queues_and_semaphores_are_simulated():
     assert said(run(threads.queue_timeout, seconds=4, quiet=True)) == [(1.5, "empty")]
     assert said(run(threads.semaphore_timeout, seconds=4, quiet=True)) == [(1.5, "False"), (3.0, "False")]
@@ -68,7 +67,6 @@ def test_threads_have_their_own_local_storage():
     ]  # fmt: skip
 
 
-@pytest.mark.xfail(strict=True, reason="all fibers are one thread to threading.current_thread()")
 def test_threads_have_their_own_names():
     assert said(run(threads.thread_names, seconds=1, quiet=True)) == [(0.0, "worker")]
 

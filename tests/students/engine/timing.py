@@ -167,12 +167,18 @@ def all_clocks():
 
 
 def calendar():
-    """The clocks that people read: they too must show simulated time, or no two runs are equal."""
+    """The clock that people read."""
+    rclpy.init()
+    node = Node("calendar")
+    time.sleep(3661)
+    node.get_logger().info(time.strftime("%Y-%m-%d %H:%M:%S", time.gmtime()))
+
+
+def date_and_time():
     rclpy.init()
     node = Node("calendar")
     time.sleep(3661)
     node.get_logger().info(datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S"))
-    node.get_logger().info(time.strftime("%Y-%m-%d %H:%M:%S", time.gmtime()))
 
 
 def throttled_log():

@@ -1,0 +1,78 @@
+"""Equal nodes, world and seed give equal recordings: here, elsewhere, on a busy machine, on other Pythons."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from sim import run
+from tests.sim.ros import determinism, programs
+from tests.students.engine import names, threads
+
+# Where a machine may keep environments of the other Pythons: make VENV=.venv311 PYTHON=... setup
+OTHERS = {
+    version: determinism.REPOSITORY / f".venv{version}" / "bin" / "python" for version in ("311", "313")
+}
+
+
+@pytest.fixture(scope="module")
+def here():
+    return " ".join(recording.digest for recording in programs.scenarios())
+
+
+def test_a_second_time_in_this_process_is_equal(here):
+    assert " ".join(recording.digest for recording in programs.scenarios()) == here
+
+
+def test_fresh_processes_are_equal_whatever_their_hash_seed(here):
+    assert [determinism.digests(sys.executable, seed) for seed in (1, 2)] == [here, here]
+
+
+def test_a_busy_machine_changes_nothing(here):
+    with determinism.busy_machine(4):
+        assert determinism.digests(sys.executable, 3) == here
+
+
+@pytest.mark.parametrize("version", OTHERS)
+def test_other_pythons_are_equal(here, version):
+    python: Path = OTHERS[version]
+    if not python.exists():
+        pytest.skip(f"no {python} with the course's packages")
+    assert determinism.digests(python, 4) == here
+
+
+def test_the_command_counts_digests(here):
+    command = [sys.executable, "-m", "tests.sim.ros.determinism", "--runs", "2", sys.executable]
+    done = subprocess.run(
+        command, cwd=determinism.REPOSITORY, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.stdout == f"   2 processes: {here}\n"
+
+
+def test_another_seed_is_another_run():
+    first, second = (run(programs.Wanderer, world="room", seconds=3, seed=s, quiet=True) for s in (1, 2))
+    assert first.digest != second.digest
+    assert [h.raw for h in first.messages("/scan")] != [h.raw for h in second.messages("/scan")]
+
+
+def test_the_digest_sees_every_kind_of_evidence():
+    """The same nodes for a shorter time, in another order, or with another parameter: all differ."""
+    runs = [
+        run(names.Talker, threads.queues, seconds=3, quiet=True),
+        run(names.Talker, threads.queues, seconds=2, quiet=True),
+        run(threads.queues, names.Talker, seconds=3, quiet=True),
+        run(names.Talker, seconds=3, quiet=True),
+        run(names.Bursts, seconds=3, quiet=True),
+    ]
+    assert len({recording.digest for recording in runs}) == len(runs)
+
+
+def test_two_processes_at_once_dont_hear_each_other(here):
+    """The same topics, at the same time; were they heard, there would be more messages and callbacks."""
+    command = [sys.executable, "-m", "tests.sim.ros.programs"]
+    pair = [
+        subprocess.Popen(command, cwd=determinism.REPOSITORY, stdout=subprocess.PIPE, text=True)
+        for _ in range(2)
+    ]
+    assert [child.communicate(timeout=120)[0].splitlines()[-1] for child in pair] == [here, here]

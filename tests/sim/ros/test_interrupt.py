@@ -1,0 +1,78 @@
+"""The user's interrupt stops a run, whatever the nodes think of it, and reaches the user."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+from sim import run
+from sim.ros.fibers import active
+from tests.students.engine import interrupts, mains
+
+LONG = 900_000  # simulated seconds: never over while a test waits
+
+
+@pytest.fixture
+def interrupt_soon():
+    """SIGINT after 0.3 s, and the time it took to get out must be short."""
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGALRM)]
+    usual = run(mains.classic, seconds=2, quiet=True).digest
+    timer.start()
+    yield
+    timer.join()
+    assert active() is None
+    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGALRM)] == handlers
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    assert run(mains.classic, seconds=2, quiet=True).digest == usual
+
+
+@pytest.mark.parametrize("program", [
+    interrupts.Busy, interrupts.Swallower, interrupts.SwallowsAll, interrupts.restarts_itself,
+    interrupts.cleans_up, interrupts.sleeps,
+])  # fmt: skip
+@pytest.mark.usefixtures("interrupt_soon")
+def test_an_interrupt_stops_the_run_and_reaches_the_caller(program):
+    with pytest.raises(KeyboardInterrupt) as caught:
+        run(program, world="yard", seconds=LONG, quiet=True)
+    assert str(caught.value) == "The run was interrupted."
+
+
+def test_an_interrupted_program_cleans_up(interrupt_soon, capsys):
+    with pytest.raises(KeyboardInterrupt):
+        run(interrupts.cleans_up, seconds=LONG)
+    assert capsys.readouterr().out == "goodbye\n"
+
+
+def test_an_interrupt_in_the_goal_stops_the_run(interrupt_soon):
+    with pytest.raises(KeyboardInterrupt):
+        run(mains.Counter, seconds=LONG, until=lambda recording: time.sleep(0.01), quiet=True)
+
+
+def test_an_interrupt_comes_from_another_process_too():
+    program = (
+        "from sim import run\n"
+        "from tests.students.engine import interrupts\n"
+        "print('ready', flush=True)\n"
+        "try:\n"
+        f"    run(interrupts.SwallowsAll, seconds={LONG}, quiet=True)\n"
+        "except KeyboardInterrupt as interrupt:\n"
+        "    print(interrupt)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "ready\n"
+    time.sleep(0.5)
+    child.send_signal(signal.SIGINT)
+    out, _ = child.communicate(timeout=30)
+    assert (out, child.returncode) == ("The run was interrupted.\n", 0)
+
+
+def test_without_a_run_the_interrupt_is_pythons():
+    run(mains.Counter, seconds=1, quiet=True)
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(1)

@@ -1,0 +1,170 @@
+"""A run leaves nothing behind: no thread, file, node or context, and no harm to the user's own ones."""
+
+import contextlib
+import gc
+import os
+import threading
+import weakref
+from pathlib import Path
+
+import pytest
+import rclpy
+import rclpy.context
+import rclpy.utilities
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+from sim import run
+from sim.ros.fibers import active
+from sim.ros.processes import StudentProcess
+from tests.students.engine import actions, errors, mains, services, threads
+
+RUNS = 200
+WARM_UP = 10
+MEGABYTE = 2**20
+
+
+def footprint():
+    """What the operating system knows of this process: threads, open files, shared memory."""
+    shared = {name for name in os.listdir("/dev/shm") if name.startswith(("fast", "sem.fast"))}
+    return len(os.listdir("/proc/self/task")), len(os.listdir("/proc/self/fd")), shared
+
+
+def memory():
+    """Resident memory of this process in bytes."""
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def live_nodes():
+    """How many Node objects there are."""
+    gc.collect()
+    return sum(isinstance(thing, Node) for thing in gc.get_objects())
+
+
+def many_kinds():
+    """A node of every kind of entity, an error, and threads that never end."""
+    run(mains.with_finally, threads.queues, threads.multi_reentrant, world="room", seconds=1, quiet=True)
+    run(services.Adder, services.await_exclusive, errors.InTimer, seconds=1.5, quiet=True)
+    run(actions.Server, actions.Client, seconds=1, quiet=True)
+
+
+def test_two_hundred_runs_leave_threads_files_and_memory_flat():
+    for _ in range(WARM_UP):
+        many_kinds()
+    before, bytes_before, nodes = footprint(), memory(), live_nodes()
+    for _ in range(RUNS // 3 + 1):
+        many_kinds()
+    assert footprint() == before
+    assert live_nodes() == nodes
+    assert memory() - bytes_before < 10 * MEGABYTE
+
+
+@pytest.mark.parametrize("program", [
+    mains.Counter, mains.classic, mains.own_executor, mains.own_context, mains.spin_once_loop,
+    threads.queues, threads.pool, threads.multi_reentrant, errors.InTimer, errors.InInit,
+    errors.in_parallel_callback, services.await_exclusive, services.multi_exclusive, actions.parallel_server,
+], ids=lambda program: program.__qualname__)  # fmt: skip
+def test_no_node_outlives_its_run(program):
+    run(program, seconds=2, quiet=True)
+    before, nodes = footprint(), live_nodes()
+    run(program, seconds=2, quiet=True)
+    assert (live_nodes(), footprint()) == (nodes, before)
+
+
+def test_a_stream_that_somebody_keeps_keeps_nothing_of_the_run(capsys):
+    import sys
+
+    kept, nodes = [], weakref.WeakSet()
+
+    def keeps_stdout():
+        rclpy.init()
+        nodes.add(mains.Counter())
+        kept.append(sys.stdout)
+
+    run(keeps_stdout, seconds=1, quiet=True)
+    gc.collect()
+    assert len(nodes) == 0
+    kept[0].write("afterwards\n")
+    assert capsys.readouterr().out == "afterwards\n"
+
+
+def test_rclpy_is_as_it_was_without_an_init():
+    run(mains.own_context, mains.shuts_itself_down, seconds=3, quiet=True)
+    assert not rclpy.ok()
+    assert rclpy.utilities.g_default_context is None or not rclpy.utilities.g_default_context.ok()
+    assert (active(), StudentProcess.loaded) == (None, None)
+
+
+@pytest.fixture
+def users_node():
+    """The user's own node, made in a cell before, with a context that stays alive."""
+    rclpy.init()
+    node = Node("mine")
+    yield node
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+def heard_by(node):
+    """Publishes on the user's own node, in real time, and returns what its own subscription got."""
+    got = []
+    subscription = node.create_subscription(Int32, "mine", lambda msg: got.append(msg.data), 10)
+    publisher = node.create_publisher(Int32, "mine", 10)
+    publisher.publish(Int32(data=5))
+    for _ in range(20):
+        rclpy.spin_once(node, timeout_sec=0.1)
+        if got:
+            break
+    node.destroy_subscription(subscription)
+    node.destroy_publisher(publisher)
+    return got
+
+
+def test_the_users_own_node_works_before_and_after_runs(users_node):
+    context, users = rclpy.utilities.get_default_context(), rclpy.context.g_logging_ref_count
+    assert heard_by(users_node) == [5]
+    for program in (mains.classic, mains.shuts_itself_down, mains.init_again, errors.InTimer):
+        run(program, seconds=2, quiet=True)
+        assert rclpy.utilities.get_default_context() is context
+        assert context.ok() and rclpy.ok()
+        assert heard_by(users_node) == [5]
+    assert rclpy.context.g_logging_ref_count == users
+
+
+def test_the_users_node_and_a_run_dont_hear_each_other(users_node):
+    got = []
+    users_node.create_subscription(Int32, "count", got.append, 10)
+    users_node.create_publisher(Int32, "count", 10)
+    recording = run(mains.Counter, seconds=2, quiet=True)
+    rclpy.spin_once(users_node, timeout_sec=0.2)
+    assert got == []
+    assert recording.graph.nodes == ["/counter"]
+    assert {heard.sender for heard in recording.messages("/count")} == {"/counter"}
+
+
+def test_the_users_executor_spins_in_a_thread_during_a_run(users_node):
+    ticks = []
+    users_node.create_timer(0.01, lambda: ticks.append(threading.get_ident()))
+    executor = SingleThreadedExecutor()
+    executor.add_node(users_node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    usual = run(mains.classic, world="room", seconds=20, quiet=True)
+    executor.shutdown()
+    thread.join(10)
+    assert not thread.is_alive()
+    assert len(ticks) > 3 and set(ticks) == {thread.ident}
+    assert usual.digest == run(mains.classic, world="room", seconds=20, quiet=True).digest
+
+
+def test_a_run_that_fails_to_start_leaves_nothing():
+    run(mains.Counter, seconds=1, quiet=True)
+    before = footprint()
+    for arguments in ({"world": "moon"}, {"seconds": -1}, {"seed": "three"}):
+        with contextlib.suppress(Exception):
+            run(mains.Counter, quiet=True, **arguments)
+        assert active() is None
+    run(mains.Counter, seconds=1, quiet=True)
+    assert footprint() == before

@@ -1,0 +1,224 @@
+"""Recordings: what they answer, what they keep on disk, and what others can read of it."""
+
+import json
+import random
+
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import Writer
+from std_msgs.msg import Int32
+
+from sim import Recording, run
+from sim.recording import Ended, Heard, rate, stamps
+from sim.ros.codec import decode, encode
+from sim.ros.storage import ATTACHMENT, FORMAT, StorageError
+from tests.students.engine import actions, errors, mains, names, services, threads
+
+
+@pytest.fixture(scope="module")
+def driven():
+    """A robot and nodes with topics, services, actions, errors, log lines and prints."""
+
+    def prints():
+        print("hello")
+
+    programs = [
+        mains.classic, names.LatchedTalker, services.Adder, services.done_callback, actions.Server,
+        actions.Client, errors.InTimer, threads.queues, prints,
+    ]  # fmt: skip
+    return run(*programs, world="room", seconds=3, seed=5, quiet=True)
+
+
+def refused(path):
+    """The words with which a file is refused."""
+    with pytest.raises(StorageError) as caught:
+        Recording.load(path)
+    return str(caught.value)
+
+
+def test_messages_are_found_by_topic_and_sender(driven):
+    heard = driven.messages("/count")
+    assert [(h.stamp, h.topic, h.type, h.sender) for h in heard[:2]] == [
+        (0.5, "/count", "std_msgs/msg/Int32", "/counter"), (1.0, "/count", "std_msgs/msg/Int32", "/counter"),
+    ]  # fmt: skip
+    assert driven.messages("/count", sender="/counter") == heard
+    assert driven.messages("/count", sender="/robot") == []
+    assert driven.messages(sender="/counter") == heard
+    assert driven.messages("count") == []
+
+
+def test_chatter_of_ros_itself_is_shown_only_when_asked_for(driven):
+    assert {h.topic for h in driven.messages()}.isdisjoint({"/clock", "/parameter_events", "/rosout"})
+    assert len(driven.messages("/clock")) == 61
+
+
+def test_each_reader_gets_a_copy_of_a_message(driven):
+    heard = driven.messages("/count")[0]
+    heard.message.data = 99
+    assert heard.message == Int32(data=1)
+
+
+def test_topics_are_sorted_and_typed(driven):
+    assert list(driven.topics) == sorted(driven.topics)
+    assert driven.topics["/count"] == "std_msgs/msg/Int32"
+    assert driven.topics["/scan"] == "sensor_msgs/msg/LaserScan"
+    assert "/clock" not in driven.topics
+
+
+def test_a_recording_says_what_it_is(driven):
+    assert repr(driven) == (
+        f"<Recording of 3 s: {len(driven.heard)} messages on {len(driven.topics)} topics, "
+        f"{len(driven.logs)} log lines, 1 errors, ended: error>"
+    )
+    assert Recording().ended.reason == "running"
+
+
+def test_rates_and_stamps():
+    heard = [Heard(stamp, "/a", "std_msgs/msg/Int32", "/b", encode(Int32())) for stamp in (1.0, 1.5, 2.0)]
+    assert stamps(heard) == [1.0, 1.5, 2.0]
+    assert rate(stamps(heard)) == 2.0
+    assert rate([1.0]) == rate([]) == rate([1.0, 1.0]) == 0.0
+
+
+def test_the_digest_depends_on_all_evidence_and_not_on_what_was_printed():
+    heard = Heard(1.0, "/a", "std_msgs/msg/Int32", "/b", encode(Int32()))
+    plain = Recording(heard=[heard])
+    assert plain.digest == Recording(heard=[heard], prints=[(1.0, "x")], stderr="y").digest
+    others = [
+        Recording(heard=[heard._replace(stamp=1.1)]), Recording(heard=[heard._replace(topic="/c")]),
+        Recording(heard=[heard._replace(sender="/d")]), Recording(heard=[heard._replace(raw=b"\0\1\0\0\1")]),
+        Recording(heard=[heard, heard]), Recording(heard=[heard], ended=Ended("goal", 1.0, "")),
+        Recording(heard=[heard], seed=1), Recording(heard=[heard], seconds=1),
+    ]  # fmt: skip
+    assert len({recording.digest for recording in [plain, *others]}) == len(others) + 1
+    assert len(plain.digest) == 32 and int(plain.digest, 16)
+
+
+def test_a_saved_recording_comes_back_equal(driven, tmp_path):
+    path = driven.save(tmp_path / "run.mcap")
+    assert path == tmp_path / "run.mcap"
+    again = Recording.load(path)
+    assert again == driven
+    assert again.digest == driven.digest
+    assert again.world == driven.world and again.contacts == driven.contacts
+    assert again.graph.publishers("/count") == driven.graph.publishers("/count")
+    assert again.prints == [(0.0, "hello"), (0.0, "\n")]
+
+
+def test_saving_twice_gives_the_same_bytes(driven, tmp_path):
+    first, second = (driven.save(tmp_path / name).read_bytes() for name in ("a.mcap", "b.mcap"))
+    assert first == second
+    assert Recording.load(str(tmp_path / "a.mcap")).save(tmp_path / "c.mcap").read_bytes() == first
+
+
+def test_an_empty_recording_comes_back_too(tmp_path):
+    assert Recording.load(Recording().save(tmp_path / "empty.mcap")) == Recording()
+
+
+def test_the_world_comes_back_as_it_was(tmp_path):
+    for world in ("corridor", "maze", "room", "yard"):
+        recording = run(world=world, seconds=0.1, quiet=True)
+        assert Recording.load(recording.save(tmp_path / "w.mcap")).world == recording.world
+
+
+def test_others_can_read_the_messages(driven, tmp_path):
+    """With the mcap library alone: profile, schemas with their definitions, times and bytes."""
+    with driven.save(tmp_path / "run.mcap").open("rb") as file:
+        reader = make_reader(file)
+        assert reader.get_header().profile == "ros2"
+        read = list(reader.iter_messages(log_time_order=False))
+        counts = list(reader.iter_messages(topics=["/count"]))
+    assert len(read) == len(driven.heard)
+    assert [message.log_time for _, _, message in counts] == [n * 500_000_000 for n in range(1, 7)]
+    schema, channel, message = counts[0]
+    assert (schema.name, schema.encoding, channel.message_encoding) == (
+        "std_msgs/msg/Int32",
+        "ros2msg",
+        "cdr",
+    )
+    assert schema.data.decode().splitlines()[-1] == "int32 data"
+    assert decode(schema.name, message.data) == Int32(data=1)
+    odometry = next(s.data.decode() for s, c, _ in read if c.topic == "/odom")
+    assert [line for line in odometry.splitlines() if line.startswith("MSG: ")] == [
+        "MSG: std_msgs/Header", "MSG: builtin_interfaces/Time", "MSG: geometry_msgs/PoseWithCovariance",
+        "MSG: geometry_msgs/Pose", "MSG: geometry_msgs/Point", "MSG: geometry_msgs/Quaternion",
+        "MSG: geometry_msgs/TwistWithCovariance", "MSG: geometry_msgs/Twist", "MSG: geometry_msgs/Vector3",
+    ]  # fmt: skip
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    path = tmp_path / "none.mcap"
+    assert refused(path) == f"{path} can't be read: No such file or directory."
+    assert refused(tmp_path) == f"{tmp_path} can't be read: Is a directory."
+
+
+@pytest.mark.parametrize("content", [b"", bytes(1000)], ids=range(2))
+def test_a_file_of_another_kind_is_refused(tmp_path, content):
+    path = tmp_path / "other.mcap"
+    path.write_bytes(content)
+    assert refused(path).startswith(f"{path} is not an MCAP file, or it is damaged (")
+
+
+@pytest.mark.parametrize("part", [0.2, 0.5, 0.9, 0.999])
+def test_a_file_that_was_cut_off_is_refused(driven, tmp_path, part):
+    whole = driven.save(tmp_path / "whole.mcap").read_bytes()
+    path = tmp_path / "cut.mcap"
+    path.write_bytes(whole[: int(len(whole) * part)])
+    assert refused(path).startswith(f"{path} is not an MCAP file, or it is damaged (")
+
+
+@pytest.mark.xfail(strict=True, reason="exceptions of the libraries below come through")
+@pytest.mark.parametrize("content", [b"hello", b"\x89MCAP0\r\n"], ids=range(2))
+def test_a_very_short_file_is_refused(tmp_path, content):
+    path = tmp_path / "short.mcap"
+    path.write_bytes(content)
+    assert refused(path).startswith(f"{path} is not an MCAP file, or it is damaged (")
+
+
+@pytest.mark.xfail(strict=True, reason="exceptions of the libraries below come through")
+def test_a_damaged_file_is_refused_or_read_in_full(driven, tmp_path):
+    """One changed byte: never another exception, never a half-read recording."""
+    whole = driven.save(tmp_path / "whole.mcap").read_bytes()
+    path, chance = tmp_path / "damaged.mcap", random.Random(1)
+    for _ in range(40):
+        damaged = bytearray(whole)
+        damaged[chance.randrange(len(whole))] ^= 0xFF
+        path.write_bytes(damaged)
+        try:
+            again = Recording.load(path)
+        except StorageError as error:
+            assert str(path) in str(error)
+        else:
+            assert len(again.heard) == len(driven.heard)
+
+
+def mcap_with(path, attachments):
+    """An MCAP file with these attachments and nothing else."""
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        for name, data in attachments.items():
+            writer.add_attachment(0, 0, name, "application/json", data)
+        writer.finish()
+    return path
+
+
+def test_somebody_elses_mcap_file_is_refused(tmp_path):
+    path = mcap_with(tmp_path / "foreign.mcap", {"notes.txt": b"hi"})
+    assert refused(path) == (
+        f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
+    )
+
+
+def test_a_newer_format_is_refused(tmp_path):
+    path = mcap_with(tmp_path / "new.mcap", {ATTACHMENT: json.dumps({"format": FORMAT + 1}).encode()})
+    assert refused(path) == (
+        f"{path} has format {FORMAT + 1} of a recording; this version of the course reads {FORMAT}."
+    )
+
+
+@pytest.mark.xfail(strict=True, reason="exceptions of the libraries below come through")
+@pytest.mark.parametrize("data", [b"not json", b"[]", b"{}", b'{"format": 1}', b"\xff\xfe"], ids=range(5))
+def test_a_damaged_attachment_is_refused(tmp_path, data):
+    path = mcap_with(tmp_path / "bad.mcap", {ATTACHMENT: data})
+    assert str(path) in refused(path)
