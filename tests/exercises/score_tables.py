@@ -3,6 +3,8 @@
 An exercise has a module of nodes, tests/students/<assignment>/<exercise>.py, and a page, tests/exercises/
 <assignment>/<exercise>.txt, that says what each of the nodes earns and the red lines it gets, word by word.
 Only the numbers of code lines read N: they change with every edit of the module.
+
+    python -m tests.exercises.score_tables nodes    writes the pages anew: read what changed, then commit
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ import html
 import importlib
 import re
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -59,8 +62,19 @@ def students(assignment: str, exercise: str) -> dict[str, Any]:
 
 def page(assignment: str, exercise: str) -> dict[str, str]:
     """Name to what the exercise's page says of the node: points, and the red lines."""
-    text = Path(__file__).with_name(assignment).joinpath(f"{exercise}.txt").read_text(encoding="utf-8")
+    text = _file(assignment, exercise).read_text(encoding="utf-8")
     return {block.split(":")[0]: block for block in text.strip().split("\n\n")}
+
+
+def write_page(assignment: str, exercise: str) -> None:
+    """Grade every node of an exercise, and write down what it gets."""
+    judge = getattr(importlib.import_module(f"grader.exercises.{assignment}"), exercise)
+    blocks = [shown(name, judge.grade(node)) for name, node in students(assignment, exercise).items()]
+    _file(assignment, exercise).write_text("\n\n".join(blocks) + "\n", encoding="utf-8")
+
+
+def _file(assignment: str, exercise: str) -> Path:
+    return Path(__file__).with_name(assignment) / f"{exercise}.txt"
 
 
 def shown(name: str, score: Score) -> str:
@@ -126,3 +140,9 @@ def _plain(page: str) -> str:
 def exercise_of(answer: Answer, exercises: Any) -> Exercise:
     """The exercise that a test cell such as `nodes.hello.grade(Hello)` grades."""
     return getattr(exercises, re.fullmatch(r"(?:\w+\.)?(\w+)\.grade\(.*\)", answer.source)[1])
+
+
+if __name__ == "__main__":
+    for assignment in sys.argv[1:]:
+        for module in (ROOT / "tests" / "students" / assignment).glob("[!_]*.py"):
+            write_page(assignment, module.stem)

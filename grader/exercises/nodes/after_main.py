@@ -43,7 +43,7 @@ def trace_of(recording: Recording) -> Trace | None:
 
 def _observed(main: Any) -> Any:
     """The same main(), which then looks around before its program is over. Anything else stays as it is."""
-    if isinstance(main, type) or not hasattr(main, "__name__"):
+    if isinstance(main, type) or not callable(main):
         return main
 
     @functools.wraps(main)
