@@ -151,6 +151,15 @@ class StopsAfterThree(Counter):
             self.timer.cancel()
 
 
+class StartsLate(Counter):
+    calls = 0
+
+    def tick(self):
+        self.calls += 1
+        if self.calls > 4:
+            super().tick()
+
+
 class UnevenTimers(Counter):
     def __init__(self):
         super().__init__()
