@@ -83,12 +83,14 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
     """
     engine.count_callback()
     if work.entity is None:
+        engine.eager = True
         return _resume(engine, work)
     group = work.entity.callback_group
     if group is not None and not begun and not group.beginning_execution(work.entity):
         return False
-    engine.activity += 1
+    engine.student_code_ran()
     if is_coroutine_function(work.call):
+        engine.eager = True
         running = Running.of(engine, work)
         task = Task(_recorded, (engine, work, running), executor=executor)
         task._sim_running = running

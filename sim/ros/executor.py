@@ -88,7 +88,10 @@ class Plan:
         if taken is None:
             subscription._sim_seen = sent
             return None
-        arguments = (taken[0],) if subscription._callback_type is MESSAGE_ONLY else tuple(taken)
+        if subscription._callback_type is MESSAGE_ONLY:
+            arguments = (taken[0],)
+        else:
+            arguments = taken[0], self.engine.time.in_simulated_time(taken[1])
         return Work("subscription", subscription, node, subscription.callback, arguments)
 
     def _guard(self, guard: Any, node: Any) -> Work | None:
@@ -222,13 +225,15 @@ class Plan:
             timeout = timeout.timeout
         until = None if timeout is None or timeout < 0 else engine.now + nanoseconds(timeout)
         try:
+            engine.eager |= parallel
             while not self._over(done, parallel):
-                self._collect()
+                if self.running:
+                    self._collect()
                 if self._run_one(parallel) or (until is not None and engine.now >= until):
                     return
                 engine.wait("spin()", ready=done, until=until, spinning=self)
         finally:
-            engine.activity += 1  # student code goes on after spin_once(), and may do anything
+            engine.student_code_ran()
 
     def _over(self, done: Callable[[], bool], parallel: bool) -> bool:
         if self.executor._is_shutdown or done():

@@ -105,9 +105,11 @@ class Scheduler:
 
     def __init__(self) -> None:
         self.now: Nanoseconds = 0
-        self.activity = (
-            0  # counts whenever student code has run: what a spinning fiber saw before may be stale
-        )
+        # Counts what can make an executor's entity ready: what a spinning fiber saw before may be stale.
+        self.activity = 0
+        # Whether any student code can do that, and not just publish(): as soon as there are services,
+        # actions, threads, coroutines or parallel callbacks.
+        self.eager = False
         self.switches = 0
         self.current: Fiber | None = None
         self.fibers: list[Fiber] = []
@@ -141,7 +143,7 @@ class Scheduler:
         fiber.ready, fiber.wake_at, fiber.waits_for, fiber.clock_reads = ready, until, waits_for, 0
         fiber.spins = spinning
         if spinning is None:
-            self.activity += 1
+            self.student_code_ran()
         else:
             fiber.seen_activity = self.activity
         self.hub.switch()
@@ -149,6 +151,11 @@ class Scheduler:
         if fiber.thrown is not None:
             error, fiber.thrown = fiber.thrown, None
             raise error
+
+    def student_code_ran(self) -> None:
+        """Student code went on for a while, and may have made something ready."""
+        if self.eager:
+            self.activity += 1
 
     def clock_was_read(self) -> None:
         """Student code looked at a clock. Often enough, that takes time: else a busy loop would never end."""

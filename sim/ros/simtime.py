@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import weakref
+from bisect import bisect
+from time import time_ns
 from typing import Any
 
 from rclpy.clock import ROSClock
@@ -22,6 +24,8 @@ class SimulatedTime:
         self._scheduler = scheduler
         self._clocks: list[weakref.ref[ROSClock]] = []
         self._handles: list[Any] = []
+        self._wall: list[int] = [time_ns()]  # when time was moved to each of _moments
+        self._moments: list[Nanoseconds] = [0]
         self.clock = ROSClock()  # for timers whose own clock can't be set
         self.adopt(self.clock)
 
@@ -40,9 +44,16 @@ class SimulatedTime:
     def move_to(self, moment: Nanoseconds) -> None:
         """Let it be `moment` everywhere."""
         self._scheduler.now = moment
+        self._wall.append(time_ns())
+        self._moments.append(moment)
         time = Time(nanoseconds=moment)._time_handle
         for handle in self._handles:
             handle.set_ros_time_override(time)
+
+    def in_simulated_time(self, information: dict[str, Any]) -> dict[str, Any]:
+        """What a subscription's second argument says of its message, with simulated stamps for real ones."""
+        sent = self._moments[bisect(self._wall, information["source_timestamp"]) - 1]
+        return {**information, "source_timestamp": sent, "received_timestamp": self._scheduler.now}
 
     def next_moment(self, end: Nanoseconds) -> Nanoseconds:
         """The next time at which a fiber wakes or a timer of a spinning executor is due; `end` at the latest.

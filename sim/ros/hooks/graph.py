@@ -70,7 +70,7 @@ def create_client(original: Callable) -> Callable:
         client = original(self, srv_type, srv_name, **keywords)
         run = engine()
         if run is not None:
-            run.has_clients = True
+            run.has_clients = run.eager = True
             run.endpoints_changed()
             name = client._sim_name = self.resolve_service_name(srv_name)
             run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
@@ -100,6 +100,7 @@ def _action_end(owner: type, kind: str) -> None:
             original(self, node, action_type, action_name, *more, **keywords)
             run = engine()
             if run is not None:
+                run.eager = True
                 run.recorder.endpoint(kind, node, node.resolve_service_name(action_name), action_type)
 
         return __init__
@@ -142,6 +143,7 @@ def publish(original: Callable) -> Callable:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
         self.handle.publish_raw(raw)
         run.sent[identity[0]] = run.sent.get(identity[0], 0) + 1
+        run.activity += 1
         run.recorder.message(*identity, raw)
         return None
 
@@ -159,6 +161,7 @@ def log(original: Callable) -> Callable:
         if run is None or run.rosout_wanted or not isinstance(text, str):
             original(severity, name, text, *place)  # raises TypeError for what is no text
         if run is not None:
+            run.activity += run.rosout_wanted  # C++ code published it
             run.logged(severity, name, text)
 
     return log

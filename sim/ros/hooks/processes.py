@@ -8,6 +8,7 @@ from typing import Any
 import rclpy
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 
 from sim.ros.fibers import engine
@@ -75,6 +76,7 @@ def node_init(original: Callable) -> Callable:
             keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments, *own]
         original(self, node_name, **keywords)
         process.nodes.append(self)
+        run.eager |= isinstance(self, LifecycleNodeMixin)  # its state machine publishes from C++
         run.recorder.node(self)
         return None
 

@@ -24,6 +24,7 @@ def start(original: Callable) -> Callable:
         # Not the thread's name: it counts all threads of the kernel, and would make every run different.
         name = f"thread {callback_name(self._target or type(self))}"
         self._sim_fiber = run.spawn(self.run, name, run.current.process)
+        run.eager = True
         self._sim_fiber.daemon, self._sim_fiber.thread = self.daemon, self
         return None
 
