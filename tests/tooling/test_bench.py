@@ -1,0 +1,47 @@
+"""The benchmarks compare like with like, and say so when they can't."""
+import importlib
+
+import pytest
+
+from tests.bench import __main__ as bench
+from tests.bench import report, scenario
+
+
+def test_the_engine_and_rclpys_own_executor_do_the_same_work(monkeypatch):
+    monkeypatch.setattr(scenario, "SECONDS", 6)
+    done = scenario.lockstep()
+    assert (done["clocks"], done["scans"], done["odoms"], done["commands"]) == (120, 120, 120, 60)
+    assert done == scenario.stock(20)
+    assert done | {"clocks": 600} == scenario.stock(100)
+
+
+def test_a_run_that_ends_early_is_not_measured():
+    with pytest.raises(RuntimeError) as stopped:
+        report.avoider_run(world="yard", seconds=5, until=lambda recording: recording.stamp > 1)
+    assert str(stopped.value) == "the run should last 5 s. The goal was reached at t = 1.05 s."
+
+
+def test_a_fresh_process_gives_its_figures_and_its_hash_seed():
+    version, digest = report.fresh("tests.bench.digests", "--one", PYTHONHASHSEED="1")
+    assert [version, digest] == report.fresh("tests.bench.digests", "--one", PYTHONHASHSEED="2")
+    assert len(digest) == 32
+
+
+def test_an_unknown_benchmark_is_named(capsys):
+    assert bench.main(["speed"]) == 2
+    assert capsys.readouterr().out == (
+        "There is no benchmark 'speed'; "
+        "the benchmarks are scenario, startup, world, repeats, digests, grading.\n"
+    )
+
+
+@pytest.mark.parametrize("name", bench.PARTS)
+def test_a_benchmark_says_what_it_measures_and_runs_alone(name):
+    module = importlib.import_module(f"tests.bench.{name}")
+    assert module.__doc__.strip()
+    assert callable(module.main)
+
+
+def test_a_table_is_aligned(capsys):
+    report.table(["", "s"], [["engine", "0.45"], ["stock", "12"]])
+    assert capsys.readouterr().out == "           s\nengine  0.45\nstock     12\n"
