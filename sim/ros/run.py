@@ -52,6 +52,8 @@ def run(
         raise RuntimeError("run() is running already: a node can't start another run.")
     if not 0 < seconds < 1e6:
         raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
+    if not isinstance(seed, int) or seed < 0:
+        raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
     world = World.load(world) if isinstance(world, str) else world
     recording = Recording(world=world, seconds=float(seconds), seed=seed)
     simulation = Simulation(world, seed=seed) if world is not None else None

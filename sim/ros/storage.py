@@ -10,11 +10,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import asdict
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
-from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
@@ -55,7 +55,7 @@ def write(recording: Recording, path: Path) -> Path:
         name: getattr(recording, name)
         for name in (*ROWS, "seconds", "seed", "stamp", "prints", "stderr", "ended")
     }
-    rest |= {"format": FORMAT, "graph": asdict(recording.graph)}
+    rest |= {"format": FORMAT, "digest": recording.digest, "graph": asdict(recording.graph)}
     rest["world"] = asdict(recording.world) if recording.world is not None else None
     with path.open("wb") as file:
         writer = Writer(file)
@@ -109,14 +109,20 @@ def _definitions(type_: str, seen: set[str]) -> Iterator[tuple[str, str]]:
 def read(path: Path) -> Recording:
     """Read a recording. Raises StorageError with one sentence if the file isn't one."""
     try:
-        with path.open("rb") as file:
-            reader = make_reader(file)
-            attachments = {item.name: item.data for item in reader.iter_attachments()}
-            heard = sorted(_heard(reader))
+        data = path.read_bytes()
     except OSError as error:
         raise StorageError(f"{path} can't be read: {error.strerror}.") from None
-    except (McapError, ValueError) as error:
+    try:
+        return _parse(path, data)
+    except StorageError:
+        raise
+    except Exception as error:  # no list could hold all that a damaged file raises in the libraries below
         raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
+
+
+def _parse(path: Path, data: bytes) -> Recording:
+    reader = make_reader(BytesIO(data), validate_crcs=True)
+    attachments = {item.name: item.data for item in reader.iter_attachments()}
     if ATTACHMENT not in attachments:
         raise StorageError(
             f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
@@ -126,7 +132,10 @@ def read(path: Path) -> Recording:
         raise StorageError(
             f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
         )
-    return _recording(rest, [message for _, message in heard])
+    recording = _recording(rest, [message for _, message in sorted(_heard(reader))])
+    if recording.digest != rest["digest"]:
+        raise ValueError("its digest is another")
+    return recording
 
 
 def _heard(reader: Any) -> Iterator[tuple[int, Heard]]:
