@@ -1,0 +1,202 @@
+"""The robot as a ROS node: topics, types, frames, stamps, units, and the world behind them."""
+
+import math
+
+import pytest
+from rclpy.time import Time
+
+from sim import run
+from sim.world import DT, RobotModel
+from tests.sim.ros.evidence import said, values
+from tests.students.engine import drivers
+
+MODEL = RobotModel()
+TICKS = [tick / 20 for tick in range(41)]  # of the sensors in 2 s
+SENSORS = {
+    "/odom": "nav_msgs/msg/Odometry", "/scan": "sensor_msgs/msg/LaserScan", "/bumper": "std_msgs/msg/Bool",
+    "/joint_states": "sensor_msgs/msg/JointState", "/tf": "tf2_msgs/msg/TFMessage",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def straight():
+    """0.5 m/s ahead, commanded from 0.1 s on, in the open."""
+    return run(drivers.Driver, world="yard", seconds=2, quiet=True)
+
+
+@pytest.fixture(scope="module")
+def still():
+    """Nobody drives, in a room with walls."""
+    return run(drivers.Watcher, world="room", seconds=2, quiet=True)
+
+
+def heard(recording, topic):
+    """(stamp, message) of every message."""
+    return [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+
+
+def yaw_of(orientation):
+    assert (orientation.x, orientation.y) == (0.0, 0.0)
+    return 2 * math.atan2(orientation.z, orientation.w)
+
+
+def speed_after(steps, v=0.5):
+    """The ramp: at most the greatest acceleration, in physics steps."""
+    return min(MODEL.max_acceleration * DT * steps, v)
+
+
+def test_topics_types_and_qos(straight):
+    assert {topic: straight.topics[topic] for topic in SENSORS} == SENSORS
+    (command,) = straight.graph.subscriptions("/cmd_vel")
+    assert (command.node, command.type) == ("/robot", "geometry_msgs/msg/Twist")
+    for topic in (*SENSORS, "/cmd_vel"):
+        for end in straight.graph.publishers(topic) + straight.graph.subscriptions(topic):
+            assert (end.qos["reliability"], end.qos["durability"]) == ("reliable", "volatile")
+
+
+@pytest.mark.parametrize("topic", [*SENSORS, "/clock"])
+def test_every_sensor_speaks_twenty_times_a_second(straight, topic):
+    assert [h.stamp for h in straight.messages(topic)] == TICKS
+    assert {h.sender for h in straight.messages(topic)} == {"/robot"}
+
+
+def test_stamps_in_messages_are_the_times_they_were_sent(straight):
+    headers = {"/odom": lambda m: m.header, "/scan": lambda m: m.header, "/joint_states": lambda m: m.header,
+               "/tf": lambda m: m.transforms[0].header}  # fmt: skip
+    for topic, header in headers.items():
+        inside = [Time.from_msg(header(m).stamp).nanoseconds / 1e9 for _, m in heard(straight, topic)]
+        assert inside == TICKS
+    assert [Time.from_msg(m.clock).nanoseconds / 1e9 for _, m in heard(straight, "/clock")] == TICKS
+
+
+def test_messages_reach_reliable_and_best_effort_listeners_at_once(still):
+    assert said(still)[:4] == [
+        (0.05, "odom 50000000 0"), (0.05, "scan 50000000 0"),
+        (0.1, "odom 100000000 0"), (0.1, "scan 100000000 0"),
+    ]  # fmt: skip
+
+
+def test_frames_are_those_of_rep_105(straight):
+    (_, odom), (_, scan), (_, tf) = (heard(straight, topic)[-1] for topic in ("/odom", "/scan", "/tf"))
+    assert (odom.header.frame_id, odom.child_frame_id) == ("odom", "base_link")
+    assert scan.header.frame_id == "base_link"
+    (transform,) = tf.transforms
+    assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_link")
+
+
+def test_odometry_follows_the_ramp_and_its_sum(straight):
+    """Speed rises 2 m/s^2 from the first command at 0.1 s; the way is the sum of the speeds before."""
+    for stamp, odom in heard(straight, "/odom"):
+        steps = max(round((stamp - 0.1) / DT), 0)
+        way = sum(speed_after(step) * DT for step in range(steps))
+        assert odom.twist.twist.linear.x == pytest.approx(speed_after(steps), abs=1e-12)
+        assert odom.pose.pose.position.x == pytest.approx(way, abs=1e-12)
+        assert (odom.pose.pose.position.y, odom.twist.twist.linear.y) == (0.0, 0.0)
+
+
+def test_odometry_and_transform_say_the_same(straight):
+    for (_, odom), (_, tf) in zip(heard(straight, "/odom"), heard(straight, "/tf"), strict=True):
+        pose, move = odom.pose.pose, tf.transforms[0].transform
+        assert (pose.position.x, pose.position.y) == (move.translation.x, move.translation.y)
+        assert pose.orientation == move.rotation
+
+
+def test_turning_is_counter_clockwise_in_radians():
+    recording = run(drivers.Turner, world="yard", seconds=2, quiet=True)
+    (_, before), (_, after) = heard(recording, "/odom")[20], heard(recording, "/odom")[40]
+    assert yaw_of(after.pose.pose.orientation) - yaw_of(before.pose.pose.orientation) == pytest.approx(1.0)
+    assert after.twist.twist.angular.z == 1.0
+    assert math.hypot(after.pose.pose.position.x, after.pose.pose.position.y) == 0.0
+
+
+def test_a_circle_has_radius_v_by_w():
+    recording = run(drivers.Circler, world="yard", seconds=6, quiet=True)
+    centres = []
+    for stamp, odom in heard(recording, "/odom"):
+        position, yaw = odom.pose.pose.position, yaw_of(odom.pose.pose.orientation)
+        if stamp > 0.5:
+            centres.append((position.x - 0.5 * math.sin(yaw), position.y + 0.5 * math.cos(yaw)))
+    assert centres == [pytest.approx(centres[0], abs=1e-9)] * len(centres)
+
+
+def test_wheels_roll_as_far_as_the_robot_drives(straight):
+    joints, odom = heard(straight, "/joint_states"), heard(straight, "/odom")
+    for (_, joint), (_, pose) in zip(joints, odom, strict=True):
+        assert joint.name == ["wheel_left_joint", "wheel_right_joint"]
+        way, speed = pose.pose.pose.position.x, pose.twist.twist.linear.x
+        assert list(joint.position) == [pytest.approx(way / MODEL.wheel_radius)] * 2
+        assert list(joint.velocity) == [pytest.approx(speed / MODEL.wheel_radius)] * 2
+
+
+def test_without_commands_the_robot_stops_after_half_a_second():
+    recording = run(drivers.CommandsOnce, world="yard", seconds=2, quiet=True)
+    assert [h.stamp for h in recording.messages("/cmd_vel")] == [0.1]
+    speeds = {stamp: odom.twist.twist.linear.x for stamp, odom in heard(recording, "/odom")}
+    assert speeds[0.6] == 0.5
+    assert speeds[0.65] == pytest.approx(0.4)
+    assert all(speed == 0.0 for stamp, speed in speeds.items() if stamp >= 0.85)
+
+
+@pytest.mark.parametrize("driver, command", [
+    (drivers.CommandsNoNumber, "nan m/s and 0.0 rad/s"), (drivers.CommandsInfinity, "0.1 m/s and inf rad/s"),
+])  # fmt: skip
+def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored(driver, command):
+    recording = run(driver, world="yard", seconds=2.5, quiet=True)
+    words = f"Velocity commands are finite numbers; this one was {command}: check how it was worked out."
+    assert said(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
+    assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "robot")}
+    assert recording.path[-1] == (2.5, 0.0, 0.0, 0.0)
+    assert recording.errors == []
+
+
+def test_a_scan_begins_ahead_and_goes_round_to_the_left(still):
+    (_, scan) = heard(still, "/scan")[0]
+    assert len(scan.ranges) == 360
+    step = math.tau / 360
+    assert (scan.angle_min, scan.angle_increment) == (0.0, pytest.approx(step))
+    assert scan.angle_max == pytest.approx(scan.angle_min + 359 * step)
+    assert (scan.range_min, scan.range_max, scan.scan_time) == (
+        pytest.approx(0.12), pytest.approx(3.5), pytest.approx(0.05),
+    )  # fmt: skip
+
+
+def test_a_scan_shows_the_room(still):
+    """From the middle of the room: walls 3 m ahead, left and behind, a box 1.5 m to the right."""
+    for _, scan in heard(still, "/scan"):
+        assert [scan.ranges[angle] for angle in (0, 90, 180, 270)] == pytest.approx([3, 3, 3, 1.5], abs=0.06)
+        assert scan.ranges[315] == math.inf  # the corner is 4.2 m away
+
+
+def test_the_noise_of_a_scan_depends_on_the_seed_alone():
+    raws = [
+        [h.raw for h in run(world="room", seconds=1, seed=seed, quiet=True).messages("/scan")]
+        for seed in (1, 1, 2)
+    ]
+    assert raws[0] == raws[1] != raws[2]
+    assert len(set(raws[0])) == 21
+
+
+def test_in_an_empty_yard_the_lidar_sees_nothing(straight):
+    (_, scan) = heard(straight, "/scan")[-1]
+    assert set(scan.ranges) == {math.inf}
+
+
+def test_a_wall_stops_the_robot_and_presses_the_bumper():
+    """The wall is 3 m ahead and the robot's radius 0.1 m; its wheels go on and slip."""
+    recording = run(drivers.Driver, world="room", seconds=8, quiet=True)
+    pressed = [stamp for stamp, data in values(recording, "/bumper") if data]
+    (contact,) = recording.contacts
+    assert pressed[0] == pytest.approx(contact.stamp, abs=0.05) and pressed[0] >= contact.stamp
+    assert (contact.side, contact.what, contact.end) == ("front", "wall", None)
+    assert recording.path[-1].x == pytest.approx(2.9, abs=0.005)
+    assert heard(recording, "/odom")[-1][1].pose.pose.position.x > 3.5
+
+
+def test_the_path_is_the_truth_in_the_map_frame():
+    """Where the robot starts is the odom frame's origin."""
+    recording = run(drivers.Driver, world="maze", seconds=1, quiet=True)
+    assert recording.path[0] == (0.0, 0.5, 0.5, pytest.approx(math.pi / 2))
+    assert [pose.stamp for pose in recording.path] == TICKS[:21]
+    ahead = heard(recording, "/odom")[-1][1].pose.pose.position.x
+    assert recording.path[-1].y - 0.5 == pytest.approx(ahead, abs=1e-3)
+    assert recording.path[-1].x == pytest.approx(0.5, abs=1e-6)
