@@ -183,6 +183,12 @@ class Engine(Scheduler):
             ):
                 publisher.wait_for_all_acked(REPLAY_WAIT)
 
+    def published(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+        """A message was sent: its subscriptions have something to take."""
+        self.sent[topic] = self.sent.get(topic, 0) + 1
+        self.activity += 1
+        self.recorder.message(topic, type_, sender, raw)
+
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""
         self.echo(text)

@@ -29,6 +29,11 @@ RCLError = _rclpy.RCLError
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
+def never() -> bool:
+    """The condition of a spin that waits for nothing in particular."""
+    return False
+
+
 class OrderedNodes(dict):
     """Stands for an executor's set of nodes; a set's order differs from process to process."""
 
@@ -231,12 +236,13 @@ class Plan:
                     self._collect()
                 if self._run_one(parallel) or (until is not None and engine.now >= until):
                     return
-                engine.wait("spin()", ready=done, until=until, spinning=self)
+                ready = None if done is never else done
+                engine.wait("spin()", ready=ready, until=until, spinning=self)
         finally:
             engine.student_code_ran()
 
     def _over(self, done: Callable[[], bool], parallel: bool) -> bool:
-        if self.executor._is_shutdown or done():
+        if self.executor._is_shutdown or (done is not never and done()):
             return True
         if shared_context(self.executor.context).alive:
             return False

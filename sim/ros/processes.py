@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class Process:
     """One program to run, with the settings a launch file would give it. The names are launch_ros's.
 
-    target: a Node class, a callable that returns a Node, or a main() function.
+    target: a Node class, a callable that returns a Node or a Process, or a main() function.
     remappings: pairs (from, to). parameters: name to value. arguments: further command-line words.
     """
 
@@ -121,16 +121,20 @@ class StudentProcess:
     loaded: StudentProcess | None = None  # whose default context rclpy sees at the moment
 
     def __init__(self, engine: Engine, spec: Process) -> None:
-        self.engine, self.spec = engine, spec
-        self.name: str = getattr(spec.target, "__name__", None) or type(spec.target).__name__
-        self.argv = [self.name, "--ros-args", *spec.ros_arguments()]
-        self.global_arguments: list[str] = spec.ros_arguments()
+        self.engine = engine
+        self._become(spec)
         self.context: Context | None = None
         self.executor: Any = None
         self.nodes: list[Node] = []
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
+
+    def _become(self, spec: Process) -> None:
+        self.target = spec.target
+        self.name: str = getattr(spec.target, "__name__", None) or type(spec.target).__name__
+        self.argv = [self.name, "--ros-args", *spec.ros_arguments()]
+        self.global_arguments: list[str] = spec.ros_arguments()
 
     def load(self) -> None:
         """Let rclpy's module-level state be this process's."""
@@ -150,20 +154,22 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
-        target = self.spec.target
+        target = self.target
         if isinstance(target, type):
             rclpy.init(args=self.argv)
             self._spin(target())
             return
-        self.borrowed_init = (
-            None  # a function may be a main() or make a node: init() is lent until that is known
-        )
+        # A function may be a main() or make a node: init() is lent until that is known.
+        self.borrowed_init = None
         try:
             result = target(**self._main_arguments(target))
         except RuntimeError:
             self.check_init()
             raise
-        if isinstance(result, Node):
+        if isinstance(result, Process):
+            self._become(as_process(result))
+            self.run()
+        elif isinstance(result, Node):
             self.borrowed_init = False
             self._spin(result)
         self.check_init()

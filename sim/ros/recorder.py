@@ -56,7 +56,7 @@ class Recorder:
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
         self._printed = 0
         self._known: list[BaseException] = []
-        self._instant = (-1, 0)  # the last publish's time, and how many there were then
+        self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
     @property
     def now(self) -> float:
@@ -96,13 +96,16 @@ class Recorder:
         """A message was published. Raises Livelock when too many come without time moving."""
         if not self.open:
             return
-        at, count = self._instant
-        self._instant = (self.scheduler.now, count + 1 if at == self.scheduler.now else 1)
-        if count >= MAX_MESSAGES_PER_INSTANT and at == self.scheduler.now:
+        now = self.scheduler.now
+        if now != self._instant:
+            self._instant, self._messages = now, 0
+        self._messages += 1
+        if self._messages > MAX_MESSAGES_PER_INSTANT:
             raise Livelock(
-                f"{sender} published {count} messages at t = {self.now:g} s without letting time move on"
+                f"{sender} published {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
+                " without letting time move on"
             )
-        self.recording.heard.append(Heard(self.now, topic, type_, sender, canonical(type_, raw)))
+        self.recording.heard.append(Heard(now / SECOND, topic, type_, sender, canonical(type_, raw)))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""

@@ -14,6 +14,7 @@ from std_msgs.msg import Bool, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.recording import Pose, Recording
+from sim.ros.codec import encode
 from sim.ros.fibers import SECOND
 from sim.ros.template import Template
 from sim.world import CommandError, Simulation
@@ -70,6 +71,7 @@ class Robot(Node):
             ranges=array.array("f", [0.0] * lidar.rays),
         )
         self.scan = Template(scan, [*STAMP, "ranges"])
+        self.bumper = [encode(Bool(data=pressed)) for pressed in (False, True)]
 
     def on_cmd_vel(self, command: Twist) -> None:
         """Drive on to now with the old command, then take the new one."""
@@ -93,4 +95,4 @@ class Robot(Node):
         self.tf_pub.publish(self.tf.fill(*stamp, *pose))
         self.joint_pub.publish(self.joints.fill(*stamp, *simulation.wheels))
         self.scan_pub.publish(self.scan.fill(*stamp, simulation.scan().tobytes()))
-        self.bumper_pub.publish(Bool(data=bool(simulation.bumper)))
+        self.bumper_pub.publish(self.bumper[bool(simulation.bumper)])

@@ -12,7 +12,7 @@ from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecu
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
 
-from sim.ros.executor import OrderedNodes, Plan
+from sim.ros.executor import OrderedNodes, Plan, never
 from sim.ros.fibers import engine, nanoseconds
 from sim.ros.hooks import hook
 
@@ -45,9 +45,7 @@ def multi_threaded_init(original: Callable) -> Callable:
 def _spin_once_impl(owner: type, parallel: bool) -> None:
     @hook(owner, "_spin_once_impl", "waiting for callbacks takes simulated time, and they come in one order")
     def spin(original: Callable) -> Callable:
-        def _spin_once_impl(
-            self: Any, timeout_sec: Any = None, wait_condition: Callable = lambda: False
-        ) -> None:
+        def _spin_once_impl(self: Any, timeout_sec: Any = None, wait_condition: Callable = never) -> None:
             plan = self.__dict__.get("_sim_plan")
             if plan is None or engine() is not plan.engine:
                 return original(self, timeout_sec, wait_condition)

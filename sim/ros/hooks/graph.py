@@ -142,9 +142,7 @@ def publish(original: Callable) -> Callable:
         if not self._sim_context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
         self.handle.publish_raw(raw)
-        run.sent[identity[0]] = run.sent.get(identity[0], 0) + 1
-        run.activity += 1
-        run.recorder.message(*identity, raw)
+        run.published(*identity, raw)
         return None
 
     return publish
