@@ -55,6 +55,16 @@ def test_seconds_are_positive_and_finite(seconds):
     assert refused(ValueError, mains.Counter, seconds=seconds) == words
 
 
+@pytest.mark.parametrize("seed", ["three", 1.5, None, -1])
+def test_a_seed_is_a_whole_number(seed):
+    import random
+
+    before = random.getstate()
+    words = f"seed must be a whole number, 0 or more; it is {seed!r}."
+    assert refused(ValueError, mains.Counter, seed=seed) == words
+    assert random.getstate() == before
+
+
 def test_a_world_has_a_known_name():
     assert refused(WorldError, mains.Counter, world="moon") == (
         "There is no world 'moon'. The worlds are corridor, maze, room, yard."

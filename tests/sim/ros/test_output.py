@@ -5,8 +5,12 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 from sim import run
 from tests.students.engine import mains, output
+
+pytestmark = pytest.mark.filterwarnings("ignore:warned")
 
 
 def test_each_way_to_write_is_kept_in_its_place(capfd):

@@ -1,0 +1,129 @@
+"""What no tutorial shows: the run ends with a verdict, and the next one in the same process is as usual."""
+
+import sys
+
+import pytest
+
+from sim import run
+from tests.sim.ros.evidence import raised, said, times, why
+from tests.students.engine import adversaries, mains
+
+TICKS = [1.0, 2.0, 3.0]
+
+
+@pytest.fixture(autouse=True)
+def usual():
+    before = run(mains.classic, seconds=2, quiet=True).digest
+    yield
+    assert run(mains.classic, seconds=2, quiet=True).digest == before
+
+
+def after(program):
+    return run(program, seconds=3, quiet=True)
+
+
+@pytest.mark.parametrize("program", [
+    adversaries.SpinsInInit, adversaries.UsesRosNamesForItself, adversaries.ReplacesSleep,
+    adversaries.ExitsInThread, adversaries.DestroyForgetsSuper, adversaries.DelRaises,
+    adversaries.MeddlesWithTheTrace,
+])  # fmt: skip
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_odd_nodes_tick_all_the_same(program):
+    limit = sys.getrecursionlimit()
+    recording = after(program)
+    sys.setrecursionlimit(limit)
+    sys.settrace(None)
+    assert times(recording, "tick") == TICKS
+    assert recording.errors == []
+
+
+def test_a_node_may_destroy_itself():
+    recording = after(adversaries.DestroysItself)
+    assert times(recording, "tick") == [1.0]
+    assert recording.errors == []
+
+
+def test_spin_once_in_a_callback_works_in_the_default_group():
+    recording = after(adversaries.SpinsOnceInCallback)
+    assert said(recording)[:4] == [(1.0, "tick"), (1.1, "spun"), (2.0, "tick"), (2.1, "spun")]
+
+
+def test_a_rate_in_a_callback_of_a_single_threaded_executor_blocks():
+    reason, stamp, detail = why(after(adversaries.SleepsByRateInCallback))
+    assert (reason, stamp) == ("blocked", 3.0)
+    assert detail.startswith(
+        "SleepsByRateInCallback.tick of node /ticking has waited since t = 1 s and never returned, at line "
+    )
+
+
+@pytest.mark.parametrize("program, error", [
+    (adversaries.AwaitsAsyncio, ("AwaitsAsyncio.tick", "RuntimeError", "no running event loop")),
+    (adversaries.PublishesText, (
+        "PublishesText.tick", "TypeError",
+        "Expected <class 'std_msgs.msg._int32.Int32'>, got <class 'str'>",
+    )),
+    (adversaries.RaisesBaseException, ("RaisesBaseException.tick", "BaseException", "bare")),
+], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
+def test_odd_errors_are_kept(program, error):
+    assert raised(after(program)) == [(1.0, "/ticking", *error)]
+
+
+@pytest.mark.parametrize("program", [
+    adversaries.RaisesKeyboardInterrupt, adversaries.RaisesGeneratorExit, adversaries.exits_in_parallel,
+])  # fmt: skip
+def test_leaving_by_an_exit_is_no_error(program):
+    recording = after(program)
+    assert why(recording) == ("finished", 2.0, "Every program had ended by t = 1 s.")
+    assert recording.errors == []
+
+
+def test_a_main_that_returns_leaves_its_thread_spinning():
+    assert times(after(adversaries.leaves_everything), "tick") == TICKS
+
+
+def test_shutdown_in_a_thread_ends_spin():
+    recording = after(adversaries.shutdown_in_another_thread)
+    assert times(recording, "tick") == [1.0]
+    assert why(recording) == ("finished", 2.5, "Every program had ended by t = 1.5 s.")
+
+
+def test_sleeping_refuses_what_pythons_does():
+    """sleep(True) takes a second."""
+    kinds = ["ValueError", "TypeError", "ValueError", "OverflowError", "TypeError"]
+    assert said(after(adversaries.SleepsOddly)) == [(stamp, kind) for stamp in (2.0, 3.0) for kind in kinds]
+
+
+def test_stdout_is_put_back():
+    before = sys.stdout
+    after(adversaries.RedirectsStdout)
+    assert sys.stdout is before
+
+
+@pytest.mark.xfail(strict=True, reason="the stream that stands for stdout passes close() on")
+def test_stdout_stays_open(monkeypatch):
+    import io
+
+    stream = io.StringIO()
+    monkeypatch.setattr(sys, "stdout", stream)
+    after(adversaries.ClosesStdout)
+    assert not stream.closed
+
+
+@pytest.mark.xfail(strict=True, reason="the child of a fork is still in the run")
+def test_a_child_process_ends_as_it_should():
+    assert times(after(adversaries.ForksByMultiprocessing), "exit code 0") == TICKS
+
+
+@pytest.mark.xfail(run=False, reason="comes out of run(), and leaves the run active")
+def test_an_error_in_destroy_node_stays_inside():
+    assert times(after(adversaries.DestroyRaises), "tick") == TICKS
+
+
+@pytest.mark.xfail(run=False, reason="hangs outside of the guard's sight")
+def test_a_loop_in_destroy_node_is_stopped():
+    assert times(after(adversaries.DestroyHangs), "tick") == TICKS
+
+
+@pytest.mark.xfail(run=False, reason="time moves on, a nanosecond at a time")
+def test_a_timer_of_a_nanosecond_is_stopped():
+    assert after(adversaries.PicosecondTimer).ended.reason == "livelock"
