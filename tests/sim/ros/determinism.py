@@ -63,6 +63,9 @@ def main() -> int:
     parser.add_argument("pythons", nargs="*", default=[sys.executable], help="interpreters with the course")
     parser.add_argument("--runs", type=int, default=100)
     arguments = parser.parse_args()
+    for python in arguments.pythons:
+        if not Path(python).exists():
+            parser.error(f"there is no Python {python}")
     seen = count(arguments.pythons, arguments.runs)
     for line, times in seen.most_common():
         sys.stdout.write(f"{times:4} processes: {line}\n")
