@@ -35,6 +35,9 @@ class StudentStream:
         if engine() is None:
             self._original.flush()
 
+    def close(self) -> None:
+        """Does nothing: the stream is the kernel's, not the student's."""
+
     def writelines(self, lines: Iterable[str]) -> None:
         """As `TextIO.writelines`."""
         for line in lines:

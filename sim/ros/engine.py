@@ -27,6 +27,7 @@ from sim.ros.recorder import Recorder, destroy
 from sim.ros.simtime import SimulatedTime
 
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
+MAX_WORK_PER_SECOND = 200_000  # callbacks and switches in a simulated second
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
 
 
@@ -49,6 +50,7 @@ class Engine(Scheduler):
         self._callbacks = self._callbacks_before = 0
         self.suspended: list[Running] = []  # coroutine callbacks that wait for something
         self._at_end: list[Callable[[], Any]] = []
+        self._second = (0, 0)  # when the second under way began, and the work done by then
         self._fault: Ended | None = None
 
     # -- set-up and tear-down ----------------------------------------------------------------------
@@ -133,6 +135,7 @@ class Engine(Scheduler):
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
+                self._check_pace()
                 self.time.move_to(self.time.next_moment(end))
                 self.activity += 1
                 self._callbacks_before = self._callbacks
@@ -141,6 +144,17 @@ class Engine(Scheduler):
             self._fault = self._fault or Ended("livelock", self.recorder.now, f"{livelock}.")
         self.recording.stamp = self.recorder.now
         return self._fault or conclusion(self, over)
+
+    def _check_pace(self) -> None:
+        """Raise Livelock when time moves, but in steps so small that the run would never end."""
+        began, work = self._second
+        if self.now - began >= SECOND:
+            self._second = self.now, self.stretch
+        elif self.stretch - work > MAX_WORK_PER_SECOND:
+            raise Livelock(
+                f"callbacks and waits came more than {MAX_WORK_PER_SECOND} times in one second, near "
+                f"t = {self.recorder.now:g} s; a timer's period or a sleep is far too short"
+            )
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import contextvars
 import ctypes
+import os
 import threading
 from _thread import get_ident
 from collections.abc import Callable, Iterator
@@ -208,6 +209,10 @@ def activate(scheduler: Scheduler | None) -> None:
     """Make this the one scheduler of the process, or none."""
     global _active
     _active = scheduler
+
+
+# A child process of student code is no part of the run: there, all hooks are inert.
+os.register_at_fork(after_in_child=lambda: activate(None))
 
 
 def active() -> Scheduler | None:

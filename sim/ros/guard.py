@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 LOOK_EVERY = 0.25  # s of wall time
 COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
 WAITING_LIMIT = 10.0  # s of wall time in one stretch in which nothing was computed
+TOTAL_LIMIT = 20.0  # s of computing time in a whole run, or as long as the run simulates if that is longer
 IDLE = 0.001  # s of computing time between two looks; more is no waiting, however busy the machine
 
 
@@ -41,7 +42,9 @@ class Guard:
         self.hang: Hang | None = None
         self.impatient = False  # while the run is taken down, student code gets less time
         self._stretch = -1
-        self._begun = self._seen = self._waiting = 0.0
+        self._computing = self._waiting = self._total = 0.0
+        self._total_limit = max(TOTAL_LIMIT, engine.recording.seconds)
+        self._seen = thread_time()
         self._asked = 0
 
     @contextlib.contextmanager
@@ -66,35 +69,39 @@ class Guard:
             raise KeyboardInterrupt  # what a program on a robot gets
 
     def _look(self, number: int, frame: FrameType | None) -> None:
-        fiber, stretch = self.engine.current, self.engine.stretch
+        fiber, stretch, seen = self.engine.current, self.engine.stretch, self._seen
+        self._seen = thread_time()
+        self._total += self._seen - seen
         if fiber is None or stretch != self._stretch:
             self._stretch, self._asked = stretch, 0
-            self._begun = self._seen = thread_time()
-            self._waiting = 0.0
-            return
-        seen, self._seen = self._seen, thread_time()
-        if self._seen - seen < IDLE:
-            self._waiting += LOOK_EVERY
-        computing, waiting = self._seen - self._begun, self._waiting
+            self._computing = self._waiting = 0.0
+        else:
+            self._computing += self._seen - seen
+            self._waiting += LOOK_EVERY if self._seen - seen < IDLE else 0.0
+        if fiber is not None:
+            self._judge(fiber, frame)
+
+    def _judge(self, fiber: Fiber, frame: FrameType | None) -> None:
         share = 0.1 if self.impatient or self.interrupted else 1.0
-        if computing < share * COMPUTING_LIMIT and waiting < share * WAITING_LIMIT:
+        stuck = self._computing >= share * COMPUTING_LIMIT or self._waiting >= share * WAITING_LIMIT
+        if not stuck and (self._total < self._total_limit or self.impatient):
             return
         self._asked += 1
         if self.hang is None:
             with outside_student_code():
-                self.hang = Hang(self._describe(fiber, frame, computing))
+                self.hang = Hang(self._describe(fiber, frame, stuck))
         if self._asked > 2:
             fiber.park()
         raise self.hang
 
-    def _describe(self, fiber: Fiber, frame: FrameType | None, computing: float) -> str:
-        where = self.engine.describe(fiber)
-        line = student_line(frame)
-        if computing >= COMPUTING_LIMIT:
-            what = f"computed for {COMPUTING_LIMIT:g} s without coming to an end"
-        else:
-            what = f"waited for {WAITING_LIMIT:g} s in a call that simulated time can't shorten"
-        return f"{where} {what}{line}."
+    def _describe(self, fiber: Fiber, frame: FrameType | None, stuck: bool) -> str:
+        where, line = self.engine.describe(fiber), student_line(frame)
+        if not stuck:
+            limit = self._total_limit
+            return f"The nodes computed for {limit:g} s in all, and were stopped in {where}{line}."
+        if self._computing >= COMPUTING_LIMIT:
+            return f"{where} computed for {COMPUTING_LIMIT:g} s without coming to an end{line}."
+        return f"{where} waited for {WAITING_LIMIT:g} s in a call that simulated time can't shorten{line}."
 
 
 def student_line(frame: FrameType | None) -> str:

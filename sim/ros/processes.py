@@ -166,6 +166,11 @@ class StudentProcess:
         except RuntimeError:
             self.check_init()
             raise
+        if inspect.iscoroutine(result):
+            result.close()
+            raise TypeError(
+                f"{self.name} is an `async def`, which nothing here awaits: write `def {self.name}(...):`."
+            )
         if isinstance(result, Process):
             self._become(as_process(result))
             self.run()

@@ -8,8 +8,10 @@ import traceback
 from typing import Any
 
 import greenlet
+from rclpy.action import ActionClient, ActionServer
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 
 from sim.recording import (
     INFRASTRUCTURE_TOPICS,
@@ -27,6 +29,7 @@ from sim.ros.codec import type_name
 from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
 
 MAX_MESSAGES_PER_INSTANT = 20_000
+MAX_MESSAGE_BYTES = 500_000_000  # of a run
 MAX_LOG_LINES = 100_000
 MAX_PRINTED = 1_000_000  # characters
 # Services that every node has: of no interest to a reader of the graph.
@@ -54,7 +57,7 @@ class Recorder:
         self.scheduler, self.recording = scheduler, recording
         self.open = True
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
-        self._printed = 0
+        self._printed = self._bytes = 0
         self._known: list[BaseException] = []
         self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
@@ -104,6 +107,11 @@ class Recorder:
             raise Livelock(
                 f"{sender} published {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
                 " without letting time move on"
+            )
+        self._bytes += len(raw)
+        if self._bytes > MAX_MESSAGE_BYTES:
+            raise Livelock(
+                f"the nodes published more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
         self.recording.heard.append(Heard(now / SECOND, topic, type_, sender, canonical(type_, raw)))
 
@@ -184,13 +192,14 @@ def _qos(profile: Any) -> dict[str, Any]:
 
 
 def destroy(node: Any) -> None:
-    """Free a node with all it holds; destroy_node() forgets action servers and clients."""
-    from rclpy.action import ActionClient, ActionServer
+    """Free a node with all it holds; destroy_node() forgets action servers and clients.
 
+    Calls rclpy's own methods, past what a student's class has made of them.
+    """
     try:
-        for waitable in list(node.waitables):
+        for waitable in list(Node.waitables.fget(node)):
             if isinstance(waitable, ActionServer | ActionClient):
                 waitable.destroy()
-        node.destroy_node()
+        Node.destroy_node(node)
     except (InvalidHandle, AttributeError):  # destroyed already, or its __init__ never came to an end
         pass
