@@ -1,10 +1,12 @@
 """What no tutorial shows: the run ends with a verdict, and the next one in the same process is as usual."""
 
+import gc
 import sys
 
 import pytest
 
 from sim import run
+from sim.ros import guard, recorder
 from tests.sim.ros.evidence import raised, said, times, why
 from tests.students.engine import adversaries, mains
 
@@ -24,10 +26,8 @@ def after(program):
 
 @pytest.mark.parametrize("program", [
     adversaries.SpinsInInit, adversaries.UsesRosNamesForItself, adversaries.ReplacesSleep,
-    adversaries.ExitsInThread, adversaries.DestroyForgetsSuper, adversaries.DelRaises,
-    adversaries.MeddlesWithTheTrace,
+    adversaries.ExitsInThread, adversaries.DestroyForgetsSuper, adversaries.MeddlesWithTheTrace,
 ])  # fmt: skip
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_odd_nodes_tick_all_the_same(program):
     limit = sys.getrecursionlimit()
     recording = after(program)
@@ -35,6 +35,12 @@ def test_odd_nodes_tick_all_the_same(program):
     sys.settrace(None)
     assert times(recording, "tick") == TICKS
     assert recording.errors == []
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_an_error_in_del_is_pythons_to_ignore():
+    assert times(after(adversaries.DelRaises), "tick") == TICKS
+    gc.collect()
 
 
 def test_a_node_may_destroy_itself():
@@ -99,7 +105,6 @@ def test_stdout_is_put_back():
     assert sys.stdout is before
 
 
-@pytest.mark.xfail(strict=True, reason="the stream that stands for stdout passes close() on")
 def test_stdout_stays_open(monkeypatch):
     import io
 
@@ -109,21 +114,63 @@ def test_stdout_stays_open(monkeypatch):
     assert not stream.closed
 
 
-@pytest.mark.xfail(strict=True, reason="the child of a fork is still in the run")
+@pytest.mark.filterwarnings("ignore:This process")
 def test_a_child_process_ends_as_it_should():
     assert times(after(adversaries.ForksByMultiprocessing), "exit code 0") == TICKS
 
 
-@pytest.mark.xfail(run=False, reason="comes out of run(), and leaves the run active")
 def test_an_error_in_destroy_node_stays_inside():
     assert times(after(adversaries.DestroyRaises), "tick") == TICKS
 
 
-@pytest.mark.xfail(run=False, reason="hangs outside of the guard's sight")
-def test_a_loop_in_destroy_node_is_stopped():
-    assert times(after(adversaries.DestroyHangs), "tick") == TICKS
+@pytest.mark.filterwarnings("ignore:This process")
+def test_a_forked_child_leaves_the_run():
+    assert times(after(adversaries.Forks), "tick") == TICKS
 
 
-@pytest.mark.xfail(run=False, reason="time moves on, a nanosecond at a time")
+def test_a_loop_in_destroy_node_is_never_entered_by_the_tear_down():
+    recording = after(adversaries.DestroyHangs)
+    assert times(recording, "tick") == TICKS
+    assert why(recording) == ("time", 3.0, "All 3 s were run.")
+
+
 def test_a_timer_of_a_nanosecond_is_stopped():
-    assert after(adversaries.PicosecondTimer).ended.reason == "livelock"
+    reason, stamp, detail = why(after(adversaries.NanosecondTimer))
+    assert (reason, stamp) == ("livelock", pytest.approx(1.0, abs=0.001))
+    words = "callbacks and waits came more than 200000 times in one second, near t = 1 s; "
+    assert detail.startswith(words.removesuffix("1 s; "))
+    assert detail.endswith("; a timer's period or a sleep is far too short.")
+
+
+def test_an_async_main_is_refused():
+    words = "coroutine_main is an `async def`, which nothing here awaits: write `def coroutine_main(...):`."
+    recording = after(adversaries.coroutine_main)
+    assert raised(recording) == [(0.0, "/coroutine_main", "coroutine_main", "TypeError", words)]
+    assert recording.stderr == ""
+
+
+def test_a_run_that_computes_too_long_in_all_is_stopped(monkeypatch):
+    """No callback is long, but there is no end to them; a run may compute as long as it simulates."""
+    monkeypatch.setattr(guard, "TOTAL_LIMIT", 0.5)
+    reason, stamp, detail = why(run(adversaries.SlowByALittle, seconds=0.9, quiet=True))
+    assert reason == "hang"
+    words = (
+        f"The nodes computed for 0.9 s in all, and were stopped in <lambda> of node /slow at t = {stamp:g} s"
+    )
+    assert detail.startswith(words)
+    assert 0 < stamp < 0.9
+
+
+def test_a_flood_of_bytes_is_stopped(monkeypatch):
+    monkeypatch.setattr(recorder, "MAX_MESSAGE_BYTES", 10_000_000)
+    recording = run(adversaries.Camera, seconds=3, quiet=True)
+    assert why(recording) == ("livelock", 1.0, "the nodes published more than 10 MB by t = 1 s.")
+    assert len(recording.messages("/image")) == 9
+
+
+def test_an_asyncio_loop_is_stopped(monkeypatch):
+    """It waits in the operating system, for real time."""
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
+    reason, stamp, detail = why(after(adversaries.AsyncioRun))
+    assert (reason, stamp) == ("hang", 1.0)
+    assert "waited for 1 s in a call that simulated time can't shorten, at line " in detail

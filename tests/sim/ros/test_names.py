@@ -32,6 +32,10 @@ def test_process_takes_command_line_words():
     assert sent(Process(names.Talker, arguments=words)) == ("/lines", "/talker", "hi")
 
 
+def test_a_function_may_return_a_process():
+    assert sent(names.launches) == ("/chatter", "/launched", "go")
+
+
 def test_arguments_to_init_are_followed():
     assert sent(names.arguments_to_init) == ("/r2/said", "/r2/al", "hi")
     assert sent(Process(names.arguments_to_init, **SETTINGS)) == ("/r2/said", "/r2/al", "hi")

@@ -12,6 +12,7 @@ import time
 import rclpy
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from sensor_msgs.msg import Image
 from std_msgs.msg import Int32
 
 
@@ -153,9 +154,27 @@ class SleepsOddly(Ticking):
                 self.get_logger().info(type(error).__name__)
 
 
-class PicosecondTimer(Ticking):
+class NanosecondTimer(Ticking):
     def tick(self):
         self.create_timer(1e-9, lambda: None)
+
+
+class SlowByALittle(Node):
+    """Computes a little in each of very many callbacks."""
+
+    def __init__(self):
+        super().__init__("slow")
+        self.create_timer(0.0001, lambda: sum(range(20_000)))
+
+
+class Camera(Node):
+    """Ten pictures of a megabyte a second."""
+
+    def __init__(self):
+        super().__init__("camera")
+        publisher = self.create_publisher(Image, "image", 10)
+        picture = Image(width=640, height=480, encoding="rgb8", step=1920, data=bytes(1_000_000))
+        self.create_timer(0.1, lambda: publisher.publish(picture))
 
 
 class ReplacesSleep(Ticking):

@@ -10,6 +10,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32, String
 
+from sim import Process
+
 LATCHED = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -50,6 +52,11 @@ def arguments_from_the_command_line():
 def not_for_this_node():
     rclpy.init()
     rclpy.spin(Talker(use_global_arguments=False))
+
+
+def launches():
+    """As a launch file would: says what to run, with its settings."""
+    return Process(Talker, name="launched", parameters={"word": "go"})
 
 
 class LatchedTalker(Node):
