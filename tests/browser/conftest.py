@@ -5,7 +5,7 @@ import pytest
 
 from grader.marking.release import release
 from grader.marking.samples import SHARES, submit_samples
-from tests.browser.lab import Lab, copy_for_students, server
+from tests.browser.lab import ROOT, Lab, copy_for_students, server
 from tests.marking.tiny import tiny
 
 CHROMIUM = shutil.which("chromium")
@@ -31,7 +31,10 @@ def browser():
 
 @pytest.fixture(scope="session")
 def address(tmp_path_factory) -> Iterator[str]:
-    """A running JupyterLab: the course as students have it, and the folder tiny/ with three submissions."""
+    """A running JupyterLab: the course as students have it, with the folders solved/ and tiny/.
+
+    solved/ has the assignments with all answers; tiny/ has three submissions of a small one.
+    """
     folder = copy_for_students(tmp_path_factory.mktemp("students"))
     course = tiny(tmp_path_factory.mktemp("tiny"))
     release(course)
@@ -40,6 +43,7 @@ def address(tmp_path_factory) -> Iterator[str]:
     for student in SHARES:
         submitted = course / "class" / "submitted" / student / "01_tiny" / "tiny.ipynb"
         shutil.copy(submitted, folder / "tiny" / f"{student}.ipynb")
+    shutil.copytree(ROOT / "solutions", folder / "solved", ignore=shutil.ignore_patterns(".*", "my_*"))
     with server(folder) as url:
         yield url
 
