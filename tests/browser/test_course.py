@@ -10,7 +10,8 @@ ASSIGNMENTS = sorted(str(path.relative_to(ROOT / "exercises")) for path in ROOT.
 # Text of stderr, and of errors, that a reader would see as red.
 RED = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].flatMap(cell =>
     cell.type !== 'code' ? [] : cell.outputs.toJSON().filter(output =>
-        output.output_type === 'error' || output.name === 'stderr').map(output => output.evalue || output.text))"""
+        output.output_type === 'error' || output.name === 'stderr').map(output =>
+            output.evalue || output.text))"""
 
 
 @pytest.mark.parametrize("notebook", LESSONS)

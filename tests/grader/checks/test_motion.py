@@ -1,0 +1,100 @@
+import math
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Twist
+
+from grader import Missed
+from grader.checks import arrives, follows, keeps_clear, passes, stands_still, travelled
+from grader.checks.motion import distances_to_line
+from tests.grader.recordings import driven, published, recording
+
+SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]
+
+
+def missed(function, *arguments, **options):
+    with pytest.raises(Missed) as caught:
+        function(*arguments, **options)
+    assert caught.value.picture == "path"
+    return caught.value
+
+
+def test_keeps_clear_is_content_without_contacts():
+    keeps_clear(driven(SQUARE))
+
+
+def test_keeps_clear_tells_the_first_contact():
+    touch = (3.25, 4.0, 1.0, 2.0, "front", "wall")
+    miss = missed(keeps_clear, driven(SQUARE, contacts=[touch]))
+    assert miss.expected == "no contact with walls or boxes"
+    assert miss.saw == "1 contact; the first at 3.25 s: a wall at (1.00, 2.00) m, on the robot's front side"
+    assert miss.hint == "Slow down or turn away earlier: /scan says how far it is to the next wall."
+    assert missed(keeps_clear, driven(SQUARE, contacts=[touch, touch])).saw.startswith(
+        "2 contacts; the first"
+    )
+
+
+def test_arrives_measures_the_distance_to_the_goal():
+    assert arrives(driven([(0, 0), (1.0, 0.05)]), (1.0, 0.0)) == pytest.approx(0.05)
+
+
+def test_arrives_takes_the_worlds_goal():
+    miss = missed(arrives, driven([(0, 0), (1.0, 0.0)], world="room"))
+    assert miss.expected == "the robot within 0.1 m of (2.3, 2.3) m at the end"
+    assert miss.saw == "(1.00, 0.00) m, which is 2.64 m away"
+    assert miss.hint == ""
+
+
+def test_arrives_says_when_nothing_was_commanded():
+    miss = missed(arrives, driven([(0, 0), (0, 0)]), (1.0, 0.0))
+    assert miss.hint == "The robot did not move: nothing was published on /cmd_vel."
+
+
+def test_arrives_says_when_commands_were_empty():
+    commands = published("/cmd_vel", [(1.0, Twist())]).heard
+    miss = missed(arrives, driven([(0, 0), (0, 0)], heard=commands), (1.0, 0.0))
+    assert miss.hint == "The robot did not move: are linear.x (m/s) and angular.z (rad/s) of the Twist set?"
+
+
+def test_arrives_needs_a_goal():
+    with pytest.raises(ValueError, match=r"^there is no goal: give one, or use a world that has one$"):
+        arrives(driven(SQUARE))
+
+
+def test_passes_wants_the_points_in_order():
+    passes(driven(SQUARE), SQUARE)
+    miss = missed(passes, driven(SQUARE), [(1.0, 0.0), (0.0, 1.0), (1.0, 1.0)])
+    assert miss.expected == "the robot within 0.1 m of 3 points, one after the other"
+    assert miss.saw == "2 of them; it never came to (1, 1) m after that"
+    assert miss.credit == pytest.approx(2 / 3)
+
+
+def test_follows_measures_the_largest_distance_to_the_line():
+    assert follows(driven([(0, 0), (0.5, 0.05), (1, 0)]), [(0, 0), (1, 0)]) == pytest.approx(0.05)
+    miss = missed(follows, driven([(0, 0), (0.5, 0.3), (1, 0)]), [(0, 0), (1, 0)])
+    assert miss.expected == "a path within 0.1 m of the line"
+    assert miss.saw == "0.30 m away from it at 1 s, at (0.50, 0.30) m"
+
+
+def test_distances_are_to_segments_and_not_to_endless_lines():
+    points = np.array([(0.5, 0.5), (2.0, 0.0), (-3.0, 4.0), (0.0, 0.0)])
+    assert distances_to_line(points, [(0, 0), (1, 0), (1, 0)]) == pytest.approx([0.5, 1.0, 5.0, 0.0])
+
+
+def test_travelled_is_the_length_of_the_path():
+    assert travelled(driven(SQUARE)) == pytest.approx(4.0)
+    assert travelled(driven([(0, 0), (3, 4)])) == pytest.approx(math.hypot(3, 4))
+
+
+def test_stands_still_looks_at_the_last_moments_only():
+    stands_still(driven([(0, 0), (1, 0), (1, 0)]))
+    miss = missed(stands_still, driven([(0, 0), (1, 0), (1.5, 0)]), last=1.0)
+    assert miss.expected == "the robot standing still for the last 1 s"
+    assert miss.saw == "it moved 0.500 m in that time"
+    assert miss.hint == "Publish a Twist() with all zeros when the robot has arrived."
+
+
+@pytest.mark.parametrize("measure", [keeps_clear, stands_still, lambda run: follows(run, SQUARE)])
+def test_a_run_without_a_robot_is_the_authors_mistake(measure):
+    with pytest.raises(ValueError, match=r"^this run has no robot: give the exercise a world$"):
+        measure(recording())

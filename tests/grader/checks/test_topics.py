@@ -1,0 +1,139 @@
+import math
+
+import pytest
+from geometry_msgs.msg import Twist
+from std_msgs.msg import Float64, String
+
+from grader import Missed
+from grader.checks import publishes, rate, series, subscribes, within
+from sim import run
+from sim.recording import Endpoint, Graph
+from tests.grader.recordings import published, recording
+from tests.students import misfits
+
+
+def ticks(stamps, message=None):
+    return published("/chatter", [(stamp, message or String()) for stamp in stamps])
+
+
+def missed(function, *arguments, **options):
+    with pytest.raises(Missed) as caught:
+        function(*arguments, **options)
+    return caught.value
+
+
+def test_publishes_gives_the_messages():
+    heard = publishes(run(misfits.Talker, seconds=5, quiet=True), "/chatter", "std_msgs/msg/String")
+    assert [item.stamp for item in heard] == [1.0, 2.0, 3.0, 4.0, 5.0]
+
+
+def test_publishes_misses_a_topic_nobody_publishes():
+    miss = missed(publishes, recording(), "/chatter")
+    assert (miss.expected, miss.saw, miss.hint) == ("messages on /chatter", "nobody publishes there", "")
+
+
+def test_publishes_points_at_a_name_that_is_nearly_the_same():
+    miss = missed(
+        publishes, run(misfits.MisspeltTopic, seconds=2, quiet=True), "/chatter", "std_msgs/msg/String"
+    )
+    assert miss.expected == "messages of type std_msgs/msg/String on /chatter"
+    assert miss.saw == "nobody publishes there; publishes on /chater"
+    assert miss.hint == "Is /chater a typing slip? Did you mean /chatter?"
+
+
+def test_publishes_takes_no_connected_topic_for_a_slip():
+    run_ = published("/chatters", [(1.0, String())], listeners=["/listener"])
+    miss = missed(publishes, run_, "/chatter")
+    assert (miss.saw, miss.hint) == ("nobody publishes there", "")
+
+
+def test_publishes_misses_another_type():
+    miss = missed(publishes, ticks([1.0], Float64()), "/chatter", "std_msgs/msg/String")
+    assert miss.saw == "type std_msgs/msg/Float64 on /chatter"
+    assert (
+        miss.hint
+        == "Both ends of a topic must use the same message type: on /chatter it is std_msgs/msg/String."
+    )
+
+
+def test_publishes_misses_a_publisher_that_says_nothing():
+    miss = missed(publishes, run(misfits.SilentTalker, seconds=2, quiet=True), "/chatter")
+    assert (miss.expected, miss.saw) == ("messages on /chatter", "a publisher, but no message")
+
+
+def test_publishes_counts():
+    miss = missed(publishes, ticks([1.0, 2.0]), "/chatter", at_least=3)
+    assert (miss.expected, miss.saw) == ("3 or more messages on /chatter", "only 2 in 10 s")
+
+
+def test_subscribes_finds_the_subscription():
+    ends = subscribes(run(misfits.Listener, seconds=1, quiet=True), "/chatter", "std_msgs/msg/String")
+    assert [end.node for end in ends] == ["/listener"]
+
+
+def test_subscribes_misses_with_what_is_listened_to():
+    graph = Graph(["/listener"], [Endpoint("subscription", "/listener", "/cmd", "std_msgs/msg/String", {})])
+    miss = missed(subscribes, recording(graph=graph), "/robot/command", "std_msgs/msg/String")
+    assert miss.expected == "a subscription to /robot/command of type std_msgs/msg/String"
+    assert miss.saw == "nobody listens there; listens on /cmd"
+
+
+def test_rate_is_measured_in_simulated_time():
+    assert rate(run(misfits.Talker, seconds=10, quiet=True), "/chatter", 1.0) == 1.0
+
+
+def test_rate_misses_another_rate_and_tells_the_period():
+    miss = missed(rate, ticks([0.5 * n for n in range(1, 21)]), "/chatter", 1.0)
+    assert miss.expected == "1 Hz on /chatter, within 10%"
+    assert miss.saw == "2 Hz (20 messages in 10 s)"
+    assert miss.hint == "A timer with period 1 s gives 1 Hz: the period is 1 / rate, in seconds."
+    assert miss.picture == "topics"
+
+
+def test_rate_blames_a_callback_that_sleeps():
+    miss = missed(rate, run(misfits.SleepyTalker, seconds=10, quiet=True), "/chatter", 1.0)
+    assert miss.hint.startswith("The timer of /talker fired 3 times in 10 s; 10 were due. Most likely")
+
+
+def test_rate_misses_a_node_that_falls_silent():
+    miss = missed(rate, ticks([1.0, 2.0, 3.0]), "/chatter", 1.0)
+    assert miss.saw == "no message for 7 s, from 3 s on"
+    assert miss.hint == "Publish from start to end, in the callback of a timer."
+
+
+def test_rate_misses_a_burst_at_one_moment():
+    miss = missed(rate, ticks([1.0] * 10), "/chatter", 1.0)
+    assert miss.saw == "0 Hz (10 messages in 10 s)"
+
+
+def test_within_gives_the_values():
+    run_ = published("/cmd_vel", [(1.0, twist(0.2)), (2.0, twist(0.4))])
+    assert within(run_, "/cmd_vel", "linear.x", 0.2, 0.4) == [0.2, 0.4]
+
+
+def test_within_misses_the_first_value_outside():
+    run_ = published(
+        "/temperature", [(1.0, Float64(data=22.0)), (2.0, Float64(data=25.5)), (3.0, Float64(data=26.0))]
+    )
+    miss = missed(within, run_, "/temperature", "data", 20, 25, unit="degrees C")
+    assert miss.expected == "data on /temperature from 20 to 25 degrees C"
+    assert miss.saw == "25.5 degrees C at 2 s; 2 of 3 are outside"
+    assert miss.hint == ""
+
+
+def test_within_lets_no_nan_pass():
+    miss = missed(
+        within, published("/temperature", [(1.0, Float64(data=math.nan))]), "/temperature", "data", 20, 25
+    )
+    assert miss.saw == "nan at 1 s; 1 of 1 are outside"
+    assert miss.hint == "NaN means that a calculation had no result."
+
+
+def test_series_reads_nested_fields():
+    assert series(published("/cmd_vel", [(1.0, twist(0.2))]), "/cmd_vel", "linear.x") == [(1.0, 0.2)]
+
+
+def twist(speed):
+    message = Twist()
+    message.linear.x = speed
+    return message

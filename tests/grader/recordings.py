@@ -1,0 +1,33 @@
+"""Recordings written by hand, for what a check should see."""
+
+from sim import Recording, World
+from sim.recording import Contact, Ended, Endpoint, Graph, Heard, LogLine, Pose
+from sim.ros.codec import encode, type_name
+
+
+def recording(*, seconds=10.0, **evidence):
+    """A run to the end of its time."""
+    return Recording(
+        seconds=seconds, stamp=seconds, ended=Ended("time", seconds, "All of it was run."), **evidence
+    )
+
+
+def published(topic, messages, *, seconds=10.0, listeners=()):
+    """A run in which /talker sent messages, given as pairs of stamp and message, all of one type."""
+    type = type_name(messages[0][1].__class__)
+    heard = [Heard(stamp, topic, type, "/talker", encode(message)) for stamp, message in messages]
+    ends = [Endpoint("publisher", "/talker", topic, type, {})]
+    ends += [Endpoint("subscription", node, topic, type, {}) for node in listeners]
+    return recording(seconds=seconds, heard=heard, graph=Graph(["/talker", *listeners], ends))
+
+
+def logged(*lines):
+    """A run with log lines, given as (stamp, level, text)."""
+    return recording(logs=[LogLine(stamp, level, "talker", text) for stamp, level, text in lines])
+
+
+def driven(points, *, world="yard", contacts=(), **evidence):
+    """A run in which the robot goes through points, one a second."""
+    path = [Pose(float(second), x, y, 0.0) for second, (x, y) in enumerate(points)]
+    touches = [Contact(*contact) for contact in contacts]
+    return recording(world=World.load(world), path=path, contacts=touches, seconds=path[-1].stamp, **evidence)
