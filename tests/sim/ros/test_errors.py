@@ -91,7 +91,7 @@ def test_an_exception_is_kept_and_ends_its_program(program):
 def test_a_traceback_shows_the_authors_lines_and_no_others():
     (error,) = run(errors.InTimer, seconds=3, quiet=True).errors
     file = errors.__file__
-    lines = error.traceback.splitlines()
+    lines = [line for line in error.traceback.splitlines() if line.strip(" ~^")]
     first = errors.InTimer.tick.__code__.co_firstlineno + 1
     second = errors.InTimer.divide.__code__.co_firstlineno + 1
     assert lines[:2] == [f'  File "{file}", line {first}, in tick', "    self.divide(0)"]

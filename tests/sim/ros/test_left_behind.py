@@ -21,7 +21,7 @@ from sim.ros.processes import StudentProcess
 from tests.students.engine import actions, errors, mains, services, threads
 
 RUNS = 200
-WARM_UP = 10
+WARM_UP = 30  # Python 3.13 takes that long to have the memory it goes on with
 MEGABYTE = 2**20
 
 

@@ -54,7 +54,7 @@ class InService(Node):
         self.create_timer(1.0, lambda: self.client.call_async(Trigger.Request()))
 
     def answer(self, request, response):
-        response.missing = 1
+        print(response.missing)
         return response
 
 
