@@ -98,12 +98,25 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
         _step(engine, task)
         return True
     try:
-        with _OnStack(engine, Running.of(engine, work)):
-            work.call(*work.arguments)
+        _call(engine, Running.of(engine, work), work.call, work.arguments)
     finally:
         if group is not None:
             group.ending_execution(work.entity)
     return True
+
+
+def _call(engine: Engine, running: Running, function: Callable[..., Any], arguments: tuple) -> None:
+    """Call a function as a callback: recorded with its duration and with the exception that leaves it."""
+    stack = engine.current.callbacks
+    stack.append(running)
+    try:
+        function(*arguments)
+    except BaseException as error:
+        engine.recorder.error(error, running.name, running.node)
+        raise
+    finally:
+        stack.pop()
+        engine.recorder.callback(running)
 
 
 async def _recorded(engine: Engine, work: Work, running: Running) -> Any:
@@ -126,8 +139,7 @@ def _resume(engine: Engine, work: Work) -> bool:
     if inspect.iscoroutine(task._handler):
         _step(engine, task)
     else:  # a done callback of a future, or a function given to create_task()
-        with _OnStack(engine, Running.of(engine, work)):
-            _step(engine, task)
+        _call(engine, Running.of(engine, work), _step, (engine, task))
     if task.done() or _position(task) != before:
         engine.activity += 1
         return True
@@ -160,20 +172,3 @@ def _position(task: Task) -> tuple[int, ...]:
         place.append(coroutine.cr_frame.f_lasti)
         coroutine = coroutine.cr_await
     return tuple(place)
-
-
-class _OnStack:
-    """Records a callback's name, node, duration in simulated time, and the exception that leaves it."""
-
-    def __init__(self, engine: Engine, running: Running) -> None:
-        self.engine, self.running = engine, running
-
-    def __enter__(self) -> None:
-        self.callbacks = self.engine.current.callbacks
-        self.callbacks.append(self.running)
-
-    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
-        if error is not None:
-            self.engine.recorder.error(error, self.running.name, self.running.node)
-        self.callbacks.pop()
-        self.engine.recorder.callback(self.running)
