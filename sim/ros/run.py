@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import gc
 import random
@@ -56,21 +57,29 @@ def run(
         raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
     world = World.load(world) if isinstance(world, str) else world
     recording = Recording(world=world, seconds=float(seconds), seed=seed)
-    simulation = Simulation(world, seed=seed) if world is not None else None
     for spec in specs:
         hooks.rebind(
             getattr(spec.target, "__globals__", None) or vars(sys.modules.get(spec.target.__module__, sys))
         )
-    with _seeded(seed), _frozen_heap(), _watched(Engine(recording, seed), quiet) as engine:
-        if simulation is not None:
-            engine.start(Process(_robot(simulation, recording)))
-        watched = [engine.start(spec) for spec in specs]
-        recording.ended = engine.run_until(round(seconds * SECOND), until, watched)
-    del watched
-    gc.collect(1)  # rclpy's nodes are full of cycles; left alone, they pile up from run to run
-    if engine.guard.interrupted:
+    with _own_process():
+        interrupted = _lockstep(recording, specs, until, quiet)
+    if interrupted:
         raise KeyboardInterrupt("The run was interrupted.")
     return recording
+
+
+def _lockstep(
+    recording: Recording, specs: list[Process], until: Callable[[Recording], bool] | None, quiet: bool
+) -> bool:
+    """Fill the recording; whether the user interrupted."""
+    world, engine = recording.world, Engine(recording, recording.seed)
+    robot = [Process(_robot(Simulation(world, seed=recording.seed), recording))] if world is not None else []
+    with _seeded(recording.seed), _watched(engine, quiet):
+        for spec in robot:
+            engine.start(spec)
+        watched = [engine.start(spec) for spec in specs]
+        recording.ended = engine.run_until(round(recording.seconds * SECOND), until, watched)
+    return engine.guard.interrupted
 
 
 def _robot(simulation: Simulation, recording: Recording) -> Callable[[], Any]:
@@ -95,17 +104,26 @@ def _seeded(seed: int) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _frozen_heap() -> Iterator[None]:
-    """Spare the garbage collector what was there before: in a notebook's kernel one full look takes 0.2 s."""
+def _own_process() -> Iterator[None]:
+    """Hide from the nodes what a program of their own would not find.
+
+    A notebook's kernel runs an event loop, with which asyncio.run() fails. And its heap is large: one full
+    look of the garbage collector takes 0.2 s. So the collector looks only at what the run has made; at its
+    end in full, for rclpy's nodes are full of cycles.
+    """
+    loop = asyncio._get_running_loop()
+    asyncio._set_running_loop(None)
     gc.freeze()
     try:
         yield
     finally:
+        gc.collect()
         gc.unfreeze()
+        asyncio._set_running_loop(loop)
 
 
 @contextlib.contextmanager
-def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
+def _watched(engine: Engine, quiet: bool) -> Iterator[None]:
     show = _Screen(quiet)
     engine.echo = show
 
@@ -115,7 +133,7 @@ def _watched(engine: Engine, quiet: bool) -> Iterator[Engine]:
         engine.guard.watch(),
         engine,
     ):
-        yield engine
+        yield
     show.close()
 
 

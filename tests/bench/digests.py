@@ -4,45 +4,18 @@ python -m tests.bench.digests --runs 100 --python .venv311/bin/python --python .
 """
 
 import argparse
-import contextlib
-import json
 import os
-import subprocess
 import sys
 from collections import Counter
-from collections.abc import Iterator
 
-from tests.bench.report import avoider_run, fresh, table
-
-BUSY_LOOP = "while True: pass"
+from tests.bench.report import table
+from tests.sim.ros.determinism import busy_machine, digests
 
 
-def digest_here() -> None:
-    """Print the digest of a run with a robot and a student's main(), as JSON."""
-    version = "{}.{}.{}".format(*sys.version_info)
-    print(json.dumps([version, avoider_run(world="maze", seconds=20, seed=1).digest]))
-
-
-@contextlib.contextmanager
-def busy_machine() -> Iterator[None]:
-    """Two busy processes for every core."""
-    loops = [subprocess.Popen([sys.executable, "-c", BUSY_LOOP]) for _ in range(2 * (os.cpu_count() or 1))]
-    try:
-        yield
-    finally:
-        for loop in loops:
-            loop.kill()
-            loop.wait()
-
-
-def count(pythons: list[str], runs: int, seed: int) -> Counter[tuple[str, str]]:
-    """(Python version, digest) of that many runs, the Pythons taking turns; every run hashes differently."""
-    found = Counter()
-    for index in range(runs):
-        python = pythons[index % len(pythons)]
-        one = fresh("tests.bench.digests", "--one", python=python, PYTHONHASHSEED=str(seed + index))
-        found[tuple(one)] += 1
-    return found
+def count(pythons: list[str], hash_seeds: range) -> Counter[tuple[str, str]]:
+    """(Python, digests of its scenarios), a process for each hash seed, the Pythons taking turns."""
+    turns = [(pythons[seed % len(pythons)], seed) for seed in hash_seeds]
+    return Counter((python, digests(python, seed)) for python, seed in turns)
 
 
 def main() -> None:
@@ -52,25 +25,24 @@ def main() -> None:
     parser.add_argument(
         "--python", action="append", help="of an environment with the course; may be given again"
     )
-    parser.add_argument("--one", action="store_true", help="one run in this process")
     options = parser.parse_args()
-    if options.one:
-        digest_here()
-        return
     pythons = options.python or [sys.executable]
+    missing = [python for python in pythons if not os.path.exists(python)]
+    if missing:
+        parser.error(f"there is no Python {missing[0]}")
     idle = options.runs // 2
-    machines = {"idle": count(pythons, idle, 0)}
-    with busy_machine():
-        machines["busy"] = count(pythons, options.runs - idle, idle)
+    machines = {"idle": count(pythons, range(idle))}
+    with busy_machine(2 * (os.cpu_count() or 1)):
+        machines["busy"] = count(pythons, range(idle, options.runs))
     rows = [
-        [machine, version, digest[:8], runs]
-        for machine, found in machines.items()
-        for (version, digest), runs in sorted(found.items())
+        [machine, python, " ".join(one[:8] for one in found.split()), runs]
+        for machine, counted in machines.items()
+        for (python, found), runs in sorted(counted.items())
     ]
-    table(["machine", "Python", "digest", "runs"], rows)
-    digests = {digest for found in machines.values() for _, digest in found}
-    print(f"{len(digests)} distinct digest{'s' * (len(digests) > 1)} in {options.runs} fresh processes")
-    sys.exit(len(digests) != 1)
+    table(["machine", "Python", "digests", "runs"], rows)
+    distinct = {found for counted in machines.values() for _, found in counted}
+    print(f"{len(distinct)} distinct recording{'s' * (len(distinct) > 1)} in {options.runs} fresh processes")
+    sys.exit(len(distinct) != 1)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,10 @@
 """What all benchmarks share: a run, figures from a fresh process, and tables."""
 
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Sequence
 from typing import Any
-
-# One virtual environment's ROS libraries must not leak into another's Python.
-NOT_INHERITED = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
 
 
 def avoider_run(**settings: Any) -> Any:
@@ -22,16 +18,10 @@ def avoider_run(**settings: Any) -> Any:
     return recording
 
 
-def fresh(module: str, *arguments: str, python: str = sys.executable, **environment: str) -> Any:
+def fresh(module: str, *arguments: str) -> Any:
     """What `python -m module arguments...` prints as JSON in its last line. Raises CalledProcessError."""
-    inherited = {name: value for name, value in os.environ.items() if name not in NOT_INHERITED}
-    done = subprocess.run(
-        [python, "-m", module, *arguments],
-        env=inherited | environment,
-        check=True,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
+    command = [sys.executable, "-m", module, *arguments]
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout.splitlines()[-1])
 
 

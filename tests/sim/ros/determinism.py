@@ -1,19 +1,11 @@
-"""Equal runs have equal digests in many fresh processes, half of them on a busy machine.
-
-    python -m tests.sim.ros.determinism --runs 100 .venv/bin/python /elsewhere/.venv/bin/python
-
-The Pythons take turns, each with another PYTHONHASHSEED. Prints how many processes had which digest; ends
-with 0 when there is only one.
-"""
+"""Fresh processes, other Pythons and busy machines, for comparing digests."""
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import os
 import subprocess
 import sys
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -45,32 +37,3 @@ def digests(python: str | Path, hash_seed: int) -> str:
     if done.returncode:
         return f"failed with {done.returncode}: {done.stderr.strip()[-500:]}"
     return done.stdout.strip()
-
-
-def count(pythons: list[str], runs: int) -> Counter[str]:
-    """How often each line of digests came up; the second half of the runs on a busy machine."""
-    seen: Counter[str] = Counter()
-    for number in range(runs):
-        load = 2 * (os.cpu_count() or 1) if number >= runs // 2 else 0
-        with busy_machine(load):
-            seen[digests(pythons[number % len(pythons)], number + 1)] += 1
-    return seen
-
-
-def main() -> int:
-    """Run from the command line; 0 if all digests were equal."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("pythons", nargs="*", default=[sys.executable], help="interpreters with the course")
-    parser.add_argument("--runs", type=int, default=100)
-    arguments = parser.parse_args()
-    for python in arguments.pythons:
-        if not Path(python).exists():
-            parser.error(f"there is no Python {python}")
-    seen = count(arguments.pythons, arguments.runs)
-    for line, times in seen.most_common():
-        sys.stdout.write(f"{times:4} processes: {line}\n")
-    return 0 if len(seen) == 1 else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

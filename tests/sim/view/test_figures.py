@@ -1,0 +1,176 @@
+import io
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Twist
+from matplotlib.figure import Figure
+from PIL import Image
+from std_msgs.msg import String
+
+from sim import Recording, World, run
+from sim.recording import CallbackError, Contact, Ended, Pose
+from sim.view import animate, plot_path, plot_signal, plot_topics, png
+from tests.grader.recordings import published
+from tests.students import misfits
+
+
+def driven(world="room", **evidence):
+    path = [Pose(float(n), 0.2 * n, 0.0, 0.0) for n in range(6)]
+    return Recording(world=World.load(world), path=path, ended=Ended("time", 5.0, ""), **evidence)
+
+
+def labels(figure):
+    return figure.axes[0].get_legend_handles_labels()[1]
+
+
+def test_the_path_is_drawn_in_metres_over_the_world():
+    figure = plot_path(driven())
+    axes = figure.axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == (
+        "x (m)",
+        "y (m)",
+        "room, seen from above",
+    )
+    assert axes.get_aspect() == 1.0
+    way = next(line for line in axes.lines if line.get_label() == "path")
+    assert way.get_xdata() == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    assert labels(figure) == ["goal", "path", "start", "end, 5 s"]
+
+
+def test_walls_boxes_and_pillars_are_where_they_are():
+    world = World.load("room")
+    axes = plot_path(driven()).axes[0]
+    assert len(axes.collections[0].get_segments()) == len(world.walls)
+    assert len(axes.patches) == len(world.boxes) + len(world.circles) + 2  # and the robot at both ends
+
+
+def test_contacts_are_marked():
+    figure = plot_path(driven(contacts=[Contact(1.0, None, 3.0, 0.5, "front", "wall")]))
+    marks = next(line for line in figure.axes[0].lines if line.get_label() == "contact")
+    assert (list(marks.get_xdata()), list(marks.get_ydata())) == ([3.0], [0.5])
+
+
+def test_a_path_that_leaves_the_world_stays_in_the_picture():
+    recording = driven("yard")
+    recording.path.append(Pose(6.0, 9.0, -8.0, 0.0))
+    axes = plot_path(recording).axes[0]
+    assert axes.get_xlim()[1] > 9.0 > -8.0 > axes.get_ylim()[0]
+
+
+@pytest.mark.parametrize("draw", [plot_path, animate])
+def test_a_run_without_a_robot_is_refused(draw):
+    with pytest.raises(
+        ValueError, match=r'^this run has no robot to draw: give run\(\) a world, such as world="yard"$'
+    ):
+        draw(Recording())
+
+
+def test_topics_have_a_row_each_with_count_and_rate():
+    recording = run(misfits.Talker, misfits.Listener, seconds=5, quiet=True)
+    recording.errors.append(CallbackError(2.5, "/talker", "Talker.tick", "KeyError", "", ""))
+    axes = plot_topics(recording).axes[0]
+    assert [tick.get_text() for tick in axes.get_yticklabels()] == [
+        "/chatter\n5, 1 Hz",
+        "log lines\n5",
+        "errors",
+    ]
+    assert axes.get_xlabel() == "time (s)"
+    assert list(axes.lines[0].get_xdata()) == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert list(axes.lines[2].get_xdata()) == [2.5]
+
+
+def test_topics_can_be_chosen():
+    recording = published("/chatter", [(1.0, String())])
+    axes = plot_topics(recording, ["/news", "/chatter"]).axes[0]
+    assert [tick.get_text() for tick in axes.get_yticklabels()] == ["/news\n0", "/chatter\n1"]
+
+
+def test_an_empty_run_has_an_empty_timeline():
+    assert plot_topics(Recording()).axes[0].lines[:] == []
+
+
+def commands():
+    messages = [(float(n), Twist()) for n in range(4)]
+    for n, (_, message) in enumerate(messages):
+        message.linear.x, message.angular.z = 0.1 * n, -0.5
+    return published("/cmd_vel", messages)
+
+
+def test_signals_are_drawn_over_time_with_their_unit():
+    axes = plot_signal(commands(), "/cmd_vel", "linear.x", "angular.z", unit="m/s, rad/s").axes[0]
+    assert (axes.get_title(), axes.get_xlabel(), axes.get_ylabel()) == ("/cmd_vel", "time (s)", "m/s, rad/s")
+    assert list(axes.lines[0].get_xdata()) == [0.0, 1.0, 2.0, 3.0]
+    assert axes.lines[0].get_ydata() == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    assert [line.get_label() for line in axes.lines] == ["linear.x", "angular.z"]
+
+
+@pytest.mark.parametrize(
+    "topic, fields, sentence",
+    [
+        ("/odom", (), "there are no messages on /odom to draw; this run has /cmd_vel"),
+        ("/cmd_vel", ("speed",), "the messages on /cmd_vel have no field speed; they have linear, angular"),
+        ("/cmd_vel", ("linear",), "linear on /cmd_vel is no number, but Vector3"),
+        ("/cmd_vel", (), "the messages on /cmd_vel have no field data; they have linear, angular"),
+    ],
+)
+def test_what_is_no_signal_is_refused(topic, fields, sentence):
+    with pytest.raises(ValueError) as caught:
+        plot_signal(commands(), topic, *fields)
+    assert str(caught.value) == sentence
+
+
+def test_text_is_no_signal():
+    with pytest.raises(ValueError, match=r"^data on /chatter is no number, but str$"):
+        plot_signal(published("/chatter", [(1.0, String())]), "/chatter")
+
+
+def test_a_figure_shows_itself_and_equal_figures_have_equal_bytes():
+    first, second = plot_path(driven()), plot_path(driven())
+    assert isinstance(first, Figure)
+    assert first._repr_png_() == png(second)
+    assert Image.open(io.BytesIO(png(first))).size == (640, 480)
+
+
+def test_the_students_own_matplotlib_is_left_alone():
+    program = """
+import sys
+from sim.view import plot_topics, png
+from sim import Recording
+png(plot_topics(Recording()))
+assert "matplotlib.pyplot" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+
+
+def test_the_moving_picture_shows_the_robot_going_its_way():
+    moving = Image.open(io.BytesIO(animate(driven(), speed=1.0, frames_per_second=2)))
+    assert (moving.n_frames, moving.format) == (11, "PNG")
+    moving.seek(0)
+    first = np.asarray(moving.convert("RGB"), dtype=int)
+    moving.seek(10)
+    last = np.asarray(moving.convert("RGB"), dtype=int)
+    changed = np.argwhere(np.abs(first - last).sum(axis=2) > 60)
+    height, width = first.shape[:2]
+    below_clock = changed[changed[:, 0] > 30]
+    assert len(below_clock) > 50
+    assert np.ptp(below_clock[:, 1]) > 0.1 * width  # along x by a metre
+    assert np.ptp(below_clock[:, 0]) < 0.1 * height  # and not along y
+
+
+def test_twenty_seconds_are_a_small_picture_that_is_always_the_same():
+    recording = run(misfits.Talker, world="room", seconds=20, quiet=True)
+    recording.path = [
+        pose._replace(x=2 * np.cos(pose.stamp), y=2 * np.sin(pose.stamp)) for pose in recording.path
+    ]
+    moving = animate(recording)
+    assert len(moving) < 200_000
+    assert moving == animate(recording)
+    assert moving._repr_png_() == bytes(moving)
+
+
+@pytest.mark.parametrize("pace", [{"speed": 0}, {"frames_per_second": -1}])
+def test_a_picture_needs_a_pace(pace):
+    with pytest.raises(ValueError, match=r"^speed and frames_per_second must be above 0$"):
+        animate(driven(), **pace)
