@@ -172,3 +172,24 @@ def _position(task: Task) -> tuple[int, ...]:
         place.append(coroutine.cr_frame.f_lasti)
         coroutine = coroutine.cr_await
     return tuple(place)
+
+
+def recorded(engine: Engine, function: Callable[..., Any], node: Any) -> Callable[..., Any]:
+    """The same function, for callers that swallow what it raises: the exception is recorded before."""
+    name, of = callback_name(function), engine.recorder.name_of(node)
+
+    def call(*arguments: Any) -> Any:
+        try:
+            return function(*arguments)
+        except BaseException as error:
+            engine.recorder.error(error, name, of)
+            raise
+
+    async def call_later(*arguments: Any) -> Any:
+        try:
+            return await function(*arguments)
+        except BaseException as error:
+            engine.recorder.error(error, name, of)
+            raise
+
+    return call_later if inspect.iscoroutinefunction(function) else call

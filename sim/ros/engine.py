@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import inspect
 import random
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -14,7 +13,6 @@ import rclpy.utilities
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
 from sim.recording import Ended, Recording
@@ -218,25 +216,6 @@ class Engine(Scheduler):
         line = self.recorder.log(severity, logger, text)
         if line is not None:
             self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
-
-    def recorded(self, function: Callable[..., Any], name: str, node: Node) -> Callable[..., Any]:
-        """The same callback, with the exception that leaves it recorded."""
-
-        def call(*arguments: Any) -> Any:
-            try:
-                return function(*arguments)
-            except BaseException as error:
-                self.recorder.error(error, name, self.recorder.name_of(node))
-                raise
-
-        async def call_later(*arguments: Any) -> Any:
-            try:
-                return await function(*arguments)
-            except BaseException as error:
-                self.recorder.error(error, name, self.recorder.name_of(node))
-                raise
-
-        return call_later if inspect.iscoroutinefunction(function) else call
 
     def describe(self, fiber: Fiber) -> str:
         """Which callback of which node a fiber is in, for a message."""

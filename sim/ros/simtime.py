@@ -66,7 +66,7 @@ class SimulatedTime:
                 moment = fiber.wake_at
             if fiber.spins is None:
                 continue
-            for timer in fiber.spins.timers:
+            for timer in fiber.spins.questions.timers:
                 try:
                     handle = timer.handle
                     left = None if handle.is_timer_canceled() else handle.time_until_next_call()

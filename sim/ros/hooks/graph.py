@@ -10,7 +10,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from sim.ros.callbacks import callback_name
+from sim.ros.callbacks import recorded
 from sim.ros.codec import type_name
 from sim.ros.fibers import engine
 from sim.ros.hooks import hook
@@ -120,8 +120,7 @@ def execute_goal(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return await original(self, execute_callback, goal_handle)
-        recorded = run.recorded(execute_callback, callback_name(execute_callback), self._node)
-        return await original(self, recorded, goal_handle)
+        return await original(self, recorded(run, execute_callback, self._node), goal_handle)
 
     return _execute_goal
 
