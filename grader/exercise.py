@@ -157,4 +157,4 @@ def _is_companion(error: CallbackError, companions: Sequence[Any]) -> bool:
     """By name and file: a student's class may be called as one of ours."""
     targets = [getattr(companion, "target", companion) for companion in companions]
     named = [t for t in targets if error.callback.split(".")[0] == getattr(t, "__name__", "")]
-    return any(inspect.getsourcefile(target) in error.traceback for target in named)
+    return any((inspect.getsourcefile(target) or "") in error.traceback for target in named)

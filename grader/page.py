@@ -13,11 +13,6 @@ from collections.abc import Iterator, Sequence
 
 from grader.checks.judge import Verdict
 
-# What a sanitiser has to let through for the table to look right: nbconvert's SanitizeHTML takes these lists.
-TAGS = ("table", "caption", "thead", "tbody", "tr", "th", "td", "div", "b", "code")
-ATTRIBUTES = {"*": ["style"], "th": ["scope"], "td": ["colspan"]}
-STYLES = ("border-collapse", "color", "font-weight", "text-align", "vertical-align", "white-space", "width")
-
 # Per status: symbol, word, colour. The colours have a contrast of 4 or more on white and on black.
 MARKS = {
     "passed": ("✔", "passed", "#16883c"),
@@ -29,9 +24,11 @@ MARKS = {
 WIDTH = 88  # characters of a line in a terminal
 
 
-def html(title: str, points: float, most: float, verdicts: Sequence[Verdict]) -> str:
-    """The table that Jupyter shows."""
-    rows = "".join(_row(verdict) for verdict in verdicts)
+def html(
+    title: str, points: float, most: float, verdicts: Sequence[Verdict], runs: Sequence[str] = ()
+) -> str:
+    """The table that Jupyter shows. runs: what to call each run, where there are several."""
+    rows = "".join(_row(verdict, runs) for verdict in verdicts)
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
@@ -42,13 +39,15 @@ def html(title: str, points: float, most: float, verdicts: Sequence[Verdict]) ->
     )
 
 
-def text(title: str, points: float, most: float, verdicts: Sequence[Verdict]) -> str:
+def text(
+    title: str, points: float, most: float, verdicts: Sequence[Verdict], runs: Sequence[str] = ()
+) -> str:
     """The same for a terminal."""
     lines = [f"{title}: {number(points)} of {number(most)} points"]
     for verdict in verdicts:
         symbol, word, _ = MARKS[mark(verdict)]
         lines.append(f"  {symbol} {word:<11} {_points(verdict):>9}  {verdict.sentence}")
-        for label, content in details(verdict):
+        for label, content in details(verdict, runs):
             lines += textwrap.wrap(
                 f"{label}: {content}", WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 10
             )
@@ -60,9 +59,10 @@ def mark(verdict: Verdict) -> str:
     return "partly" if verdict.status == "failed" and verdict.credit > 0 else verdict.status
 
 
-def details(verdict: Verdict) -> Iterator[tuple[str, str]]:
+def details(verdict: Verdict, runs: Sequence[str] = ()) -> Iterator[tuple[str, str]]:
     """What is worth saying beyond the sentence, as label and content."""
-    content = {"Expected": verdict.expected, "Saw": verdict.saw}
+    run = runs[verdict.run] if runs and verdict.status == "failed" else ""
+    content = {"Run": run, "Expected": verdict.expected, "Saw": verdict.saw}
     yield from ((label, words) for label, words in content.items() if words)
     if verdict.hint:
         yield ("Note" if verdict.status in ("skipped", "broken") else "Hint"), verdict.hint
@@ -79,9 +79,11 @@ def _points(verdict: Verdict) -> str:
     return f"{number(verdict.earned)} / {number(verdict.points)}" if verdict.points else ""
 
 
-def _row(verdict: Verdict) -> str:
+def _row(verdict: Verdict, runs: Sequence[str]) -> str:
     symbol, word, colour = MARKS[mark(verdict)]
-    more = "".join(f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict))
+    more = "".join(
+        f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict, runs)
+    )
     cell = "text-align: left; vertical-align: top"
     return (
         f'<tr><td style="{cell}; white-space: nowrap"><b style="color: {colour}">{symbol} {word}</b></td>'

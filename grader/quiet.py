@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 
 LIMIT = 4000  # characters that are shown of what was caught
 
@@ -44,13 +44,15 @@ def _descriptor_2(target: int) -> Iterator[None]:
 @contextmanager
 def _python_stderr(target: io.StringIO) -> Iterator[None]:
     original = sys.stderr
-    sys.stderr = target
     # A handler that logging set up earlier holds the object itself, so the object must write elsewhere, too.
-    with suppress(AttributeError):
-        original.write = target.write
+    # A notebook's stream flushes by waiting for a thread, which in a run would be a wait in simulated time.
+    held = getattr(original, "__dict__", {})
+    before = {name: held.pop(name) for name in ("write", "flush") if name in held}
+    sys.stderr = target
+    held.update(write=target.write, flush=target.flush)
     try:
         yield
     finally:
         sys.stderr = original
-        with suppress(AttributeError):
-            del original.write
+        del held["write"], held["flush"]
+        held.update(before)

@@ -54,7 +54,7 @@ class Score(float):
     @property
     def text(self) -> str:
         """The table for a terminal."""
-        return page.text(self.title, float(self), self.max, self.verdicts)
+        return page.text(self.title, float(self), self.max, self.verdicts, self._runs)
 
     @property
     def pictures(self) -> list[tuple[str, bytes]]:
@@ -74,18 +74,29 @@ class Score(float):
             "verdicts": verdicts,
         }
 
+    @property
+    def _runs(self) -> list[str]:
+        """What to call each run; nothing to tell apart where there is only one."""
+        count = len(self.recordings)
+        return [_run(recording, f"{n} of {count}") for n, recording in enumerate(self.recordings, 1)] * (
+            count > 1
+        )
+
     def __repr__(self) -> str:
         return f"{float(self):.4f}".rstrip("0").rstrip(".")
 
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        return page.html(self.title, float(self), self.max, self.verdicts)
+        return page.html(self.title, float(self), self.max, self.verdicts, self._runs)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Pictures go out as images of their own: a sanitiser that is strict about HTML lets PNGs pass.
         with quiet_stderr():
-            _show(self.pictures)
+            try:
+                _show(self.pictures)
+            except Exception as error:  # a picture is an extra: without it the points still have to be told
+                print(f"(A picture could not be drawn: {error})")
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
 
 
@@ -95,6 +106,11 @@ def _show(pictures: list[tuple[str, bytes]]) -> None:
 
         for caption, png in pictures:
             display(Image(png, alt=caption))
+
+
+def _run(recording: Recording, count: str) -> str:
+    # No seed: when marking it's a private one.
+    return f"{count}, world {recording.world.name}" if recording.world else count
 
 
 def _rounded_down(points: float) -> float:

@@ -42,7 +42,7 @@ def _nearest(
         return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) in place of print(...)."
     unfilled = next((line.text for line in recording.logs if re.search(r"\{\w[^}]*\}", line.text)), "")
     if unfilled:
-        return f"“{unfilled}”", "Put an f before the quotes: f\"...\" fills in what stands in braces."
+        return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what stands in braces.'
     similar = _most_similar(recording, example)
     if similar:
         return f"“{similar}”", "Compare the two texts letter by letter."

@@ -1,0 +1,38 @@
+import pytest
+
+import grader
+from grader.catalogue import exercises
+from tests.students import misfits
+
+
+def test_the_door_has_these_names():
+    assert grader.__all__ == ["Exercise", "Missed", "Scenario", "Score", "check", "grade", "tell"]
+    assert all(hasattr(grader, name) for name in grader.__all__)
+
+
+def test_every_exercise_is_found_by_its_name():
+    found = exercises()
+    assert len(found) >= 8
+    assert all(exercise.name == name for name, exercise in found.items())
+    assert list(found) == sorted(found)
+
+
+def test_grade_takes_the_exercise_or_its_name():
+    name, exercise = next(iter(exercises().items()))
+    by_name, by_object = grader.grade(name, misfits.Empty), grader.grade(exercise, misfits.Empty)
+    assert by_name.as_dict() == by_object.as_dict()
+    assert by_name.exercise == name
+
+
+def test_an_unknown_name_is_answered_with_the_nearest():
+    name = next(iter(exercises()))
+    with pytest.raises(LookupError) as caught:
+        grader.grade(name + "s", misfits.Empty)
+    assert str(caught.value) == (
+        f"There is no exercise '{name}s'. Did you mean '{name}'? The exercises are {', '.join(exercises())}."
+    )
+
+
+def test_a_name_like_no_other_gets_the_list():
+    with pytest.raises(LookupError, match=r"^There is no exercise '\?'\. The exercises are "):
+        grader.grade("?", misfits.Empty)

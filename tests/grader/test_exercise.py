@@ -1,0 +1,261 @@
+import sys
+from functools import partial
+
+import pytest
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from grader import Exercise, Missed, Scenario, Score, check
+from grader.checks import logs, publishes, rate
+from grader.exercise import private_seed
+from sim import Process
+from tests.students import misfits, mistakes
+from tests.students.engine import output
+
+
+@check(points=1)
+def sends(recording):
+    """The node sends text on /chatter."""
+    publishes(recording, "/chatter", "std_msgs/msg/String")
+
+
+@check(points=2, after=sends)
+def paced(recording):
+    """It sends once a second."""
+    rate(recording, "/chatter", 1.0)
+
+
+talk = Exercise("talk", "A talker", checks=[sends, paced])
+
+
+def statuses(score):
+    return {verdict.name: verdict.status for verdict in score.verdicts}
+
+
+def red_line(score):
+    (line,) = [verdict for verdict in score.verdicts if verdict.status == "failed"]
+    return line.sentence, line.expected, line.saw, line.hint
+
+
+def test_a_good_node_gets_full_marks():
+    score = talk.grade(misfits.Talker)
+    assert isinstance(score, Score)
+    assert (score, score.max, talk.points) == (3.0, 3.0, 3.0)
+    assert score.recordings[0].seconds == 10.0
+
+
+@pytest.mark.parametrize(
+    "student, points",
+    [
+        (misfits.SilentTalker, 0.0),
+        (misfits.SleepyTalker, 1.0),
+        (mistakes.DividesByZero, 0.0),
+        (mistakes.NotStarted, 0.0),
+        (misfits.main_that_never_ends, 0.0),
+        (misfits.main_without_spin, 0.0),
+        (misfits.Echo, 1.0),
+    ],
+)
+def test_a_wrong_node_gets_what_it_earned_and_one_red_line(student, points):
+    score = talk.grade(student)
+    assert score == points
+    assert len([v for v in score.verdicts if v.status == "failed"]) == 1
+
+
+NO_CODE = ("There is code of yours to run.", "your node's class, or your main function")
+
+
+@pytest.mark.parametrize(
+    "handed_over, saw, hint",
+    [
+        ((), "nothing", "Put the name of your class between the brackets: grade(MyNode)."),
+        ((None,), "None", "This exercise is not started yet: write your class in the cell above."),
+        (
+            (misfits.Talker, None),
+            "None",
+            "This exercise is not started yet: write your class in the cell above.",
+        ),
+        ((Process(None),), "None", "This exercise is not started yet: write your class in the cell above."),
+        ((dict,), "the class dict, which is not a Node", "Begin the class with `class dict(Node):`."),
+        (("Talker",), "'Talker', which is no node", "Give the class itself, by its name and without quotes."),
+        ((42,), "42, which is no node", "Give the class itself, by its name and without quotes."),
+        (
+            (Process(misfits.Talker, remappings=["chatter:=news"]),),
+            "remappings=['chatter:=news']",
+            'Remappings are a list of pairs of names: remappings=[("from", "to")].',
+        ),
+    ],
+)
+def test_what_cannot_be_run_gets_0_and_a_kind_word(handed_over, saw, hint):
+    score = talk.grade(*handed_over)
+    assert score == 0.0
+    assert red_line(score) == (*NO_CODE, saw, hint)
+    assert statuses(score) == {"runs": "failed", "sends": "skipped", "paced": "skipped"}
+
+
+def test_an_object_in_place_of_its_class_is_told():
+    node = object.__new__(misfits.Talker)
+    line = red_line(talk.grade(node))
+    assert line == (
+        *NO_CODE,
+        "an object of Talker",
+        "Leave out the brackets after the name: Talker, not Talker().",
+    )
+
+
+def test_a_stub_gets_0_and_its_own_words():
+    score = talk.grade(mistakes.NotStarted)
+    assert score == 0.0
+    assert red_line(score)[2] == "This exercise is not started yet: publish a count once a second"
+
+
+@pytest.mark.parametrize("make", [lambda: misfits.Talker(), partial(misfits.Talker)])
+def test_whatever_gives_a_node_can_be_graded(make):
+    assert talk.grade(make) == 3.0
+
+
+def test_nothing_reaches_stderr_whatever_the_node_writes(capfd):
+    for student in (output.writes_everywhere, output.logs_at_every_level, output.runs_a_program):
+        talk.grade(student)
+    assert capfd.readouterr().err == ""
+
+
+@check(points=2)
+def mistaken(recording):
+    """It has a mistake of ours, and complains."""
+    print("to be taken back", file=sys.stderr)
+    return recording.no_such_thing
+
+
+def test_a_mistake_of_ours_costs_nothing_and_is_flagged(capfd):
+    score = Exercise("talk", "A talker", checks=[sends, mistaken]).grade(misfits.Talker)
+    assert (score, statuses(score)) == (3.0, {"sends": "passed", "mistaken": "broken"})
+    assert [verdict.name for verdict in score.broken] == ["mistaken"]
+    said = capfd.readouterr()
+    assert (said.out, said.err) == ("to be taken back\n\n", "")
+
+
+def test_a_world_that_does_not_exist_is_a_mistake_of_ours():
+    score = Exercise("talk", "A talker", checks=[sends], world="rom").grade(misfits.Talker)
+    assert (score, statuses(score)) == (1.0, {"sends": "broken"})
+    assert "Did you mean 'room'?" in score.broken[0].alarm
+
+
+class Questioner(Node):
+    """A companion that asks once, at 1 s."""
+
+    def __init__(self):
+        super().__init__("questioner")
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+        self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        self.publisher.publish(String(data="?"))
+
+
+class FaultyCompanion(Questioner):
+    def ask(self):
+        raise KeyError("ours")
+
+
+@check(points=1)
+def hears(recording):
+    """The node logs what it hears."""
+    logs(recording, "heard")
+
+
+def test_companions_run_beside_the_students_node():
+    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
+    assert listen.grade(misfits.Listener) == 1.0
+    assert listen.grade(misfits.Empty) == 0.0
+
+
+def test_companions_are_up_before_the_students_node():
+    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
+    assert listen.grade(misfits.Listener).recordings[0].graph.nodes == ["/questioner", "/listener"]
+
+
+def test_companions_may_depend_on_the_seed():
+    asked = []
+    listen = Exercise(
+        "listen",
+        "A listener",
+        checks=[hears],
+        seeds=(3, 5),
+        companions=lambda seed: asked.append(seed) or [Questioner],
+    )
+    assert listen.grade(misfits.Listener) == 1.0
+    assert asked == [3, 5]
+
+
+@pytest.mark.parametrize("companion", [FaultyCompanion, Process(FaultyCompanion, name="asker")])
+def test_an_error_of_a_companion_is_a_mistake_of_ours(companion):
+    score = Exercise("listen", "A listener", checks=[hears], companions=[companion]).grade(misfits.Listener)
+    assert (score, statuses(score)) == (1.0, {"hears": "broken"})
+    assert "CompanionError: /" in score.broken[0].alarm
+    assert "KeyError: 'ours'" in score.broken[0].alarm
+
+
+def test_an_error_of_the_student_beside_a_companion_is_the_students():
+    score = Exercise("listen", "A listener", checks=[hears], companions=[Questioner]).grade(
+        mistakes.DividesByZero
+    )
+    assert statuses(score) == {"runs": "failed", "hears": "skipped"}
+
+
+@check(points=1)
+def in_room(recording):
+    """It does well in the room."""
+    if recording.world.name == "room" and recording.seed == 2:
+        raise Missed("a room", "a mess", "Tidy up.")
+
+
+def test_a_check_holds_only_if_it_holds_in_all_scenarios():
+    scenarios = [Scenario("yard", 1.0), Scenario("room", 2.0, seed=2)]
+    tidy = Exercise("tidy", "Tidy up", checks=[in_room], scenarios=scenarios)
+    score = tidy.grade(misfits.Talker)
+    assert (score, score.verdicts[0].run) == (0.0, 1)
+    assert [(r.world.name, r.seconds, r.seed) for r in score.recordings] == [
+        ("yard", 1.0, 0),
+        ("room", 2.0, 2),
+    ]
+
+
+def test_a_run_can_end_early():
+    brief = Exercise("talk", "A talker", checks=[sends], until=lambda recording: recording.stamp >= 2.0)
+    assert brief.grade(misfits.Talker).recordings[0].ended.reason == "goal"
+
+
+def test_seeds_are_public_without_a_secret(monkeypatch):
+    monkeypatch.delenv("COURSE_SECRET", raising=False)
+    exercise = Exercise("talk", "A talker", checks=[sends], seeds=(1, 2))
+    assert [seed for _, seed in exercise.runs] == [1, 2]
+    monkeypatch.setenv("COURSE_SECRET", "")
+    assert [seed for _, seed in exercise.runs] == [1, 2]
+
+
+def test_seeds_are_derived_from_the_secret_where_there_is_one(monkeypatch):
+    monkeypatch.setenv("COURSE_SECRET", "hush")
+    exercise = Exercise("talk", "A talker", checks=[sends], seeds=(1, 2), seconds=1)
+    seeds = [seed for _, seed in exercise.runs]
+    # `printf 'talk 0' | openssl dgst -sha256 -hmac hush`, first 8 hex digits
+    assert seeds[0] == 0xDE17FF43
+    assert seeds == [private_seed("hush", "talk", 0), private_seed("hush", "talk", 1)]
+    assert [recording.seed for recording in exercise.grade(misfits.Talker).recordings] == seeds
+    others = {private_seed("hush!", "talk", 0), private_seed("hush", "tall", 0), *seeds}
+    assert len(others) == 4
+
+
+@pytest.mark.parametrize(
+    "changes, sentence",
+    [
+        ({"checks": []}, "exercise talk: its checks have no points"),
+        ({"checks": [sends, sends]}, "exercise talk: two checks are called sends"),
+        ({"checks": [paced, sends]}, "exercise talk: paced comes after sends, so list sends first"),
+        ({"seeds": ()}, "exercise talk: give at least one seed"),
+    ],
+)
+def test_an_exercise_that_cannot_work_is_refused(changes, sentence):
+    with pytest.raises(ValueError) as caught:
+        Exercise(**{"name": "talk", "title": "A talker", "checks": [sends], **changes})
+    assert str(caught.value) == sentence

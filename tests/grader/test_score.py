@@ -1,0 +1,191 @@
+import json
+import math
+import random
+import re
+
+import bleach
+import pytest
+from bleach.css_sanitizer import CSSSanitizer
+
+from grader import Score
+from grader.checks import Verdict
+from grader.marking.safe_html import clean
+from grader.page import MARKS, number
+from sim import Recording, World, run
+from tests.grader.recordings import driven
+from tests.students import misfits
+
+
+def verdict(points, status="passed", credit=None, **words):
+    credit = float(status in ("passed", "broken")) if credit is None else credit
+    return Verdict(f"check{points}", f"Check <{points}>.", points, status, credit, **words)
+
+
+MIXED = [
+    verdict(0.0, "failed", expected="no error", saw="KeyError: <count>", hint="Set `self.count` & go on."),
+    verdict(3.0),
+    verdict(2.0, "failed", 0.5, expected="1 Hz", saw="2 Hz"),
+    verdict(1.0, "skipped", hint="Not judged: the error above explains it."),
+    verdict(4.0, "broken", hint="Nothing to do.", alarm="Traceback ...\nKeyError: 'x'\n"),
+]
+
+
+def test_a_score_is_the_sum_of_what_was_earned():
+    score = Score("talk", MIXED, title="A talker")
+    assert isinstance(score, float)
+    assert (score, score.max, score.exercise, score.title) == (8.0, 10.0, "talk", "A talker")
+    assert [v.name for v in score.broken] == ["check4.0"]
+
+
+@pytest.mark.parametrize(
+    "points, shown",
+    [([7.5], "7.5"), ([1.0] * 3, "3"), ([], "0"), ([0.1] * 3, "0.3"), ([1 / 3, 1 / 3], "0.6666")],
+)
+def test_repr_and_str_are_plain_numbers(points, shown):
+    score = Score("talk", [verdict(p) for p in points])
+    assert repr(score) == str(score) == f"{score}" == shown
+
+
+def test_whatever_the_points_the_shown_number_is_between_0_and_the_maximum():
+    chance = random.Random(1)
+    for _ in range(500):
+        points = [chance.choice([1 / 3, 2 / 3, 0.1, 1.7, 1e-5, 12.0]) for _ in range(chance.randrange(9))]
+        score = Score("talk", [verdict(p, "failed", chance.choice([0.0, 1 / 3, 0.999, 1.0])) for p in points])
+        assert math.isfinite(score)
+        assert 0.0 <= float(repr(score)) <= score.max <= sum(points) + 1e-9
+
+
+def test_full_marks_are_exactly_the_maximum():
+    score = Score("talk", [verdict(p) for p in (0.1, 0.2, 0.7, 1 / 3)])
+    assert float(repr(score)) == score.max
+
+
+def test_the_text_for_a_terminal():
+    assert (
+        Score("talk", MIXED, title="A talker").text
+        == """\
+A talker: 8 of 10 points
+  ✘ missed                 Check <0.0>.
+        Expected: no error
+        Saw: KeyError: <count>
+        Hint: Set `self.count` & go on.
+  ✔ passed          3 / 3  Check <3.0>.
+  ◐ partly          1 / 2  Check <2.0>.
+        Expected: 1 Hz
+        Saw: 2 Hz
+  ○ skipped         0 / 1  Check <1.0>.
+        Note: Not judged: the error above explains it.
+  ! our mistake     4 / 4  Check <4.0>.
+        Note: Nothing to do.
+        For the instructor: KeyError: 'x'"""
+    )
+
+
+def test_a_long_hint_is_wrapped_in_the_text():
+    score = Score("talk", [verdict(1.0, "failed", hint="word " * 40)])
+    assert max(map(len, score.text.splitlines())) <= 88
+
+
+def test_several_runs_are_told_apart():
+    recordings = [Recording(), Recording(world=World.load("maze"))]
+    in_maze = Verdict("turns", "It turns.", 1.0, "failed", 0.0, "a turn", "none", run=1)
+    assert "Run: 2 of 2, world maze\n        Expected: a turn" in Score("drive", [in_maze], recordings).text
+    assert "Run: 1 of 2\n" in Score("drive", [verdict(1.0, "failed", saw="none")], recordings).text
+    assert "Run:" not in Score("drive", [in_maze], recordings[1:]).text
+
+
+def test_the_html_says_everything_and_escapes_it():
+    page = Score("talk", MIXED, title="A <talker>")._repr_html_()
+    words = re.sub(r"<[^>]+>", " ", page)
+    for told in (
+        "A &lt;talker&gt;: 8 of 10 points",
+        "Check &lt;2.0&gt;.",
+        "KeyError: &lt;count&gt;",
+        "1 / 2",
+    ):
+        assert told in words
+    assert "<code>self.count</code> &amp; go on." in page
+    for symbol, word, _ in MARKS.values():
+        assert f"{symbol} {word}" in words
+
+
+def test_the_html_is_a_table_without_script_class_or_address():
+    page = Score("talk", MIXED)._repr_html_()
+    assert {tag.lower() for tag in re.findall(r"<(\w+)", page)} <= set(
+        ["table", "caption", "thead", "tbody", "tr", "th", "td", "div", "b", "code"]
+    )
+    assert set(re.findall(r' (\w+)="', page)) == {"style", "scope"}
+    assert "http" not in page
+
+
+def test_the_html_survives_sanitising():
+    page = Score("talk", MIXED)._repr_html_()
+    styles = set(re.findall(r"([a-z-]+): ", " ".join(re.findall(r'style="([^"]+)"', page))))
+    parsed = bleach.clean(
+        page,
+        tags=set(re.findall(r"<(\w+)", page)),
+        attributes=["style", "scope"],
+        css_sanitizer=CSSSanitizer(styles),
+    )
+    assert clean(page) == parsed
+
+
+def test_equal_scores_have_equal_html():
+    assert Score("talk", MIXED)._repr_html_() == Score("talk", MIXED)._repr_html_()
+
+
+def test_marks_can_be_read_in_light_and_dark_themes():
+    def luminance(colour):
+        parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+        linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+        return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+    for _, _, colour in MARKS.values():
+        assert 1.05 / (luminance(colour) + 0.05) >= 4
+        assert (luminance(colour) + 0.05) / (luminance("#111111") + 0.05) >= 3.9
+
+
+def test_as_dict_is_ready_for_json():
+    data = json.loads(json.dumps(Score("talk", MIXED, title="A talker").as_dict()))
+    assert (data["exercise"], data["title"], data["points"], data["max"]) == ("talk", "A talker", 8.0, 10.0)
+    assert data["verdicts"][2]["earned"] == 1.0
+    assert data["verdicts"][2]["saw"] == "2 Hz"
+
+
+def test_each_kind_of_picture_is_drawn_once():
+    path = verdict(1.0, "failed", picture="path")
+    topics = verdict(2.0, "failed", picture="topics")
+    recording = run(misfits.Talker, world="yard", seconds=1, quiet=True)
+    pictures = Score("drive", [path, path, topics, verdict(3.0)], [recording]).pictures
+    assert [caption for caption, _ in pictures] == [
+        "The robot's path, seen from above",
+        "What was published, and when",
+    ]
+    assert all(png.startswith(b"\x89PNG") for _, png in pictures)
+
+
+def test_a_picture_that_cannot_be_drawn_costs_nothing(capfd):
+    score = Score("drive", [verdict(1.0, "failed", picture="path")], [Recording()])
+    bundle = score._repr_mimebundle_()
+    assert bundle == {"text/plain": "0", "text/html": score._repr_html_()}
+    said = capfd.readouterr()
+    assert said.out == (
+        "(A picture could not be drawn: this run has no robot to draw: give run() a world, such as "
+        'world="yard")\n'
+    )
+    assert said.err == ""
+
+
+def test_the_picture_is_of_the_run_that_missed():
+    missed_in_second = Verdict("drives", "It drives.", 1.0, "failed", 0.0, picture="path", run=1)
+    near, far = driven([(0, 0), (0.1, 0)]), driven([(0, 0), (2, 0)])
+    ((_, png),) = Score("drive", [missed_in_second], [near, far]).pictures
+    ((_, of_far),) = Score("drive", [missed_in_second], [far, far]).pictures
+    assert png == of_far
+
+
+@pytest.mark.parametrize(
+    "points, shown", [(7.0, "7"), (7.5, "7.5"), (2 / 3, "0.67"), (0.0, "0"), (10.0, "10")]
+)
+def test_numbers_have_no_needless_zeros(points, shown):
+    assert number(points) == shown
