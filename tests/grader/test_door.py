@@ -36,3 +36,15 @@ def test_an_unknown_name_is_answered_with_the_nearest():
 def test_a_name_like_no_other_gets_the_list():
     with pytest.raises(LookupError, match=r"^There is no exercise '\?'\. The exercises are "):
         grader.grade("?", misfits.Empty)
+
+
+def test_two_exercises_of_one_name_are_refused(monkeypatch, tmp_path):
+    for module in ("first_twin", "second_twin"):
+        (tmp_path / f"{module}.py").write_text(
+            "from grader import Exercise, check\n"
+            "@check(points=1)\ndef runs(recording):\n    'It runs.'\n"
+            "twin = Exercise('twin', 'A twin', checks=[runs])\n"
+        )
+    monkeypatch.setattr(grader.exercises, "__path__", [str(tmp_path)])
+    with pytest.raises(ValueError, match=r"^two exercises are called 'twin': names are unique in the course$"):
+        exercises.__wrapped__()
