@@ -52,24 +52,24 @@ def student_streams() -> Iterator[None]:
     """Redirect Python's stdout and stderr for the time of a run to its `printed` and `complained`."""
     stdout, stderr = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = StudentStream(stdout, "printed"), StudentStream(stderr, "complained")
-    held = _hold(stderr)
+    held = [*_hold(stdout, "printed"), *_hold(stderr, "complained")]
     try:
         yield
     finally:
-        for name in held:
-            delattr(stderr, name)
+        for stream, name in held:
+            delattr(stream, name)
         sys.stdout, sys.stderr = stdout, stderr
 
 
-def _hold(stream: TextIO) -> tuple[str, ...]:
+def _hold(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
     """Redirect the stream object itself as far as it lets us: handlers of Python's logging hold on to it."""
     original = SimpleNamespace(write=stream.write, flush=stream.flush)
-    student = StudentStream(original, "complained")
+    student = StudentStream(original, channel)
     try:
         stream.write, stream.flush = student.write, student.flush
-    except AttributeError:  # a stream of Python's own writes to file descriptor 2, which is caught
-        return ()
-    return "write", "flush"
+    except AttributeError:  # a stream of Python's own writes to a file descriptor, and waits for nobody
+        return []
+    return [(stream, "write"), (stream, "flush")]
 
 
 @contextlib.contextmanager

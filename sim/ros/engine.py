@@ -122,7 +122,7 @@ class Engine(Scheduler):
         watched, over = list(watched), None
         try:
             self.settle()
-            while self._fault is None and self.now < end:
+            while self.livelock is None and self._fault is None and self.now < end:
                 self.recording.stamp = self.recorder.now
                 if self.guard.interrupted:
                     return Ended("interrupted", self.recorder.now, "The user interrupted the run.")
@@ -138,9 +138,11 @@ class Engine(Scheduler):
                 self.activity += 1
                 self._callbacks_before = self._callbacks
                 self.settle()
-        except Livelock as livelock:
-            self._fault = self._fault or Ended("livelock", self.recorder.now, f"{livelock}.")
+        except Livelock:
+            pass  # its reason is kept
         self.recording.stamp = self.recorder.now
+        if self._fault is None and self.livelock is not None:
+            return Ended("livelock", self.recorder.now, f"{self.livelock}.")
         return self._fault or conclusion(self, over)
 
     def _check_pace(self) -> None:
@@ -149,7 +151,7 @@ class Engine(Scheduler):
         if self.now - began >= SECOND:
             self._second = self.now, self.stretch
         elif self.stretch - work > MAX_WORK_PER_SECOND:
-            raise Livelock(
+            self.refuse_to_go_on(
                 f"callbacks and waits came more than {MAX_WORK_PER_SECOND} times in one second, near "
                 f"t = {self.recorder.now:g} s; a timer's period or a sleep is far too short"
             )
@@ -167,12 +169,12 @@ class Engine(Scheduler):
 
     def count_callback(self) -> None:
         """A callback is about to run. Raises Livelock when too many ran without time moving."""
-        self._callbacks += 1
-        if self._callbacks - self._callbacks_before > MAX_CALLBACKS_PER_INSTANT:
-            raise Livelock(
+        if self._callbacks - self._callbacks_before >= MAX_CALLBACKS_PER_INSTANT:
+            self.refuse_to_go_on(
                 f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self.recorder.now:g} s"
                 " without letting time move on"
             )
+        self._callbacks += 1  # not before: the guard must see that code which swallows the Livelock is stuck
 
     def endpoints_changed(self) -> None:
         """Entities came or went: executors plan anew."""
@@ -231,8 +233,6 @@ class Engine(Scheduler):
         error, process = fiber.error, fiber.process
         if self.guard.hang is not None and self.recorder.open:
             self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
-        elif isinstance(error, Livelock) and self.recorder.open:
-            self._fault = Ended("livelock", self.recorder.now, f"{error}.")
         elif error is not None:
             self.current = fiber  # for the names of its process
             self.recorder.error(error, fiber.name)

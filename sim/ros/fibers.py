@@ -14,7 +14,7 @@ import os
 import threading
 from _thread import get_ident
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import greenlet
 
@@ -112,6 +112,7 @@ class Scheduler:
         # actions, threads, coroutines or parallel callbacks.
         self.eager = False
         self.switches = 0
+        self.livelock: str | None = None
         self.current: Fiber | None = None
         self.fibers: list[Fiber] = []
         self.hub = greenlet.getcurrent()
@@ -167,6 +168,11 @@ class Scheduler:
             self.wait("a busy loop on a clock", until=self.now + CLOCK_READ_COST)
             fiber.clock_reads = reads
 
+    def refuse_to_go_on(self, why: str) -> NoReturn:
+        """Raise Livelock, and keep the reason: student code may swallow the exception."""
+        self.livelock = self.livelock or why
+        raise Livelock(why)
+
     def settle(self) -> None:
         """Run fibers until every one of them waits for something that has not come."""
         for _ in range(MAX_ROUNDS):
@@ -177,7 +183,7 @@ class Scheduler:
                     progressed = True
             if not progressed:
                 return
-        raise Livelock(
+        self.refuse_to_go_on(
             f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time can not move on"
         )
 

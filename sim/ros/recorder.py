@@ -96,7 +96,7 @@ class Recorder:
             self.recording.graph.timers.append(info)
 
     def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
-        """A message was published. Raises Livelock when too many come without time moving."""
+        """A message was published. Raises Livelock for too many."""
         if not self.open:
             return
         now = self.scheduler.now
@@ -104,13 +104,13 @@ class Recorder:
             self._instant, self._messages = now, 0
         self._messages += 1
         if self._messages > MAX_MESSAGES_PER_INSTANT:
-            raise Livelock(
+            self.scheduler.refuse_to_go_on(
                 f"{sender} published {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
                 " without letting time move on"
             )
         self._bytes += len(raw)
         if self._bytes > MAX_MESSAGE_BYTES:
-            raise Livelock(
+            self.scheduler.refuse_to_go_on(
                 f"the nodes published more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
         self.recording.heard.append(Heard(now / SECOND, topic, type_, sender, canonical(type_, raw)))

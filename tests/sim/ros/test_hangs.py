@@ -114,6 +114,12 @@ def test_callbacks_that_never_let_time_go_on_are_stopped(node):
     )  # fmt: skip
 
 
+def test_a_program_can_not_swallow_the_end_of_a_ping_pong(usual):
+    assert why(run(hangs.swallows_ping_pong, seconds=3, quiet=True)) == (
+        "livelock", 1.0, "20000 callbacks ran at t = 1 s without letting time move on.",
+    )  # fmt: skip
+
+
 def test_a_flood_of_messages_is_stopped(usual):
     recording = run(hangs.LoopWithPublish, seconds=3, quiet=True)
     assert why(recording) == (

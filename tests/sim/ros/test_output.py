@@ -103,13 +103,15 @@ def test_a_whole_process_writes_nothing_to_stderr():
     assert lines[-1] == "below python"
 
 
-def test_a_kept_reference_to_stdout_is_the_users_own(capsys):
-    """`print` looks sys.stdout up each time; `file=kept` does not."""
+def test_a_kept_reference_to_stdout_is_followed_too(capsys):
+    """`print` looks sys.stdout up each time; `file=kept` and handlers of logging do not."""
     kept = sys.stdout
 
     def main():
         print("straight", file=kept)
 
     recording = run(main, mains.Counter, seconds=1, quiet=True)
-    assert capsys.readouterr().out == "straight\n"
-    assert recording.prints == []
+    assert capsys.readouterr().out == ""
+    assert "".join(text for _, text in recording.prints) == "straight\n"
+    print("after", file=kept)
+    assert capsys.readouterr().out == "after\n"

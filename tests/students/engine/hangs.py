@@ -1,5 +1,6 @@
 """Nodes that never come to an end, each in another way. All do it in a timer after 1 s."""
 
+import contextlib
 import os
 import queue
 import sys
@@ -154,6 +155,16 @@ class PingPong(Hanging):
 
     def tick(self):
         self.publisher.publish(Int32())
+
+
+def swallows_ping_pong():
+    """Has PingPong, and lets no exception pass."""
+    rclpy.init()
+    node = PingPong()
+    while True:
+        with contextlib.suppress(BaseException):
+            rclpy.spin_once(node)
+
 
 
 class GuardCondition(Hanging):
