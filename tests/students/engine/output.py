@@ -66,3 +66,15 @@ def logs_at_another_level_from_one_line():
     logger = Node("odd").get_logger()
     for level in (logger.info, logger.error):
         level("text")
+
+
+class PythonLogging(Node):
+    """Logs with Python's own logging, once a second."""
+
+    def __init__(self):
+        super().__init__("python_logging")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        logging.getLogger("output").warning("to stdout, where the notebook set it so")
+        logging.getLogger("errors").warning("to stderr")
