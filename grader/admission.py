@@ -14,7 +14,11 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
     """Why the first unusable one of these can't be run; None when all can."""
     if not nodes:
         return _fault("nothing", "Put the name of your class between the brackets: grade(MyNode).")
-    return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
+    try:
+        return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
+    except Exception as error:  # the student's own class may answer any question with an exception
+        saw = f"something that raises {type(error).__name__} when it is looked at"
+        return _fault(saw, "Give an ordinary class that is based on Node.")
 
 
 def _refuse(node: Any) -> Fault | None:

@@ -29,14 +29,15 @@ class Process:
     """One program to run, with the settings a launch file would give it. The names are launch_ros's.
 
     target: a Node class, a callable that returns a Node or a Process, or a main() function.
-    remappings: pairs (from, to). parameters: name to value. arguments: further command-line words.
+    remappings: pairs (from, to). parameters: name to value, or a list of such, as in a launch file.
+    arguments: further command-line words.
     """
 
     target: Callable[..., Any]
     name: str | None = None
     namespace: str | None = None
     remappings: Sequence[tuple[str, str]] = ()
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+    parameters: Mapping[str, Any] | Sequence[Mapping[str, Any]] = field(default_factory=dict)
     arguments: Sequence[str] = ()
 
     def ros_arguments(self) -> list[str]:
@@ -44,8 +45,9 @@ class Process:
         rules = [("__node", self.name)] if self.name else []
         rules += [("__ns", self.namespace)] if self.namespace else []
         words = [word for left, right in (*rules, *self.remappings) for word in ("-r", f"{left}:={right}")]
-        for name, value in self.parameters.items():
-            words += ["-p", f"{name}:={_yaml(value)}"]
+        for group in [self.parameters] if isinstance(self.parameters, Mapping) else self.parameters:
+            for name, value in group.items():
+                words += ["-p", f"{name}:={_yaml(value)}"]
         return words + [word for word in self.arguments if word != "--ros-args"]
 
 
@@ -73,6 +75,14 @@ def as_process(target: Any) -> Process:
             f"run() takes Node classes, functions that return a node, or main() functions; this is {inner!r}."
         )
     return process
+
+
+def program_name(target: Any) -> str:
+    """What a class or function is called, however a student's class answers that question."""
+    try:
+        return str(getattr(target, "__name__", None) or type(target).__name__)
+    except Exception:
+        return "program"
 
 
 class SharedContext:
@@ -131,10 +141,13 @@ class StudentProcess:
         self.main: Fiber | None = None
 
     def _become(self, spec: Process) -> None:
-        self.target = spec.target
-        self.name: str = getattr(spec.target, "__name__", None) or type(spec.target).__name__
-        self.argv = [self.name, "--ros-args", *spec.ros_arguments()]
-        self.global_arguments: list[str] = spec.ros_arguments()
+        self.spec, self.target, self.name = spec, spec.target, program_name(spec.target)
+        self.global_arguments: list[str] = []
+
+    def _read_settings(self) -> None:
+        """Done as the program starts, so that what is wrong in them is the program's error."""
+        self.global_arguments = self.spec.ros_arguments()
+        self.argv = [self.name, "--ros-args", *self.global_arguments]
 
     def load(self) -> None:
         """Let rclpy's module-level state be this process's."""
@@ -154,6 +167,7 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
+        self._read_settings()
         target = self.target
         if isinstance(target, type):
             rclpy.init(args=self.argv)

@@ -93,6 +93,57 @@ def test_what_cannot_be_run_gets_0_and_a_kind_word(handed_over, saw, hint):
     assert statuses(score) == {"runs": "failed", "sends": "skipped", "paced": "skipped"}
 
 
+class Secretive(type(Node)):
+    """Its classes answer no question about themselves."""
+
+    def __getattribute__(cls, name):
+        if name in ("__name__", "__module__", "__globals__"):
+            raise ValueError(name)
+        return super().__getattribute__(name)
+
+
+class Unnameable(Node, metaclass=Secretive):
+    pass
+
+
+class Evasive:
+    def __getattr__(self, name):
+        raise RuntimeError(name)
+
+    def __call__(self):
+        pass
+
+
+def test_a_class_that_can_not_be_looked_at_gets_0():
+    score = talk.grade(Unnameable)
+    assert score == 0.0
+    assert red_line(score) == (
+        *NO_CODE,
+        "something that raises ValueError when it is looked at",
+        "Give an ordinary class that is based on Node.",
+    )
+
+
+@pytest.mark.parametrize(
+    "student",
+    [
+        Evasive(),
+        Process(misfits.Talker, parameters="rate"),
+        Process(misfits.Talker, arguments=5),
+        Process(misfits.Talker, name="two words"),
+    ],
+    ids=["evasive", "parameters", "arguments", "name"],
+)
+def test_settings_that_can_not_be_read_are_the_students_error_not_ours(student):
+    score = talk.grade(student)
+    assert score == 0.0
+    assert statuses(score) == {"runs": "failed", "sends": "skipped", "paced": "skipped"}
+
+
+def test_parameters_may_be_a_list_as_in_a_launch_file():
+    assert talk.grade(Process(misfits.Talker, parameters=[{"rate": 1.0}, {"word": "hi"}])) == 3.0
+
+
 def test_an_object_in_place_of_its_class_is_told():
     node = object.__new__(misfits.Talker)
     line = red_line(talk.grade(node))
