@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sysconfig
 import traceback
@@ -9,7 +10,6 @@ from typing import Any
 
 import greenlet
 from rclpy.action import ActionClient, ActionServer
-from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
@@ -194,12 +194,17 @@ def _qos(profile: Any) -> dict[str, Any]:
 def destroy(node: Any) -> None:
     """Free a node with all it holds; destroy_node() forgets action servers and clients.
 
-    Calls rclpy's own methods, past what a student's class has made of them.
+    For that time it is a plain Node: what a student's class has made of rclpy's methods must not run here.
     """
+    students_class = type(node)
+    with contextlib.suppress(TypeError):  # a class with __slots__ has another layout, and stays what it is
+        object.__setattr__(node, "__class__", Node)
     try:
-        for waitable in list(Node.waitables.fget(node)):
+        for waitable in list(node.waitables):
             if isinstance(waitable, ActionServer | ActionClient):
                 waitable.destroy()
-        Node.destroy_node(node)
-    except (InvalidHandle, AttributeError):  # destroyed already, or its __init__ never came to an end
-        pass
+        node.destroy_node()
+    except Exception:
+        pass  # destroyed already, its __init__ never came to an end, or a method is a student's after all
+    finally:
+        object.__setattr__(node, "__class__", students_class)

@@ -119,8 +119,18 @@ def test_a_child_process_ends_as_it_should():
     assert times(after(adversaries.ForksByMultiprocessing), "exit code 0") == TICKS
 
 
-def test_an_error_in_destroy_node_stays_inside():
-    assert times(after(adversaries.DestroyRaises), "tick") == TICKS
+@pytest.mark.parametrize(
+    "node",
+    [adversaries.DestroyRaises, adversaries.DestroyTimerRaises, adversaries.DestroyTimerRaisesInSlots],
+)
+def test_an_error_while_a_node_is_destroyed_stays_inside(node):
+    assert times(after(node), "tick") == TICKS
+
+
+def test_a_node_that_is_kept_has_its_own_class_again():
+    kept = []
+    run(lambda: kept.append(adversaries.DestroyRaises()) or kept[0], seconds=1, quiet=True)
+    assert type(kept[0]) is adversaries.DestroyRaises
 
 
 @pytest.mark.filterwarnings("ignore:This process")

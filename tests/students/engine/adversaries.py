@@ -95,6 +95,15 @@ class DestroyRaises(Ticking):
         raise ZeroDivisionError("in destroy_node")
 
 
+class DestroyTimerRaises(Ticking):
+    def destroy_timer(self, timer):
+        raise ZeroDivisionError("in destroy_timer")
+
+
+class DestroyTimerRaisesInSlots(DestroyTimerRaises):
+    __slots__ = ("speed",)
+
+
 class DestroyForgetsSuper(Ticking):
     def destroy_node(self):
         self.get_logger().info("not today")
