@@ -141,6 +141,8 @@ class Recording:
     stamp: Seconds = 0.0  # how far the run has come
     heard: list[Heard] = field(default_factory=list)
     path: list[Pose] = field(default_factory=list)
+    # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
+    tracks: dict[str, list[Pose]] = field(default_factory=dict)
     contacts: list[Contact] = field(default_factory=list)
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
@@ -185,6 +187,7 @@ class Recording:
             "seconds": self.seconds,
             "seed": self.seed,
             "path": self.path,
+            "tracks": self.tracks,
             "contacts": self.contacts,
             "logs": self.logs,
             "errors": [error._replace(traceback="") for error in self.errors],

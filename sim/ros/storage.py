@@ -32,10 +32,10 @@ from sim.recording import (
     TimerInfo,
 )
 from sim.ros.fibers import SECOND
-from sim.world import Box, Circle, World
+from sim.world import Box, Circle, LidarModel, RobotModel, World
 
 ATTACHMENT = "recording.json"
-FORMAT = 1  # of the attachment; raise it when what is in there changes
+FORMAT = 2  # of the attachment; raise it when what is in there changes
 ROWS = {
     "path": Pose,
     "contacts": Contact,
@@ -53,7 +53,7 @@ def write(recording: Recording, path: Path) -> Path:
     """Write a recording to a file."""
     rest = {
         name: getattr(recording, name)
-        for name in (*ROWS, "seconds", "seed", "stamp", "prints", "stderr", "ended")
+        for name in (*ROWS, "tracks", "seconds", "seed", "stamp", "prints", "stderr", "ended")
     }
     rest |= {"format": FORMAT, "digest": recording.digest, "graph": asdict(recording.graph)}
     rest["world"] = asdict(recording.world) if recording.world is not None else None
@@ -153,6 +153,7 @@ def _recording(rest: dict[str, Any], heard: list[Heard]) -> Recording:
     )
     for name, row in ROWS.items():
         setattr(recording, name, [row(*values) for values in rest[name]])
+    recording.tracks = {name: [Pose(*values) for values in poses] for name, poses in rest["tracks"].items()}
     graph = rest["graph"]
     recording.graph = Graph(
         graph["nodes"], [Endpoint(*e) for e in graph["endpoints"]], [TimerInfo(*t) for t in graph["timers"]]
@@ -170,4 +171,5 @@ def _world(data: dict[str, Any]) -> World:
     data = {name: tuples(value) for name, value in data.items()}
     data["boxes"] = tuple(Box(*box) for box in data["boxes"])
     data["circles"] = tuple(Circle(*circle) for circle in data["circles"])
+    data["robot"], data["lidar"] = RobotModel(**data["robot"]), LidarModel(**data["lidar"])
     return World(**data)

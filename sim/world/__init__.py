@@ -1,5 +1,6 @@
 """A small robot in a flat world, with its sensors: plain Python, pymunk and numpy; knows nothing of ROS."""
 
+from sim.world.bodies import Body
 from sim.world.contacts import Contact
 from sim.world.description import World
 from sim.world.lidar import LidarModel
@@ -10,6 +11,7 @@ from sim.world.worldfile import WorldError
 
 __all__ = [
     "DT",
+    "Body",
     "Box",
     "Circle",
     "CommandError",

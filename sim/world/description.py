@@ -1,12 +1,15 @@
 """What a world is: plain data read from a small TOML file."""
 
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from sim.world.bodies import Body
+from sim.world.lidar import LidarModel
 from sim.world.obstacles import Box, Circle, Segment
+from sim.world.robot import RobotModel
 from sim.world.worldfile import WorldError, read
 
 _FOLDER = Path(__file__).parent / "worlds"
@@ -24,6 +27,7 @@ class World:
         goal: (x, y), or None where the world has none.
         walls: thin straight walls, each ((x0, y0), (x1, y1)).
         boxes, circles: the obstacles.
+        robot, lidar: the figures of the robot and its lidar.
     """
 
     name: str
@@ -34,6 +38,13 @@ class World:
     walls: tuple[Segment, ...] = ()
     boxes: tuple[Box, ...] = ()
     circles: tuple[Circle, ...] = ()
+    robot: RobotModel = field(default_factory=RobotModel)
+    lidar: LidarModel = field(default_factory=LidarModel)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves, in the order of a simulation's poses; "robot" comes first where there is one."""
+        return (Body("robot", "robot", radius=self.robot.radius),)
 
     @classmethod
     def names(cls) -> list[str]:

@@ -7,11 +7,10 @@ import pymunk
 
 from sim.world.contacts import Contact, ContactLog
 from sim.world.description import World
-from sim.world.lidar import Lidar, LidarModel
+from sim.world.lidar import Lidar
 from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
 from sim.world.worldfile import WorldError
 
-_ROBOT, _LIDAR = RobotModel(), LidarModel()
 _STEPS_PER_SAMPLE = round(0.05 * RATE)
 _OBSTACLE_FRICTION = 0.5
 # How deep touching bodies may overlap (m), for a contact to last; pymunk's own 0.1 suits pixels.
@@ -34,12 +33,10 @@ class Simulation:
         self,
         world: World,
         seed: int = 0,
-        robot: RobotModel = _ROBOT,
-        lidar: LidarModel = _LIDAR,
     ) -> None:
         self.world = world
-        self.robot = robot
-        self.lidar = lidar
+        self.robot = robot = world.robot
+        self.lidar = lidar = world.lidar
         self._space = pymunk.Space()
         self._space.collision_slop = _COLLISION_SLOP
         self._space.collision_bias = _COLLISION_BIAS

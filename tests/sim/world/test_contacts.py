@@ -49,7 +49,7 @@ def test_robot_stops_at_an_obstacle_within_a_millimetre(obstacles, v):
 @pytest.mark.parametrize("v", [0.6, 3.0, 10.0])
 def test_no_speed_takes_the_robot_through_a_thin_wall(v):
     fast = RobotModel(max_v=v, max_acceleration=50, max_force=200)
-    simulation = Simulation(world(walls=(WALL,)), robot=fast)
+    simulation = Simulation(world(walls=(WALL,), robot=fast))
     assert max(drive(simulation, v, 0, until=4)) < 1
 
 
