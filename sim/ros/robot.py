@@ -13,9 +13,10 @@ from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Bool, Header
 from tf2_msgs.msg import TFMessage
 
-from sim.recording import Pose, Recording
+from sim.recording import Recording
 from sim.ros.codec import encode
 from sim.ros.fibers import SECOND
+from sim.ros.machines import track
 from sim.ros.template import Template
 from sim.world import CommandError, Simulation
 
@@ -85,8 +86,7 @@ class Robot(Node):
         """Move the world to now and publish what the sensors see."""
         simulation, now = self.simulation, self.get_clock().now().nanoseconds
         simulation.advance(now / SECOND)
-        self.recording.path.append(Pose(now / SECOND, *simulation.pose))
-        self.recording.contacts = simulation.contacts
+        track(simulation, self.recording, now / SECOND)
         stamp = divmod(now, SECOND)
         x, y, yaw, v, w = simulation.odometry
         pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)

@@ -18,8 +18,9 @@ from sim.ros import hooks
 from sim.ros.capture import file_descriptor_2, student_streams
 from sim.ros.engine import Engine
 from sim.ros.fibers import SECOND, active, outside_student_code
+from sim.ros.machines import machines
 from sim.ros.processes import Process, as_process
-from sim.world import Simulation, World
+from sim.world import World, simulate
 
 ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
 ECHO_CHARACTERS = 20_000
@@ -79,22 +80,13 @@ def _lockstep(
 ) -> bool:
     """Fill the recording; whether the user interrupted."""
     world, engine = recording.world, Engine(recording, recording.seed)
-    robot = [Process(_robot(Simulation(world, seed=recording.seed), recording))] if world is not None else []
+    scene = simulate(world, recording.seed) if world is not None else None
     with _seeded(recording.seed), _watched(engine, quiet):
-        for spec in robot:
+        for spec in machines(scene, recording) if scene is not None else []:
             engine.start(spec)
         watched = [engine.start(spec) for spec in specs]
         recording.ended = engine.run_until(round(recording.seconds * SECOND), until, watched)
     return engine.guard.interrupted
-
-
-def _robot(simulation: Simulation, recording: Recording) -> Callable[[], Any]:
-    def robot() -> Any:
-        from sim.ros.robot import Robot
-
-        return Robot(simulation, recording)
-
-    return robot
 
 
 @contextlib.contextmanager

@@ -3,9 +3,10 @@
 from sim.world.bodies import Body
 from sim.world.contacts import Contact
 from sim.world.description import World
-from sim.world.lidar import LidarModel
+from sim.world.lidar import LidarModel, Scan
 from sim.world.obstacles import Box, Circle
 from sim.world.robot import DT, CommandError, Odometry, RobotModel, Wheels
+from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
 from sim.world.worldfile import WorldError
 
@@ -19,8 +20,11 @@ __all__ = [
     "LidarModel",
     "Odometry",
     "RobotModel",
+    "Scan",
+    "Scene",
     "Simulation",
     "Wheels",
     "World",
     "WorldError",
+    "simulate",
 ]

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,14 @@ class LidarModel:
     def angle_increment(self) -> float:
         """Angle between two rays, rad."""
         return math.tau / self.rays
+
+
+class Scan(NamedTuple):
+    """One lidar scan: when (s) and from where (map frame) it was taken, and what it measured."""
+
+    stamp: float
+    pose: tuple[float, float, float]
+    ranges: np.ndarray  # float32, shape (rays,), m
 
 
 class Lidar:

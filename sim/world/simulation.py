@@ -7,7 +7,7 @@ import pymunk
 
 from sim.world.contacts import Contact, ContactLog
 from sim.world.description import World
-from sim.world.lidar import Lidar
+from sim.world.lidar import Lidar, Scan
 from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
 from sim.world.worldfile import WorldError
 
@@ -46,6 +46,7 @@ class Simulation:
         self._contacts = ContactLog(self._space, self._drive.shape, obstacles)
         self._beams = Lidar(lidar, world.segments(), world.discs())
         self._rng = np.random.Generator(np.random.PCG64(seed))
+        self.last_scan: Scan | None = None
         self._steps = 0
         self._path = [(0.0, *self.pose)]
 
@@ -64,6 +65,11 @@ class Simulation:
         """Where the robot truly is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
         x, y = self._drive.body.position
         return x, y, wrap(self._drive.body.angle)
+
+    @property
+    def poses(self) -> list[tuple[float, float, float]]:
+        """The pose of each of `world.bodies`, in their order."""
+        return [self.pose]
 
     @property
     def odometry(self) -> Odometry:
@@ -117,7 +123,9 @@ class Simulation:
 
         inf: nothing within `lidar.range_max`; -inf: something nearer than `lidar.range_min` (REP-117).
         """
-        return self._beams.measure(*self.pose, self._rng)
+        ranges = self._beams.measure(*self.pose, self._rng)
+        self.last_scan = Scan(self.time, self.pose, ranges)
+        return ranges
 
 
 def _add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]:

@@ -1,0 +1,39 @@
+"""What a world's simulation is to those that run it or draw it, whatever moves in it."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from sim.world.contacts import Contact
+from sim.world.description import World
+from sim.world.lidar import Scan
+from sim.world.simulation import Simulation
+
+
+class Scene(Protocol):
+    """A world on its way through time, from 0 on."""
+
+    world: World
+
+    def advance(self, until: float) -> None:
+        """Do the physics steps, if any are due, that end at or before `until` (s).
+
+        Where the steps lie doesn't depend on how often this is called, so a picture may call it too.
+        """
+
+    @property
+    def poses(self) -> list[tuple[float, float, float]]:
+        """(x, y, yaw) of each of `world.bodies`, in their order, in the map frame."""
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """All touches of the robot "robot" so far, oldest first."""
+
+    @property
+    def last_scan(self) -> Scan | None:
+        """What the lidar saw last; None before the first scan, and where there is no lidar."""
+
+
+def simulate(world: World, seed: int) -> Scene:
+    """The simulation that a world asks for; the seed is for its sensors' noise."""
+    return Simulation(world, seed=seed)
