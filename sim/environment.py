@@ -37,3 +37,8 @@ def prepare() -> None:
     for module in list(sys.modules.values()):  # message modules read the switch when they are imported
         if getattr(module, "ros_python_check_fields", None) is not None:
             module.ros_python_check_fields = "1"
+
+
+def open_to_this_machine(domain: int) -> None:
+    """Let other processes on this machine that have the same domain hear this one, from rclpy.init() on."""
+    os.environ |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_DOMAIN_ID": str(domain)}

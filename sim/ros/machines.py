@@ -9,8 +9,8 @@ from sim.ros.processes import Process
 from sim.world import Scene
 
 
-def machines(scene: Scene, recording: Recording) -> list[Process]:
-    """What a run starts before the student's programs."""
+def machines(scene: Scene, recording: Recording | None) -> list[Process]:
+    """What a run starts before the student's programs; without a recording, nothing is written down."""
 
     def robot() -> Any:
         from sim.ros.robot import Robot  # here, because it imports message packages, which takes a while
@@ -20,8 +20,10 @@ def machines(scene: Scene, recording: Recording) -> list[Process]:
     return [Process(robot)]
 
 
-def track(scene: Scene, recording: Recording, stamp: float) -> None:
+def track(scene: Scene, recording: Recording | None, stamp: float) -> None:
     """Write down where everything is at `stamp`, in simulated seconds: path, tracks and contacts."""
+    if recording is None:
+        return
     for body, pose in zip(scene.world.bodies, scene.poses, strict=True):
         poses = recording.path if body.name == "robot" else recording.tracks.setdefault(body.name, [])
         poses.append(Pose(stamp, *pose))

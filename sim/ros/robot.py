@@ -37,7 +37,7 @@ class Robot(Node):
     starts; the lidar sits at base_link's origin.
     """
 
-    def __init__(self, simulation: Simulation, recording: Recording) -> None:
+    def __init__(self, simulation: Simulation, recording: Recording | None) -> None:
         super().__init__("robot", start_parameter_services=False)
         self.simulation, self.recording = simulation, recording
         self._make_templates()

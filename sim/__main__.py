@@ -1,0 +1,95 @@
+"""The robot as a program of its own, for ordinary ROS 2 nodes and tools: python -m sim --world maze"""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+from types import FrameType
+from typing import NoReturn
+
+from sim.ros.realtime import RealTimeRun
+from sim.world import World, WorldError
+
+DOMAIN = 42  # of its own: a plain `python node.py` elsewhere has 0
+DOMAINS = range(102)  # more would need ports that Linux gives to others
+WRONG = 2  # exit status, as argparse's
+HEAR_IT = """
+In another terminal:
+  export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
+  python my_node.py        # or, where ROS 2 is installed: ros2 topic list
+
+Ctrl-C ends it."""
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run until Ctrl-C or SIGTERM; the exit status."""
+    stopped = threading.Event()
+    _stop_on_signals(stopped)
+    options = _options(words)
+    try:
+        with RealTimeRun(_world(options), options.seed, options.domain) as run:
+            print(_offer(run), flush=True)
+            run.spin(stopped.is_set)
+    except WorldError as error:
+        print(error, file=sys.stderr)
+        return WRONG
+    return 0
+
+
+def _stop_on_signals(stopped: threading.Event) -> None:
+    def stop(number: int, frame: FrameType | None) -> None:
+        stopped.set()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(WRONG, f"{self.prog}: {message}\n")
+
+
+def _options(words: list[str] | None) -> argparse.Namespace:
+    parser = _Parser(
+        "python -m sim", description="A simulated robot as an ordinary ROS 2 process, in real time."
+    )
+    parser.add_argument(
+        "--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room"
+    )
+    parser.add_argument("--seed", type=_whole_number, default=0, help="for the sensors' noise; default 0")
+    parser.add_argument(
+        "--domain", type=_domain, default=DOMAIN, help=f"ROS domain, 0 to {DOMAINS[-1]}; default {DOMAIN}"
+    )
+    return parser.parse_args(words)
+
+
+def _whole_number(word: str) -> int:
+    if not word.isdecimal():
+        raise argparse.ArgumentTypeError(f"write a whole number, 0 or more; this is {word!r}.")
+    return int(word)
+
+
+def _domain(word: str) -> int:
+    if not word.isdecimal() or int(word) not in DOMAINS:
+        raise argparse.ArgumentTypeError(
+            f"a ROS domain is a whole number from 0 to {DOMAINS[-1]}; this is {word!r}."
+        )
+    return int(word)
+
+
+def _world(options: argparse.Namespace) -> World:
+    return World.load(options.world)
+
+
+def _offer(run: RealTimeRun) -> str:
+    """What other processes can do with it."""
+    lines = [f"World {run.scene.world.name!r} in real time, ROS domain {run.domain}, this machine only."]
+    for what, topics in (("takes", run.takes), ("gives", run.gives)):
+        lines += [f"  {what} {name}  [{kind}]" for name, kind in topics.items()]
+    return "\n".join(lines) + "\n" + HEAR_IT.format(domain=run.domain)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+"""The programs of a world as an ordinary ROS 2 process: in real time, heard by others on this machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from time import monotonic
+from typing import Any
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from sim import environment
+from sim.recording import INFRASTRUCTURE_TOPICS
+from sim.ros.codec import type_name
+from sim.ros.machines import machines
+from sim.world import Scene, World, simulate
+
+MAX_GAP = 0.5  # s; a process that was stopped for longer goes on from there instead of catching up
+CHATTER = INFRASTRUCTURE_TOPICS - {"/clock"}
+PATIENCE = 0.1  # s until a stop is noticed when nothing else happens
+
+
+class RealTime:
+    """A scene that moves with the wall clock, from 0 on, whatever time its nodes name.
+
+    Their clocks count from 1970 and may be set at any moment.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._time, self._seen = 0.0, monotonic()
+
+    def advance(self, until: float) -> None:
+        """Do the physics steps that are due by now."""
+        now = monotonic()
+        self._time += min(now - self._seen, MAX_GAP)
+        self._seen = now
+        self._scene.advance(self._time)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._scene, name)
+
+
+class RealTimeRun:
+    """A world whose nodes other processes on this machine can see. Nothing is recorded, so nothing grows.
+
+    Use as a context manager. `scene` may be looked at from other threads. Raises WorldError when the world
+    can't be simulated.
+    """
+
+    def __init__(self, world: World, seed: int, domain: int) -> None:
+        self.scene: Any = RealTime(simulate(world, seed))
+        self.domain = domain
+        self.nodes: list[Node] = []
+
+    def __enter__(self) -> RealTimeRun:
+        environment.open_to_this_machine(self.domain)
+        # Its own handlers would shut ROS down in the middle of a callback.
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        self._executor = SingleThreadedExecutor()
+        for process in machines(self.scene, None):
+            self.add(process.target())
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._executor.shutdown()
+        for node in self.nodes:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+    def add(self, node: Node) -> None:
+        """Run one more node."""
+        self.nodes.append(node)
+        self._executor.add_node(node)
+
+    @property
+    def takes(self) -> dict[str, str]:
+        """The topics that the nodes take, each with its type, sorted by name."""
+        return _topics(end for node in self.nodes for end in node.subscriptions)
+
+    @property
+    def gives(self) -> dict[str, str]:
+        """The topics that the nodes give, each with its type, sorted by name."""
+        return _topics(end for node in self.nodes for end in node.publishers)
+
+    def spin(self, stopped: Callable[[], bool]) -> None:
+        """Run the nodes until `stopped()`."""
+        while not stopped():
+            self._executor.spin_once(timeout_sec=PATIENCE)
+
+
+def _topics(ends: Iterable[Any]) -> dict[str, str]:
+    kinds = {end.topic_name: type_name(end.msg_type) for end in ends}
+    return {name: kind for name, kind in sorted(kinds.items()) if name not in CHATTER}

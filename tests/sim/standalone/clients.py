@@ -1,0 +1,127 @@
+"""ROS 2 programs that share a domain with the robot and know nothing of it: python clients.py NAME SECONDS"""
+
+import json
+import math
+import sys
+import time
+
+import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+
+
+def node_of(name):
+    rclpy.init()
+    return Node(name)
+
+
+def spin(node, seconds, each=lambda: None):
+    """Until the time is over; then one line of JSON is printed by the caller."""
+    end = time.time() + seconds
+    while time.time() < end:
+        rclpy.spin_once(node, timeout_sec=0.05)
+        each()
+
+
+def listen(seconds):
+    """Count scans, and keep the last odometry."""
+    node, stamps, odoms = node_of("listener"), [], []
+    node.create_subscription(
+        LaserScan, "scan", lambda m: stamps.append(m.header.stamp.sec + m.header.stamp.nanosec / 1e9), 10
+    )
+    node.create_subscription(Odometry, "odom", odoms.append, 10)
+    end = time.time() + 20
+    while not (stamps and odoms) and time.time() < end:  # until they have found each other
+        rclpy.spin_once(node, timeout_sec=0.1)
+    stamps.clear()
+    began = time.time()
+    spin(node, seconds)
+    last = odoms[-1]
+    senders = {end.node_name for end in node.get_publishers_info_by_topic("/scan")}
+    print(json.dumps({
+        "rate": len(stamps) / (time.time() - began), "age": time.time() - stamps[-1],
+        "frame": last.header.frame_id, "senders": sorted(senders),
+        "x": last.pose.pose.position.x, "v": last.twist.twist.linear.x,
+    }))  # fmt: skip
+
+
+def command(seconds, v, w, period):
+    node = node_of("commander")
+    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+    twist = Twist()
+    twist.linear.x, twist.angular.z = v, w
+    sent, end = 0, time.time() + seconds
+    while time.time() < end:
+        publisher.publish(twist)
+        sent += 1
+        time.sleep(period)
+    print(json.dumps({"sent": sent}))
+
+
+def drive(seconds):
+    command(seconds, 0.5, 0.0, 0.1)
+
+
+def flood(seconds):
+    """As fast as it can."""
+    command(seconds, 0.3, 0.0, 0.0)
+
+
+def no_numbers(seconds):
+    command(seconds, math.nan, 0.0, 0.02)
+
+
+def infinite(seconds):
+    command(seconds, 0.1, math.inf, 0.02)
+
+
+def huge(seconds):
+    command(seconds, 1e308, -1e308, 0.02)
+
+
+def wrong_type(seconds):
+    """A sentence on the topic of commands."""
+    node = node_of("talker")
+    publisher = node.create_publisher(String, "cmd_vel", 10)
+    spin(node, seconds, lambda: publisher.publish(String(data="drive on")))
+
+
+def broken_bytes(seconds):
+    """Bytes that are no Twist."""
+    node = node_of("broken")
+    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+    for raw in (b"\x00\x01\x00\x00", b"\x00\x01\x00\x00" + b"\xff" * 20, b"\x07\x77" + b"\xff" * 50):
+        spin(node, seconds / 3, lambda raw=raw: publisher.publish(raw))
+
+
+def impostor(seconds):
+    """Says where the robot is and what time it is, and is wrong."""
+    node = node_of("robot")
+    odom, clock = (
+        node.create_publisher(kind, name, 10) for kind, name in ((Odometry, "odom"), (Clock, "/clock"))
+    )
+    lie = Odometry()
+    lie.pose.pose.position.x = 1e6
+
+    def both():
+        odom.publish(lie)
+        clock.publish(Clock())
+
+    spin(node, seconds, both)
+
+
+def crowd(seconds):
+    """A hundred subscriptions that nobody reads."""
+    node = node_of("crowd")
+    for _ in range(100):
+        node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
+    print("here", flush=True)
+    time.sleep(seconds)
+
+
+if __name__ == "__main__":
+    globals()[sys.argv[1]](float(sys.argv[2]))
