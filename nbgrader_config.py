@@ -41,6 +41,7 @@ c.Autograde.pre_convert_hook = "grader.marking.secret.show"
 c.Autograde.post_convert_hook = "grader.marking.secret.hide"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
-SAFE_HTML = "grader.marking.safe_html.clean"
+SAFE = "grader.marking.safe_html"
 # The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
-c.HTMLExporter.filters = {"clean_html": SAFE_HTML, "strip_files_prefix": SAFE_HTML}
+c.HTMLExporter.filters = {"clean_html": f"{SAFE}.clean_output", "strip_files_prefix": f"{SAFE}.clean"}
+c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs"]

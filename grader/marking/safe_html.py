@@ -2,7 +2,15 @@
 
 nbconvert's own filter drops the tables, pictures and folded hints that scores and tasks are made of, and
 nbgrader's pages show Markdown unfiltered: a submission's script would run with the instructor's rights.
+
+A replay is data in a `div` and a script that plays it. The data stays, whoever made it, since the player
+only draws its numbers; every script goes, and the course's own player takes its place.
 """
+
+import re
+from typing import Any
+from urllib.parse import urlsplit
+
 import bleach
 from bleach.css_sanitizer import CSSSanitizer
 
@@ -10,11 +18,11 @@ TEXT = "p h1 h2 h3 h4 h5 h6 br hr del s sub sup kbd small mark details summary p
 TABLE = "table caption colgroup col thead tbody tfoot tr th td"
 FIGURE = "img figure figcaption"
 TAGS = {*bleach.ALLOWED_TAGS, *TEXT.split(), *TABLE.split(), *FIGURE.split()}
+# No `id`: the formgrader finds its buttons and fields by ids, a cell's own could stand in for them.
 ATTRIBUTES = {
-    **bleach.ALLOWED_ATTRIBUTES,
-    "*": ["class", "id", "style", "title"],
-    "a": ["href", "title", "name"],
-    "img": ["src", "alt", "width", "height"],
+    "*": ["style", "title"],
+    "a": ["href"],
+    "img": ["alt", "width", "height"],
     "td": ["colspan", "rowspan", "align"],
     "th": ["colspan", "rowspan", "align", "scope"],
 }
@@ -30,9 +38,67 @@ STYLES = {
 }
 PROTOCOLS = {"http", "https", "mailto", "data"}  # data: pictures inside the page
 
-_cleaner = bleach.Cleaner(TAGS, ATTRIBUTES, PROTOCOLS, css_sanitizer=CSSSanitizer(STYLES))
+# Of replays, tables and highlighted code. The pages' own style sheet has others that cover the page.
+CLASSES = re.compile(r"ros2-replay|dataframe|highlight|anchor-link|[a-z]{1,2}\d?|hll|err|esc")
+REPLAY = re.compile(r"[A-Za-z0-9+/]{1,400000}={0,2}")  # its data: base64, so many characters at most
+PICTURE = {"width": int, "height": int, "alt": str}  # pixels, words
+RUNS = {"application/javascript", "application/vnd.jupyter.widget-view+json", "text/vnd.mermaid"}
+# Up to the end where the end tag is missing, as browsers read it: one pass, whatever a submission holds.
+UNSEEN = re.compile(r"<(script|style)\b.*?(</\1[^<>]*>?|\Z)", re.IGNORECASE | re.DOTALL)
 
 
 def clean(html: object) -> str:
     """Return the HTML, with all that could run or leave its place escaped or dropped."""
-    return _cleaner.clean(html.decode() if isinstance(html, bytes) else str(html))
+    text = html.decode(errors="replace") if isinstance(html, bytes) else str(html)
+    return _cleaner.clean(UNSEEN.sub("", text))
+
+
+def clean_output(html: object) -> str:
+    """The same for a cell's output, where a replay plays: with the course's own player after it."""
+    safe = clean(html)
+    if "data-replay=" not in safe:
+        return safe
+    from sim.view.replay import PLAYER_SCRIPT
+
+    return safe + PLAYER_SCRIPT
+
+
+def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
+    """A preprocessor of nbconvert: drops what only runs, and of pictures' metadata all but size and words.
+
+    The templates write a size without quotes, so that any other value could become a script.
+    """
+    notebook.metadata.pop("widgets", None)
+    for output in (output for cell in notebook.cells for output in cell.get("outputs", ())):
+        if "data" in output:
+            output["data"] = {kind: data for kind, data in output["data"].items() if kind not in RUNS}
+            output["metadata"] = {
+                kind: {key: value for key, value in settings.items() if type(value) is PICTURE.get(key)}
+                for kind, settings in output.get("metadata", {}).items()
+                if kind.startswith("image/") and isinstance(settings, dict)
+            }
+    return notebook, resources
+
+
+def _allowed(tag: str, name: str, value: str) -> bool:
+    """Whether an element keeps an attribute."""
+    if name == "class":
+        return all(CLASSES.fullmatch(word) for word in value.split())
+    if name == "data-replay":
+        return tag == "div" and bool(REPLAY.fullmatch(value))
+    if name == "src":
+        return tag == "img" and _inside(value)
+    return name in (*ATTRIBUTES["*"], *ATTRIBUTES.get(tag, ()))
+
+
+def _inside(source: str) -> bool:
+    """Whether a picture comes with the page: one from elsewhere would tell its server who reads the page."""
+    try:
+        parts = urlsplit(source)
+    except ValueError:
+        return False
+    here = not (parts.scheme or parts.netloc or "\\" in source)  # browsers take \\ for /
+    return here or (parts.scheme == "data" and parts.path.startswith("image/"))
+
+
+_cleaner = bleach.Cleaner(TAGS, _allowed, PROTOCOLS, css_sanitizer=CSSSanitizer(STYLES))
