@@ -32,10 +32,10 @@ from sim.recording import (
     TimerInfo,
 )
 from sim.ros.fibers import SECOND
-from sim.world import Box, Circle, LidarModel, RobotModel, World
+from sim.world import World, WorldError
 
 ATTACHMENT = "recording.json"
-FORMAT = 2  # of the attachment; raise it when what is in there changes
+FORMAT = 3  # of the attachment; raise it when what is in there changes
 ROWS = {
     "path": Pose,
     "contacts": Contact,
@@ -56,7 +56,7 @@ def write(recording: Recording, path: Path) -> Path:
         for name in (*ROWS, "tracks", "seconds", "seed", "stamp", "prints", "stderr", "ended")
     }
     rest |= {"format": FORMAT, "digest": recording.digest, "graph": asdict(recording.graph)}
-    rest["world"] = asdict(recording.world) if recording.world is not None else None
+    rest["world"] = recording.world.to_data() if recording.world is not None else None
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="sim")
@@ -116,6 +116,8 @@ def read(path: Path) -> Recording:
         return _parse(path, data)
     except StorageError:
         raise
+    except WorldError as error:
+        raise StorageError(f"{path} holds a world that cannot be: {error}") from None
     except Exception as error:  # no list could hold all that a damaged file raises in the libraries below
         raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
 
@@ -160,16 +162,5 @@ def _recording(rest: dict[str, Any], heard: list[Heard]) -> Recording:
     )
     recording.prints = [(stamp, text) for stamp, text in rest["prints"]]
     recording.ended = Ended(*rest["ended"])
-    recording.world = _world(rest["world"]) if rest["world"] is not None else None
+    recording.world = World.from_data(rest["world"]) if rest["world"] is not None else None
     return recording
-
-
-def _world(data: dict[str, Any]) -> World:
-    def tuples(value: Any) -> Any:
-        return tuple(tuples(item) for item in value) if isinstance(value, list) else value
-
-    data = {name: tuples(value) for name, value in data.items()}
-    data["boxes"] = tuple(Box(*box) for box in data["boxes"])
-    data["circles"] = tuple(Circle(*circle) for circle in data["circles"])
-    data["robot"], data["lidar"] = RobotModel(**data["robot"]), LidarModel(**data["lidar"])
-    return World(**data)

@@ -3,12 +3,13 @@
 from sim.world.bodies import Body
 from sim.world.contacts import Contact
 from sim.world.description import World
+from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel, Scan
-from sim.world.obstacles import Box, Circle
-from sim.world.robot import DT, CommandError, Odometry, RobotModel, Wheels
+from sim.world.model import ModelError, WorldError
+from sim.world.obstacles import Box, Circle, MovableBox
+from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, Wheels
 from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
-from sim.world.worldfile import WorldError
 
 __all__ = [
     "DT",
@@ -17,8 +18,12 @@ __all__ = [
     "Circle",
     "CommandError",
     "Contact",
+    "ImuModel",
     "LidarModel",
+    "ModelError",
+    "MovableBox",
     "Odometry",
+    "OtherRobot",
     "RobotModel",
     "Scan",
     "Scene",

@@ -1,23 +1,33 @@
-"""What a world is: plain data read from a small TOML file."""
+"""What a world is: plain data, read from a small TOML file."""
+
+from __future__ import annotations
 
 import difflib
+import itertools
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 
+from sim.world import worldfile
 from sim.world.bodies import Body
+from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel
-from sim.world.obstacles import Box, Circle, Segment
-from sim.world.robot import RobotModel
-from sim.world.worldfile import WorldError, read
+from sim.world.model import Coordinate, Model, Wanted, WorldError
+from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
+from sim.world.robot import OtherRobot, Pose, RobotModel
 
 _FOLDER = Path(__file__).parent / "worlds"
 
+_BOUNDS = "[xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax"
+_WALLS = f"a list of walls, each a list of {worldfile.CORNERS}"
+_Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
+
 
 @dataclass(frozen=True)
-class World:
-    """A flat world that does not move; lengths in metres, angles in radians, all in the map frame.
+class World(Model):
+    """A flat world; lengths in metres, angles in radians, all in the map frame.
 
     Attributes:
         name: the file's name without `.toml`.
@@ -26,25 +36,76 @@ class World:
         start: (x, y, yaw) of the robot at time 0.
         goal: (x, y), or None where the world has none.
         walls: thin straight walls, each ((x0, y0), (x1, y1)).
-        boxes, circles: the obstacles.
-        robot, lidar: the figures of the robot and its lidar.
+        boxes, circles: the obstacles that stand still.
+        movable: the boxes that can be pushed.
+        robot, lidar: the figures of the robots and their lidars.
+        imu: the figures of the robots' IMUs; None where they have none.
+        robots: the robots beside the first one, which is named "robot".
+        machine: the model of a machine that stands here instead of mobile robots, or None.
+
+    Raises:
+        ModelError: a value cannot be.
     """
 
     name: str
     card: str
-    bounds: tuple[float, float, float, float]
-    start: tuple[float, float, float]
-    goal: tuple[float, float] | None = None
-    walls: tuple[Segment, ...] = ()
-    boxes: tuple[Box, ...] = ()
-    circles: tuple[Circle, ...] = ()
+    bounds: Annotated[_Bounds, Wanted(_BOUNDS, lambda b: b[0] < b[2] and b[1] < b[3])]
+    start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians) inside the bounds")] = (0.0, 0.0, 0.0)
+    goal: Annotated[Point, Wanted("[x, y] (metres) inside the bounds")] | None = None
+    walls: Annotated[tuple[Segment, ...], Wanted(_WALLS, lambda walls: all(a != b for a, b in walls))] = ()
+    boxes: Annotated[tuple[Box, ...], Wanted("a list of Box")] = ()
+    circles: Annotated[tuple[Circle, ...], Wanted("a list of Circle")] = ()
+    movable: Annotated[tuple[MovableBox, ...], Wanted("a list of MovableBox")] = ()
     robot: RobotModel = field(default_factory=RobotModel)
     lidar: LidarModel = field(default_factory=LidarModel)
+    imu: ImuModel | None = None
+    robots: Annotated[tuple[OtherRobot, ...], Wanted("a list of OtherRobot")] = ()
+    machine: Any | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        xmin, ymin, xmax, ymax = self.bounds
+        for key in ("start", "goal"):
+            place = getattr(self, key)
+            if place and not (xmin <= place[0] <= xmax and ymin <= place[1] <= ymax):
+                self.refuse(key)
+        if self.machine:
+            self._refuse_mobile()
+        names = ["robot", *(robot.name for robot in self.robots), *self._box_names()]
+        for name, again in itertools.pairwise(sorted(names)):
+            if name == again:
+                self.refuse("robots", f"another name for one of those named {name!r}")
+        for robot in self.robots:
+            if robot.speed > self.robot.max_v:
+                self.refuse("robots", f"a speed of {self.robot.max_v:g} m/s or less, the robots' max_v")
+
+    def _refuse_mobile(self) -> None:
+        """A machine stands alone: silently leaving out a robot that somebody described would puzzle them."""
+        for key, default in (
+            ("robot", RobotModel()),
+            ("lidar", LidarModel()),
+            ("imu", None),
+            ("movable", ()),
+            ("robots", ()),
+        ):
+            if getattr(self, key) != default:
+                self.refuse(key, "nothing there, for this world holds a machine instead of a mobile robot")
 
     @property
     def bodies(self) -> tuple[Body, ...]:
         """All that moves, in the order of a simulation's poses; "robot" comes first where there is one."""
-        return (Body("robot", "robot", radius=self.robot.radius),)
+        if self.machine:
+            return self.machine.bodies
+        robots = [Body(name, "robot", self.robot.radius) for name in self.starts()]
+        boxes = zip(self._box_names(), self.movable, strict=True)
+        return (*robots, *(Body(name, "box", outline=box.outline()) for name, box in boxes))
+
+    def starts(self) -> dict[str, Pose]:
+        """Where each mobile robot is at time 0, by its name; the first is "robot"."""
+        return {"robot": self.start} | {robot.name: robot.start for robot in self.robots}
+
+    def _box_names(self) -> list[str]:
+        return [f"box_{number}" for number in range(1, len(self.movable) + 1)]
 
     @classmethod
     def names(cls) -> list[str]:
@@ -52,7 +113,7 @@ class World:
         return sorted(path.stem for path in _FOLDER.glob("*.toml"))
 
     @classmethod
-    def load(cls, world: str | Path) -> "World":
+    def load(cls, world: str | Path) -> World:
         """Read a world by its name, or from the path of a `.toml` file of your own.
 
         Raises:
@@ -61,7 +122,7 @@ class World:
         path = Path(world)
         if path.suffix != ".toml":
             path = cls._path(str(world))
-        return cls(name=path.stem, **read(path))
+        return worldfile.read(path, cls)
 
     @classmethod
     def _path(cls, name: str) -> Path:
@@ -72,8 +133,21 @@ class World:
             raise WorldError(f"There is no world {name!r}. {guess}The worlds are {', '.join(names)}.")
         return _FOLDER / f"{name}.toml"
 
+    def to_data(self) -> dict[str, Any]:
+        """All of this world in dicts, lists, texts and numbers, for JSON."""
+        return worldfile.to_data(self)
+
+    @classmethod
+    def from_data(cls, data: Any) -> World:
+        """The world that `to_data` described.
+
+        Raises:
+            WorldError: the data holds a wrong key or value.
+        """
+        return worldfile.from_data(data, cls)
+
     def segments(self) -> np.ndarray:
-        """Everything straight: float64, shape (n, 4), rows x0, y0, x1, y1 (m).
+        """Everything straight that stands still: float64, shape (n, 4), rows x0, y0, x1, y1 (m).
 
         The walls come first, then the boxes' sides.
         """
@@ -81,5 +155,5 @@ class World:
         return np.array(segments, dtype=float).reshape(-1, 4)
 
     def discs(self) -> np.ndarray:
-        """Everything round: float64, shape (n, 3), rows x, y, radius (m)."""
-        return np.array(self.circles, dtype=float).reshape(-1, 3)
+        """Everything round that stands still: float64, shape (n, 3), rows x, y, radius (m)."""
+        return np.array([(c.x, c.y, c.radius) for c in self.circles], dtype=float).reshape(-1, 3)

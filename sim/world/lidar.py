@@ -2,9 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
+
+from sim.world.model import Length, Model, at_least, within
 
 # Rays this near (in ray spacings) to a wall's end still meet it: none slips through a shared corner.
 _EDGE = 1e-9
@@ -13,13 +15,22 @@ _END_ON = 1e-6
 
 
 @dataclass(frozen=True)
-class LidarModel:
-    """A lidar in the middle of the robot: rays per turn, range limits (m), noise's standard deviation (m)."""
+class LidarModel(Model):
+    """A lidar in the middle of the robot: rays per turn, range limits (m), noise's standard deviation (m).
 
-    rays: int = 360
-    range_min: float = 0.12
-    range_max: float = 3.5
-    noise: float = 0.01
+    `dropouts` is the probability that a ray comes back with no measurement.
+    """
+
+    rays: Annotated[int, within(1, 10_000)] = 360
+    range_min: Annotated[float, at_least(0, "metres")] = 0.12
+    range_max: Length = 3.5
+    noise: Annotated[float, at_least(0, "metres")] = 0.01
+    dropouts: Annotated[float, within(0, 1)] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.range_min >= self.range_max:
+            self.refuse("range_min", f"a number below range_max, {self.range_max:g} (metres)")
 
     @property
     def angle_increment(self) -> float:
@@ -55,13 +66,15 @@ class Lidar:
         """One noisy scan from this pose in the map frame: float32, shape (rays,), m.
 
         Ray 0 points forward, the others follow counter-clockwise. As REP-117 says, inf means that nothing
-        is within `range_max`, and -inf that something is nearer than `range_min`.
+        is within `range_max`, -inf that something is nearer than `range_min`, and nan that the ray got lost.
         """
         model = self._model
         ranges = self.distances(x, y, yaw)
         ranges += model.noise * rng.standard_normal(model.rays)
         ranges[ranges > model.range_max] = np.inf
         ranges[ranges < model.range_min] = -np.inf
+        if model.dropouts:
+            ranges[rng.random(model.rays) < model.dropouts] = np.nan
         return ranges.astype(np.float32)
 
     def distances(self, x: float, y: float, yaw: float) -> np.ndarray:

@@ -1,31 +1,40 @@
 """The solid things of a world that are not walls."""
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated
 
-Point = tuple[float, float]
+from sim.world.model import Angle, Coordinate, Length, Model, above, within
+
+Point = tuple[Coordinate, Coordinate]
 Segment = tuple[Point, Point]
 
+GRAVITY = 9.80665
+"""Standard gravity, m/s^2."""
 
-class Box(NamedTuple):
+
+@dataclass(frozen=True)
+class Box(Model):
     """A rectangle that does not move: centre (m) and yaw (rad) in the map frame.
 
     `width` and `height` (m) are its sizes along its own x and y.
     """
 
-    x: float
-    y: float
-    yaw: float
-    width: float
-    height: float
+    x: Coordinate
+    y: Coordinate
+    yaw: Angle
+    width: Length
+    height: Length
+
+    def outline(self) -> tuple[Point, Point, Point, Point]:
+        """The corners in the box's own frame, counter-clockwise."""
+        u, v = self.width / 2, self.height / 2
+        return (-u, -v), (u, -v), (u, v), (-u, v)
 
     def corners(self) -> tuple[Point, Point, Point, Point]:
         """The corners in the map frame, counter-clockwise."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
-        half_width, half_height = self.width / 2, self.height / 2
-        signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
-        local = ((i * half_width, j * half_height) for i, j in signs)
-        return tuple((self.x + c * u - s * v, self.y + s * u + c * v) for u, v in local)
+        return tuple((self.x + c * u - s * v, self.y + s * u + c * v) for u, v in self.outline())
 
     def sides(self) -> tuple[Segment, ...]:
         """The four sides as segments in the map frame."""
@@ -33,9 +42,39 @@ class Box(NamedTuple):
         return tuple(zip(corners, corners[1:] + corners[:1], strict=True))
 
 
-class Circle(NamedTuple):
+@dataclass(frozen=True)
+class MovableBox(Box):
+    """A box that can be pushed over the floor: where it is at time 0, its mass (kg) and the floor's friction.
+
+    The floor holds it with up to friction * mass * gravity, and slows it down by friction * gravity once it
+    slides.
+    """
+
+    mass: Annotated[float, above(0, "kg")] = 0.5
+    friction: Annotated[float, within(0.01, 10)] = 0.3
+
+    @property
+    def grip(self) -> float:
+        """The greatest force with which the floor holds the box, N."""
+        return self.friction * self.mass * GRAVITY
+
+    @property
+    def twist_grip(self) -> float:
+        """The greatest torque about its centre with which the floor holds the box, N m.
+
+        The box weighs equally on all of its floor, so the lever is the mean distance of the rectangle's
+        points from its centre.
+        """
+        a, b = self.width / 2, self.height / 2
+        d = math.hypot(a, b)
+        lever = d + a * a / (2 * b) * math.log((b + d) / a) + b * b / (2 * a) * math.log((a + d) / b)
+        return self.grip * lever / 3
+
+
+@dataclass(frozen=True)
+class Circle(Model):
     """A round pillar that does not move: centre in the map frame and radius (m)."""
 
-    x: float
-    y: float
-    radius: float
+    x: Coordinate
+    y: Coordinate
+    radius: Length

@@ -1,10 +1,17 @@
 """The robot's figures, and the drive that moves its body through the physics."""
 
+import itertools
 import math
+import re
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import pymunk
+
+from sim.world.model import Angle, Coordinate, Length, Model, Wanted, above, within
+from sim.world.obstacles import Point
+
+Pose = tuple[Coordinate, Coordinate, Angle]
 
 RATE = 100
 """Physics steps in a second."""
@@ -12,28 +19,69 @@ DT = 1 / RATE
 """Length of a physics step, s."""
 
 
+_NAME = "a name of small letters, digits and single underscores that begins with a letter"
+_ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
+
+
+def _is_loop(route: tuple[Point, ...]) -> bool:
+    corners = (*route, *route[:1])
+    return not route or (len(route) >= 2 and all(a != b for a, b in itertools.pairwise(corners)))
+
+
 class CommandError(ValueError):
     """A velocity command is not a pair of finite numbers."""
 
 
 @dataclass(frozen=True)
-class RobotModel:
+class RobotModel(Model):
     """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N)."""
 
-    radius: float = 0.1
-    mass: float = 1.0
-    wheel_radius: float = 0.033
-    track_width: float = 0.16
-    max_v: float = 0.6
-    max_w: float = 2.5
-    max_acceleration: float = 2.0
-    max_angular_acceleration: float = 8.0
-    command_timeout: float = 0.5
-    # The grip of the wheels must outdo what ramps and curves ask for, mass * hypot(max_acceleration,
-    # max_v * max_w), else odometry drifts without any collision.
-    max_force: float = 5.0
-    max_torque: float = 0.25
-    friction: float = 0.3
+    radius: Length = 0.1
+    mass: Annotated[float, above(0, "kg")] = 1.0
+    wheel_radius: Length = 0.033
+    track_width: Length = 0.16
+    max_v: Annotated[float, above(0, "m/s")] = 0.6
+    max_w: Annotated[float, above(0, "rad/s")] = 2.5
+    max_acceleration: Annotated[float, above(0, "m/s^2")] = 2.0
+    max_angular_acceleration: Annotated[float, above(0, "rad/s^2")] = 8.0
+    command_timeout: Annotated[float, within(DT, 1000, "seconds")] = 0.5
+    max_force: Annotated[float, above(0, "N")] = 5.0
+    max_torque: Annotated[float, above(0, "N m")] = 0.25
+    friction: Annotated[float, within(0, 10)] = 0.3
+
+    @property
+    def inertia(self) -> float:
+        """Moment of inertia about its centre, kg m^2."""
+        return self.mass * self.radius**2 / 2
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        # A faster robot could pass through a thin wall between two steps.
+        if self.max_v * DT > self.radius:
+            self.refuse(
+                "max_v", f"{self.radius / DT:g} m/s or less, one radius in a physics step of {DT:g} s"
+            )
+        # Where the wheels' grip can't do what ramps and curves ask for, odometry drifts without a collision.
+        force = self.mass * math.hypot(self.max_acceleration, self.max_v * self.max_w)
+        if self.max_force <= force:
+            self.refuse("max_force", f"more than {force:g} N, which the robot's ramps and curves need")
+        torque = self.inertia * self.max_angular_acceleration
+        if self.max_torque <= torque:
+            self.refuse("max_torque", f"more than {torque:g} N m, which the robot's ramps need")
+
+
+@dataclass(frozen=True)
+class OtherRobot(Model):
+    """A further robot like the first, in a namespace of its own.
+
+    `start` is (x, y, yaw) in the map frame. A robot with a `route`, corners (x, y) in the map frame, drives
+    round it at `speed` (m/s); one without waits for commands on /NAME/cmd_vel.
+    """
+
+    name: Annotated[str, Wanted(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
+    start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
+    route: Annotated[tuple[Point, ...], Wanted(_ROUTE, _is_loop)] = ()
+    speed: Annotated[float, above(0, "m/s")] = 0.2
 
 
 class Odometry(NamedTuple):

@@ -8,8 +8,8 @@ import pymunk
 from sim.world.contacts import Contact, ContactLog
 from sim.world.description import World
 from sim.world.lidar import Lidar, Scan
+from sim.world.model import WorldError
 from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
-from sim.world.worldfile import WorldError
 
 _STEPS_PER_SAMPLE = round(0.05 * RATE)
 _OBSTACLE_FRICTION = 0.5
@@ -134,7 +134,9 @@ def _add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]
     shapes: dict[pymunk.Shape, str] = {}
     shapes |= {pymunk.Segment(ground, start, end, 0): "wall" for start, end in world.walls}
     shapes |= {pymunk.Poly(ground, box.corners()): "box" for box in world.boxes}
-    shapes |= {pymunk.Circle(ground, circle.radius, circle[:2]): "circle" for circle in world.circles}
+    shapes |= {
+        pymunk.Circle(ground, circle.radius, (circle.x, circle.y)): "circle" for circle in world.circles
+    }
     for shape in shapes:
         shape.friction = _OBSTACLE_FRICTION
         space.add(shape)

@@ -1,43 +1,47 @@
 """Reads and checks a world file (TOML); each fault is one sentence that names file, key and cure."""
 
+from __future__ import annotations
+
 import difflib
 import itertools
-import sys
 import tomllib
 from collections.abc import Collection, Iterator
+from dataclasses import MISSING, asdict, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from sim.world.obstacles import Box, Circle, Segment
+from sim.world.imu import ImuModel
+from sim.world.lidar import LidarModel
+from sim.world.model import Model, ModelError, UnfitError, WorldError, fit, hints, shown, words
+from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
+from sim.world.robot import OtherRobot, RobotModel
+
+if TYPE_CHECKING:
+    from sim.world.description import World
 
 CARD_HEADINGS = ("Picture", "Topics", "Frames and units", "Start", "Ends when")
 """The headings of every world's card, in their order."""
 
-# What may stand in a world file, in the words that tell its author how to write it.
-_CORNERS = "two or more corners [x, y] (metres), each different from the one before"
-_KEYS = {
-    "bounds": "[xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax",
-    "start": "[x, y, yaw] (metres and radians) inside the bounds",
-    "goal": "[x, y] (metres) inside the bounds",
-    "walls": f"a list of walls, each a list of {_CORNERS}",
-    "boxes": "a [[boxes]] table for each box, with x, y, yaw, width and height",
-    "circles": "a [[circles]] table for each circle, with x, y and radius",
-    "card": f"a [card] table with a text for each of {', '.join(CARD_HEADINGS)}",
+CORNERS = "two or more corners [x, y] (metres), each different from the one before"
+
+# The tables of a world file and what each is read into.
+TABLES: dict[str, type[Model]] = {"robot": RobotModel, "lidar": LidarModel, "imu": ImuModel}
+LISTS: dict[str, type[Model]] = {
+    "boxes": Box,
+    "circles": Circle,
+    "movable": MovableBox,
+    "robots": OtherRobot,
 }
-_REQUIRED = ("bounds", "start", "card")
-_NUMBER = "a finite number"
-_SIZE = "a finite number above 0 (metres)"
-_BOX_KEYS = {"x": _NUMBER, "y": _NUMBER, "yaw": _NUMBER, "width": _SIZE, "height": _SIZE}
-_CIRCLE_KEYS = {"x": _NUMBER, "y": _NUMBER, "radius": _SIZE}
-_CARD_KEYS = dict.fromkeys(CARD_HEADINGS, "a short text")
+# At most one of these; it becomes `World.machine`.
+MACHINES: dict[str, type[Model]] = {}
+
+_KEYS = ("bounds", "start", "goal", "walls", *LISTS, *TABLES, *MACHINES, "card")
+_CARD = f"a [card] table with a text for each of {', '.join(CARD_HEADINGS)}"
+_M = TypeVar("_M", bound=Model)
 
 
-class WorldError(ValueError):
-    """A world cannot be found, read or used."""
-
-
-def read(path: Path) -> dict[str, Any]:
-    """Return the fields of the `World` that the file describes, all but its name.
+def read(path: Path, world: type[World]) -> World:
+    """Return the world that a file describes.
 
     Raises:
         WorldError: the file cannot be read, is not TOML, or holds a wrong key or value.
@@ -50,98 +54,136 @@ def read(path: Path) -> dict[str, Any]:
         raise WorldError(f"{path.name} is not UTF-8 text; save it as UTF-8.") from error
     except tomllib.TOMLDecodeError as error:
         raise WorldError(f"{path.name} is not valid TOML ({error}); correct it there.") from error
-    return _Checker(path.name).fields(data)
+    except (ValueError, RecursionError) as error:  # a number of 5000 digits, a list in a thousand lists
+        raise WorldError(f"{path.name} is not a world file ({error}); correct it there.") from error
+    return _Reader(path.name).world(data, world, path.stem)
 
 
-class _Checker:
-    """Turns parsed TOML into checked fields; knows the file's name for the error sentences."""
+def to_data(world: World) -> dict[str, Any]:
+    """A world as plain data: the keys and values of its file, with name and card as texts."""
+    data = {key: value for key, value in asdict(world).items() if value is not None}
+    if world.machine is not None:
+        kind = next(key for key, model in MACHINES.items() if type(world.machine) is model)
+        data[kind] = data.pop("machine")
+    return data
+
+
+def from_data(data: Any, world: type[World]) -> World:
+    """The world of which `to_data` made this.
+
+    Raises:
+        WorldError: the data holds a wrong key or value.
+    """
+    reader = _Reader("the world")
+    if not isinstance(data, dict):
+        raise WorldError(f"the world is {shown(data)}; write a table of its keys and values.")
+    rest = {key: value for key, value in data.items() if key not in ("name", "card")}
+    named = {key: data.get(key) for key in ("name", "card")}
+    return reader.make("", world, named | reader.fields(rest, world))
+
+
+class _Reader:
+    """Turns parsed TOML into a world; knows the file's name for the error sentences."""
 
     def __init__(self, file: str) -> None:
         self._file = file
 
-    def fields(self, data: dict[str, Any]) -> dict[str, Any]:
-        self._check_keys("", data, _KEYS, _REQUIRED)
-        bounds = self._bounds(data["bounds"])
-        boxes = self._tables("boxes", data.get("boxes", []), _BOX_KEYS)
-        circles = self._tables("circles", data.get("circles", []), _CIRCLE_KEYS)
-        return {
-            "bounds": bounds,
-            "start": self._place("start", data["start"], 3, bounds),
-            "goal": self._place("goal", data["goal"], 2, bounds) if "goal" in data else None,
-            "walls": tuple(self._walls(data.get("walls", []))),
-            "boxes": tuple(Box(**box) for box in boxes),
-            "circles": tuple(Circle(**circle) for circle in circles),
-            "card": self._card(data["card"]),
-        }
+    def world(self, data: dict[str, Any], world: type[World], name: str) -> World:
+        if "card" not in data:
+            raise WorldError(f"{self._file}: card is missing; write {_CARD}.")
+        fields = self.fields(data, world)
+        return self.make("", world, fields | {"name": name, "card": self._card(data["card"])})
 
-    def _bounds(self, value: object) -> tuple[float, ...]:
-        if not _are_numbers(value, 4) or value[0] >= value[2] or value[1] >= value[3]:
-            raise self._wrong("bounds", value, _KEYS["bounds"])
-        return tuple(map(float, value))
+    def fields(self, data: dict[str, Any], world: type[World]) -> dict[str, Any]:
+        """All that is in the data, but the card."""
+        self._check_known("", data, _KEYS)
+        machines = [key for key in MACHINES if key in data]
+        if len(machines) > 1:
+            raise WorldError(f"{self._file}: {' and '.join(machines)} are both here; keep one of them.")
+        self._check_there("", data, world, ("bounds",) if machines else ("bounds", "start"))
+        read: dict[str, Any] = {key: data[key] for key in ("bounds", "start", "goal") if key in data}
+        if "walls" in data:
+            read["walls"] = tuple(self._walls(data["walls"], words(world, "walls")))
+        read |= {key: self._list(key, data[key], model) for key, model in LISTS.items() if key in data}
+        read |= {key: self._table(key, data[key], model) for key, model in TABLES.items() if key in data}
+        for key in machines:
+            read["machine"] = self._table(key, data[key], MACHINES[key])
+        return read
 
-    def _place(self, key: str, value: object, count: int, bounds: tuple[float, ...]) -> tuple[float, ...]:
-        xmin, ymin, xmax, ymax = bounds
-        if not _are_numbers(value, count) or not (xmin <= value[0] <= xmax and ymin <= value[1] <= ymax):
-            raise self._wrong(key, value, _KEYS[key])
-        return tuple(map(float, value))
+    def make(self, place: str, model: type[_M], values: dict[str, Any]) -> _M:
+        """A model with these values."""
+        try:
+            return model(**values)
+        except ModelError as error:
+            raise WorldError(f"{self._file}: {place}{error.fault}") from error
 
-    def _walls(self, walls: object) -> Iterator[Segment]:
-        if not isinstance(walls, list):
-            raise self._wrong("walls", walls, _KEYS["walls"])
+    def _walls(self, walls: object, wanted: str) -> Iterator[Segment]:
+        if not isinstance(walls, list | tuple):
+            raise self._wrong("walls", walls, wanted)
         for index, wall in enumerate(walls):
-            if not _are_corners(wall):
-                raise self._wrong(f"walls[{index}]", wall, _CORNERS)
-            yield from itertools.pairwise((float(x), float(y)) for x, y in wall)
+            try:
+                corners = fit(tuple[Point, ...], wall)
+            except UnfitError:
+                corners = ()
+            if len(corners) < 2 or any(a == b for a, b in itertools.pairwise(corners)):
+                raise self._wrong(f"walls[{index}]", wall, CORNERS)
+            yield from itertools.pairwise(corners)
 
-    def _tables(self, key: str, tables: object, wanted: dict[str, str]) -> Iterator[dict[str, float]]:
-        if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-            raise self._wrong(key, tables, _KEYS[key])
-        for index, table in enumerate(tables):
-            place = f"{key}[{index}]."
-            self._check_keys(place, table, wanted, wanted)
-            for name, value in table.items():
-                if not _is_number(value) or (wanted[name] is _SIZE and value <= 0):
-                    raise self._wrong(place + name, value, wanted[name])
-            yield {name: float(value) for name, value in table.items()}
+    def _list(self, key: str, tables: object, model: type[_M]) -> tuple[_M, ...]:
+        if not isinstance(tables, list | tuple) or not all(isinstance(table, dict) for table in tables):
+            keys = _keys(model)
+            needed = f"{', '.join(keys[:-1])} and {keys[-1]}"
+            raise self._wrong(key, tables, f"a [[{key}]] table for each, with {needed}")
+        return tuple(self._table(f"{key}[{index}]", table, model) for index, table in enumerate(tables))
+
+    def _table(self, key: str, table: object, model: type[_M]) -> _M:
+        keys = _keys(model)
+        if not isinstance(table, dict):
+            raise self._wrong(key, table, f"a [{key}] table with any of {', '.join(keys)}")
+        place = f"{key}."
+        self._check_known(place, table, keys)
+        self._check_there(place, table, model, _required(model))
+        inner = {name: hint for name, hint in hints(model).items() if _is_model(hint) and name in table}
+        tables = {name: self._table(place + name, table[name], hint) for name, hint in inner.items()}
+        return self.make(place, model, table | tables)
 
     def _card(self, card: object) -> str:
         if not isinstance(card, dict):
-            raise self._wrong("card", card, _KEYS["card"])
-        self._check_keys("card.", card, _CARD_KEYS, _CARD_KEYS)
-        for heading, text in card.items():
+            raise self._wrong("card", card, _CARD)
+        self._check_known("card.", card, CARD_HEADINGS)
+        for heading in CARD_HEADINGS:
+            if heading not in card:
+                raise WorldError(f"{self._file}: card.{heading} is missing; write a short text.")
+            text = card[heading]
             if not isinstance(text, str) or not text.strip():
-                raise self._wrong(f"card.{heading}", text, _CARD_KEYS[heading])
+                raise self._wrong(f"card.{heading}", text, "a short text")
         return "\n".join(f"{heading}: {' '.join(card[heading].split())}" for heading in CARD_HEADINGS)
 
-    def _check_keys(
-        self, place: str, table: dict[str, Any], wanted: dict[str, str], required: Collection[str]
-    ) -> None:
+    def _check_known(self, place: str, table: dict[str, Any], known: Collection[str]) -> None:
         for key in table:
-            if key not in wanted:
-                close = difflib.get_close_matches(key, wanted, n=1)
-                cure = f"did you mean {close[0]}?" if close else f"the keys are {', '.join(wanted)}."
+            if key not in known:
+                close = difflib.get_close_matches(key, known, n=1)
+                cure = f"did you mean {close[0]}?" if close else f"the keys are {', '.join(known)}."
                 raise WorldError(f"{self._file}: {place}{key} is not a known key; {cure}")
-        for key in required:
+
+    def _check_there(
+        self, place: str, table: dict[str, Any], model: type[Model], needed: Collection[str]
+    ) -> None:
+        for key in needed:
             if key not in table:
-                raise WorldError(f"{self._file}: {place}{key} is missing; write {wanted[key]}.")
+                raise WorldError(f"{self._file}: {place}{key} is missing; write {words(model, key)}.")
 
     def _wrong(self, place: str, value: object, wanted: str) -> WorldError:
-        return WorldError(f"{self._file}: {place} is {value!r}; write {wanted}.")
+        return WorldError(f"{self._file}: {place} is {shown(value)}; write {wanted}.")
 
 
-def _is_number(value: object) -> bool:
-    # Not math.isfinite: TOML allows whole numbers too big for it.
-    return type(value) in (int, float) and abs(value) <= sys.float_info.max
+def _is_model(hint: object) -> bool:
+    return isinstance(hint, type) and issubclass(hint, Model)
 
 
-def _are_numbers(value: object, count: int) -> bool:
-    return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
+def _keys(model: type[Model]) -> list[str]:
+    return [field.name for field in fields(model)]
 
 
-def _are_corners(wall: object) -> bool:
-    return (
-        isinstance(wall, list)
-        and len(wall) >= 2
-        and all(_are_numbers(corner, 2) for corner in wall)
-        and all(a != b for a, b in itertools.pairwise(wall))
-    )
+def _required(model: type[Model]) -> list[str]:
+    return [field.name for field in fields(model) if field.default is field.default_factory is MISSING]

@@ -8,7 +8,7 @@ import numpy as np
 import pymunk
 import pytest
 
-from sim.world import Circle, LidarModel, Simulation, World
+from sim.world import LidarModel, Simulation, World
 from sim.world.lidar import Lidar
 
 FAR = 30.0
@@ -90,7 +90,7 @@ def test_a_wall_seen_end_on_is_invisible():
 
 
 def test_the_edge_of_a_disc_is_its_tangent():
-    tangent = Circle(math.sqrt(2), 0, 1.0)  # seen under 45 degrees to either side, from 1 m
+    tangent = (math.sqrt(2), 0, 1.0)  # seen under 45 degrees to either side, from 1 m
     lidar = Lidar(LidarModel(), np.empty((0, 4)), np.array([tangent]))
     distances = lidar.distances(0, 0, 0)
     assert distances[[45, 315]] == pytest.approx([1.0, 1.0], abs=1e-6)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from sim.world import Box, Circle, RobotModel, Simulation, World, WorldError
+from sim.world.worldfile import MACHINES
 
 HEADINGS = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
 CARD = "[card]\n" + "\n".join(f'"{heading}" = "text"' for heading in HEADINGS) + "\n"
@@ -207,7 +208,7 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "start = [0, 0, 0]",
             "start = [9, 0, 0]",
-            "start is [9, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+            "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds.",
         ),
         (
             "start = [0, 0, 0]",
@@ -256,32 +257,32 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "[card]",
             "boxes = [1]\n[card]",
-            "boxes is [1]; write a [[boxes]] table for each box, with x, y, yaw, width and height.",
+            "boxes is [1]; write a [[boxes]] table for each, with x, y, yaw, width and height.",
         ),
         (
             "[card]",
             "circles = 1\n[card]",
-            "circles is 1; write a [[circles]] table for each circle, with x, y and radius.",
+            "circles is 1; write a [[circles]] table for each, with x, y and radius.",
         ),
         (
             "[card]",
             "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1\n[card]",
-            "boxes[0].width is -1; write a finite number above 0 (metres).",
+            "boxes[0].width is -1; write a number above 0 and up to 1000 (metres).",
         ),
         (
             "[card]",
             "[[boxes]]\nx = 1\ny = 1\nyaw = inf\nwidth = 1\nheight = 1\n[card]",
-            "boxes[0].yaw is inf; write a finite number.",
+            "boxes[0].yaw is inf; write a finite number (radians).",
         ),
         (
             "[card]",
             "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
-            "boxes[0].height is missing; write a finite number above 0 (metres).",
+            "boxes[0].height is missing; write a number above 0 and up to 1000 (metres).",
         ),
         (
             "[card]",
             "[[circles]]\nx = 1\ny = 1\nradius = 0\n[card]",
-            "circles[0].radius is 0; write a finite number above 0 (metres).",
+            "circles[0].radius is 0; write a number above 0 and up to 1000 (metres).",
         ),
         (
             "[card]",
@@ -291,7 +292,8 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "[card]",
             "lava = 1\n[card]",
-            "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, card.",
+            "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, movable, "
+            f"robots, robot, lidar, imu, {''.join(f'{key}, ' for key in MACHINES)}card.",
         ),
         ("[card]", "wals = []\n[card]", "wals is not a known key; did you mean walls?"),
         (
@@ -323,7 +325,9 @@ def test_faulty_file(tmp_path, good, bad, sentence):
 def test_a_number_too_big_for_a_float_is_not_finite(tmp_path):
     huge = "9" * 400
     text = GOOD.replace("[card]", f"[[circles]]\nx = {huge}\ny = 1\nradius = 1\n[card]")
-    assert words(tmp_path, text) == f"mine.toml: circles[0].x is {huge}; write a finite number."
+    assert words(tmp_path, text) == (
+        f"mine.toml: circles[0].x is {huge[:77]}...; write a number from -1000 to 1000 (metres)."
+    )
 
 
 @pytest.mark.parametrize(

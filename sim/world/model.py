@@ -1,0 +1,157 @@
+"""Figures that can be: fields say what they may be, and any other value is refused in one sentence.
+
+A field's type is `float`, `int`, `str`, a tuple, another model or one of those `| None`; limits stand beside:
+
+    @dataclass(frozen=True)
+    class LidarModel(Model):
+        range_min: Annotated[float, at_least(0, "metres")] = 0.12
+
+What takes two fields to judge goes into `__post_init__`, which ends with `self.refuse(...)` if it must.
+"""
+
+from __future__ import annotations
+
+import functools
+import sys
+import types
+from collections.abc import Callable
+from numbers import Integral, Real
+from typing import Annotated, Any, NamedTuple, NoReturn, Union, get_args, get_origin, get_type_hints
+
+
+class WorldError(ValueError):
+    """A world cannot be found, read, made or used."""
+
+
+class ModelError(WorldError):
+    """A figure that cannot be: `fault` is the sentence without the model's name."""
+
+    def __init__(self, model: str, fault: str) -> None:
+        super().__init__(f"{model}: {fault}")
+        self.fault = fault
+
+
+class Wanted(NamedTuple):
+    """What a value must be, in words that follow "write ", and as a test of a value of the right type."""
+
+    words: str
+    fits: Callable[[Any], bool] = lambda value: True
+
+
+def above(least: float, unit: str) -> Wanted:
+    """Any number greater than this one."""
+    return Wanted(f"a finite number above {least:g} ({unit})", lambda value: value > least)
+
+
+def at_least(least: float, unit: str) -> Wanted:
+    """This number or any greater one."""
+    return Wanted(f"a finite number, {least:g} or more ({unit})", lambda value: value >= least)
+
+
+def within(least: float, most: float, unit: str = "") -> Wanted:
+    """A number from one limit to the other, both included."""
+    unit = unit and f" ({unit})"
+    return Wanted(f"a number from {least:g} to {most:g}{unit}", lambda value: least <= value <= most)
+
+
+Coordinate = Annotated[float, within(-1000, 1000, "metres")]
+Length = Annotated[float, Wanted("a number above 0 and up to 1000 (metres)", lambda value: 0 < value <= 1000)]
+Angle = Annotated[float, Wanted("a finite number (radians)")]
+
+_SHOWN = 80  # characters of a value, in an error
+_WORDS = {float: "a finite number", int: "a whole number", str: "a text"}
+
+
+class Model:
+    """Base of frozen dataclasses whose values are checked when one is made.
+
+    Whole numbers become floats, and lists tuples, where the field says so.
+
+    Raises:
+        ModelError: a value is of another type, infinite, not a number, or beyond its limits.
+    """
+
+    def __post_init__(self) -> None:
+        for key, hint in hints(type(self)).items():
+            try:
+                # The class is frozen for others; this is still part of making it.
+                object.__setattr__(self, key, fit(hint, getattr(self, key)))
+            except UnfitError:
+                self.refuse(key)
+
+    def refuse(self, key: str, wanted: str | None = None) -> NoReturn:
+        """Raise ModelError: this field must be what is `wanted`, a phrase that follows "write "."""
+        value = shown(getattr(self, key))
+        raise ModelError(type(self).__name__, f"{key} is {value}; write {wanted or words(type(self), key)}.")
+
+
+@functools.cache
+def hints(model: type[Model]) -> dict[str, Any]:
+    """The types of a model's fields with what stands beside them."""
+    return get_type_hints(model, include_extras=True)
+
+
+def words(model: type[Model], key: str) -> str:
+    """What a field must be, as a phrase that follows "write "."""
+    hint = hints(model)[key]
+    if get_origin(hint) in (Union, types.UnionType):
+        hint = get_args(hint)[0]
+    if get_origin(hint) is Annotated:
+        return get_args(hint)[-1].words
+    return _WORDS.get(hint) or f"a {hint.__name__}"
+
+
+def shown(value: object) -> str:
+    """A value as a world file would write it, tuples as lists; cut where it is long."""
+    try:
+        text = repr(_as_list(value))
+    except ValueError:  # Python doesn't write out whole numbers of more than 4300 digits
+        return "a number of thousands of digits"
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
+
+
+def _as_list(value: object) -> object:
+    return [_as_list(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+class UnfitError(Exception):
+    """A value that is not what its field's type says."""
+
+
+def fit(hint: Any, value: Any) -> Any:
+    """The value as a field of this type has it.
+
+    Raises:
+        UnfitError: it is of another type, infinite, not a number, or beyond the limits.
+    """
+    origin, inner = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        fitted = fit(inner[0], value)
+        if not all(wanted.fits(fitted) for wanted in inner[1:]):
+            raise UnfitError
+        return fitted
+    if origin in (Union, types.UnionType):
+        return None if value is None else fit(inner[0], value)
+    if origin is tuple:
+        return _fit_tuple(inner, value)
+    if hint is float and _is(value, Real) and abs(value) <= sys.float_info.max:
+        return float(value)
+    if hint is int and _is(value, Integral):
+        return int(value)
+    if hint is Any or (hint not in (int, float) and isinstance(value, hint)):
+        return value
+    raise UnfitError
+
+
+def _fit_tuple(inner: tuple[Any, ...], value: Any) -> tuple[Any, ...]:
+    if not isinstance(value, list | tuple):
+        raise UnfitError
+    if inner[1:] == (...,):
+        return tuple(fit(inner[0], item) for item in value)
+    if len(value) != len(inner):
+        raise UnfitError
+    return tuple(map(fit, inner, value))
+
+
+def _is(value: object, kind: type) -> bool:
+    return isinstance(value, kind) and not isinstance(value, bool)
