@@ -2,7 +2,8 @@
 
 from sim.view.animation import animate
 from sim.view.figure import png
+from sim.view.replay import replay
 from sim.view.scene import plot_path
 from sim.view.timeline import plot_logs, plot_signal, plot_topics
 
-__all__ = ["animate", "plot_logs", "plot_path", "plot_signal", "plot_topics", "png"]
+__all__ = ["animate", "plot_logs", "plot_path", "plot_signal", "plot_topics", "png", "replay"]

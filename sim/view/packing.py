@@ -1,0 +1,161 @@
+"""A recording as a small text for a page: what moved, what was seen, felt, said and sent.
+
+Numbers are whole millimetres, milliradians and milliseconds, written as differences; then all is deflated.
+However long a run was, the text stays bounded: there are so many poses, ranges and lines and no more.
+`checkRun` in web/replay.js reads it.
+"""
+
+from __future__ import annotations
+
+import base64
+import bisect
+import json
+import math
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import Any, TypeVar
+
+from sim.recording import Pose, Recording, rate, stamps
+from sim.view.geometry import world_data
+
+Item = TypeVar("Item")
+
+VERSION = 1
+POSES = 8_000  # of all bodies together
+RANGES = 36_000  # of all scans together
+SCAN_RATE = 10.0  # Hz, as long as there are ranges enough
+RAYS = (60, 180)  # in a scan, at least and at most
+RANGE_UNIT = 0.02  # m
+LIDAR = ("sensor_msgs/msg/LaserScan", "/robot")  # type and sender of the scans that are shown
+NOTHING_NEAR, NOT_MEASURED = -1, -2  # in place of a range
+MARKS, LOGS, TOPICS, COLUMNS, CHARACTERS = 100, 200, 20, 240, 200
+
+
+def pack(recording: Recording, speed: float) -> str:
+    """The run as base64 of deflated JSON; equal recordings give equal texts. speed: to begin with."""
+    data = {"version": VERSION, "speed": speed, "end": run_end(recording), "world": None}
+    data |= {"stamps": [], "tracks": [], "scans": []}
+    if recording.world is not None:
+        data |= {"world": world_data(recording.world), **_motion(recording), "scans": list(_scans(recording))}
+    data |= {"marks": _marks(recording), "logs": _logs(recording), "topics": _topics(recording)}
+    deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).encode()
+    return base64.b64encode(deflate.compress(text) + deflate.flush()).decode()
+
+
+def run_end(recording: Recording) -> float:
+    """How long the run lasted, in simulated seconds."""
+    return recording.ended.stamp or recording.stamp or recording.seconds or 1.0
+
+
+def body_tracks(recording: Recording) -> list[list[Pose]]:
+    """The poses of each body of the run's world, in the order of its bodies."""
+    bodies = recording.world.bodies if recording.world is not None else ()
+    return [
+        recording.path if body.name == "robot" else recording.tracks.get(body.name, []) for body in bodies
+    ]
+
+
+def _motion(recording: Recording) -> dict[str, Any]:
+    tracks = body_tracks(recording)
+    if not tracks or not all(tracks):
+        raise ValueError("this run moved nothing yet: it has no pose to draw")
+    moments = thinned(stamps(max(tracks, key=len)), POSES // len(tracks))
+    columns = []
+    for track in tracks:
+        poses = [pose_at(track, moment) for moment in moments]
+        columns.append([_steps((pose[axis] for pose in poses), 1000) for axis in (1, 2, 3)])
+    return {"stamps": _steps(moments, 1000), "tracks": columns}
+
+
+def pose_at(track: Sequence[Pose], stamp: float) -> Pose:
+    """The last pose that is not later than `stamp`; the first one before that."""
+    return track[max(bisect.bisect_right(track, stamp + 1e-6, key=lambda pose: pose.stamp) - 1, 0)]
+
+
+def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
+    heard = [item for item in recording.heard if (item.type, item.sender) == LIDAR]
+    if not heard or not recording.path:
+        return
+    wanted = max(1, math.ceil(run_end(recording) * SCAN_RATE))
+    most = min(max(RANGES // wanted, RAYS[0]), RAYS[1])
+    for item in thinned(heard, min(wanted, RANGES // most)):
+        scan = item.message
+        stride = max(1, math.ceil(len(scan.ranges) / most))
+        pose = pose_at(recording.path, item.stamp)
+        yield {
+            "stamp": round(item.stamp * 1000),
+            "pose": [round(value, 3) for value in pose[1:]],
+            "start": scan.angle_min,
+            "step": scan.angle_increment * stride,
+            "far": scan.range_max,
+            "ranges": _differences([_range(value) for value in scan.ranges[::stride]]),
+        }
+
+
+def _range(value: float) -> int:
+    if math.isfinite(value):
+        return max(round(value / RANGE_UNIT), 0)
+    return NOTHING_NEAR if value == math.inf else NOT_MEASURED
+
+
+def _marks(recording: Recording) -> list[list[Any]]:
+    """What the scrub bar points at: contacts, errors and the end."""
+    marks = [
+        (touch.stamp, "contact", f"touched a {touch.what} with its {touch.side}", (touch.x, touch.y))
+        for touch in recording.contacts
+    ]
+    for error in recording.errors:
+        marks.append((error.stamp, "error", f"{error.type} in {error.callback}: {error.text}", None))
+    kept = thinned(sorted(marks, key=lambda mark: mark[0]), MARKS)
+    kept.append((run_end(recording), "end", f"the run ended. {recording.ended.detail}", None))
+    return [
+        [round(stamp * 1000), kind, f"t = {stamp:.3g} s: {_short(words)}", _place(place)]
+        for stamp, kind, words, place in kept
+    ]
+
+
+def _place(place: tuple[float, float] | None) -> list[float] | None:
+    return place and [round(value, 3) for value in place]
+
+
+def _logs(recording: Recording) -> list[list[Any]]:
+    return [
+        [round(line.stamp * 1000), line.level, _short(f"{line.node}: {line.text}"), None]
+        for line in thinned(recording.logs, LOGS)
+    ]
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= CHARACTERS else text[: CHARACTERS - 3] + "..."
+
+
+def _topics(recording: Recording) -> list[list[str]]:
+    """Name, count and rate, and when there were messages: a 1 for each column of the timeline with any."""
+    moments: dict[str, list[float]] = {}
+    for item in recording.messages():
+        moments.setdefault(item.topic, []).append(item.stamp)
+    end = run_end(recording)
+    rows = []
+    for name, when in sorted(moments.items())[:TOPICS]:
+        busy = {min(int(stamp / end * COLUMNS), COLUMNS - 1) for stamp in when}
+        told = f"{rate(when):.3g} Hz" if rate(when) else f"{len(when)}"
+        rows.append([_short(name), told, "".join("01"[column in busy] for column in range(COLUMNS))])
+    return rows
+
+
+def thinned(items: Sequence[Item], most: int) -> list[Item]:
+    """At most so many of the items, evenly spread, with the first and the last."""
+    if len(items) <= most:
+        return list(items)
+    gap = (len(items) - 1) / max(most - 1, 1)
+    return [items[round(index * gap)] for index in range(most)]
+
+
+def _steps(values: Iterable[float], unit: float) -> list[int]:
+    return _differences([round(value * unit) for value in values])
+
+
+def _differences(values: Sequence[int]) -> list[int]:
+    return [values[0], *(after - now for now, after in pairwise(values))] if values else []

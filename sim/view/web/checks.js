@@ -1,0 +1,34 @@
+// What comes from outside is checked before it is drawn; anything else than expected is a TypeError.
+
+const refuse = (wanted) => { throw new TypeError(`${wanted} was expected`); };
+const number = (value, most = 1e6) =>
+  typeof value === "number" && Math.abs(value) <= most ? value : refuse("a number");
+const size = (value) => (number(value) >= 0 ? value : refuse("a size"));
+const text = (value, most = 2000) =>
+  typeof value === "string" && value.length <= most ? value : refuse("a text");
+const list = (value, most, each) =>
+  Array.isArray(value) && value.length <= most ? value.map((item) => each(item)) : refuse("a list");
+const numbers = (count) => (value) => {
+  const all = list(value, count, (item) => number(item));
+  return all.length === count ? all : refuse(`${count} numbers`);
+};
+const polygon = (value) => list(value, 100, numbers(2));
+const box = ([left, bottom, right, top]) =>
+  left < right && bottom < top ? [left, bottom, right, top] : refuse("bounds");
+const disc = ([x, y, radius]) => [x, y, size(radius)];
+
+/** The world as ../geometry.py describes it; throws a TypeError where it is anything else. */
+function checkWorld(world) {
+  return {
+    name: text(world.name),
+    bounds: box(numbers(4)(world.bounds)),
+    goal: world.goal === null ? null : numbers(2)(world.goal),
+    walls: list(world.walls, 20000, numbers(4)),
+    boxes: list(world.boxes, 5000, polygon),
+    circles: list(world.circles, 5000, (circle) => disc(numbers(3)(circle))),
+    bodies: list(world.bodies, 500, (body) => ({
+      name: text(body.name), kind: text(body.kind), radius: size(body.radius), outline: polygon(body.outline),
+    })),
+    lidar: { start: number(world.lidar.start), step: number(world.lidar.step), far: number(world.lidar.far) },
+  };
+}

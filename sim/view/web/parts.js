@@ -1,0 +1,56 @@
+// Small parts of a page: elements, buttons with drawings, and a drop-down of speeds.
+
+/** An element with properties, and children that may be elements or words. */
+function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name in element) element[name] = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
+
+const SHAPES = {
+  play: "M5 3v10l8-5z", pause: "M4 3h3v10H4zM9 3h3v10H9z", stop: "M4 4h8v8H4z",
+  back: "M11 3v10L5 8zM3 3h2v10H3z", on: "M5 3v10l6-5zM11 3h2v10h-2z",
+  up: "M8 3l6 8H2z", down: "M8 13l6-8H2z", left: "M3 8l8-6v12z", right: "M13 8L5 2v12z",
+};
+
+/** A drawing for a button: one of SHAPES. */
+function icon(name) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 16 16");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", SHAPES[name]);
+  svg.append(path);
+  return svg;
+}
+
+/** A button with a drawing; the label is for its tooltip and for screen readers. */
+function button(shape, label, act) {
+  const element = make("button", { type: "button" });
+  element.show = (shape, label) => {
+    element.replaceChildren(icon(shape));
+    element.title = label;
+    element.setAttribute("aria-label", label);
+  };
+  element.show(shape, label);
+  if (act) element.addEventListener("click", act);
+  return element;
+}
+
+/** A drop-down of speeds; `act` is called with the number chosen. */
+function speeds(choices, act) {
+  const select = make("select", { title: "Speed: simulated seconds in a second", "aria-label": "Speed" });
+  select.put = (speed) => { // a speed set from elsewhere may be none of the choices
+    if (![...select.options].some((option) => Number(option.value) === speed)) {
+      select.append(make("option", { value: speed }, `${speed} ×`));
+    }
+    select.value = speed;
+  };
+  choices.forEach(select.put);
+  select.addEventListener("change", () => act(Number(select.value)));
+  return select;
+}

@@ -1,0 +1,314 @@
+// Draws a world from above, or from the side: metres, x to the right, y up. Shared by the live view and the replay.
+
+const LIGHT = {
+  ground: "#f3f5f7", floor: "#ffffff", grid: "rgba(30,50,70,.08)", ink: "#46525f", wall: "#3a4550",
+  solid: "#d3dae1", edge: "#74808d", ray: "rgba(236,140,30,.2)", far: "rgba(236,140,30,.075)", hit: "#e06a10",
+  ahead: "rgba(60,110,170,.28)", goal: "#efb021", rim: "#9a6a00", contact: "#d93a35", nose: "#ffffff",
+  robots: ["#2274c4", "#8a4fc0", "#158a6b", "#c2477f"], box: "#d9b991", link: "#3d9aa1", cart: "#7d8fa3",
+};
+const DARK = {
+  ground: "#15181b", floor: "#1e2328", grid: "rgba(255,255,255,.065)", ink: "#b9c4cf", wall: "#c4ced8",
+  solid: "#3d4853", edge: "#8a97a4", ray: "rgba(255,170,70,.2)", far: "rgba(255,170,70,.075)", hit: "#ffa24d",
+  ahead: "rgba(120,180,240,.3)", goal: "#f5c044", rim: "#ffe2a0", contact: "#ff6b62", nose: "#10161c",
+  robots: ["#5aa9f0", "#b98be6", "#3cc39d", "#ea80b0"], box: "#a5855c", link: "#4fb0b8", cart: "#7f93a8",
+};
+const MARGIN = 0.2; // metres around what is shown
+const TALLEST = 500; // CSS pixels
+const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
+
+/** Call `act` when the page may have changed its theme, for as long as the element is in it. */
+function onTheme(element, act) {
+  const soon = () => {
+    if (!element.isConnected) { stop(); return; }
+    act();
+    setTimeout(act, 400); // JupyterLab loads the theme's colours a little later
+  };
+  const watch = new MutationObserver(soon);
+  watch.observe(document.documentElement, { attributes: true });
+  watch.observe(document.body, { attributes: true });
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
+  scheme.addEventListener("change", soon);
+  const stop = () => { watch.disconnect(); scheme.removeEventListener("change", soon); };
+}
+
+/** The colours for the place of an element: a page that writes in a light colour is dark. */
+function colours(element) {
+  const [red, green, blue] = (getComputedStyle(element).color.match(/[\d.]+/g) || [0, 0, 0]).map(Number);
+  return 0.3 * red + 0.6 * green + 0.1 * blue > 128 ? DARK : LIGHT;
+}
+
+/**
+ * A canvas that shows the world and follows the size of its stage.
+ *
+ * `frame` is what to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
+ * of points or null for each body; ahead, the same, where they will go; contacts, points.
+ */
+class Scene {
+  constructor(stage, world) {
+    this.stage = stage;
+    this.world = world;
+    this.canvas = make("canvas", { tabIndex: 0, role: "img", "aria-label": `The world ${world.name}` });
+    this.canvas.dataset.lmSuppressShortcuts = "true";
+    this.context = this.canvas.getContext("2d");
+    this.frame = { poses: [], scan: null, trails: [], ahead: [], contacts: [] };
+    this.asked = 0;
+    const [left, bottom, right, top] = world.bounds;
+    this.shown = [left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN];
+    stage.append(this.canvas);
+    this.sizes = new ResizeObserver(() => this.fit());
+    this.sizes.observe(stage);
+    onTheme(stage, () => this.ask());
+    this.fit();
+  }
+
+  close() {
+    this.sizes.disconnect();
+    cancelAnimationFrame(this.asked);
+  }
+
+  /** Widen the picture, by whole metres, so that a body at this pose is in it. */
+  include(body, [x, y]) {
+    const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v))) + MARGIN;
+    const [left, bottom, right, top] = this.shown;
+    if (x - reach >= left && x + reach <= right && y - reach >= bottom && y + reach <= top) return;
+    this.shown = [
+      Math.min(left, left - Math.ceil(left - x + reach)), Math.min(bottom, bottom - Math.ceil(bottom - y + reach)),
+      Math.max(right, right + Math.ceil(x + reach - right)), Math.max(top, top + Math.ceil(y + reach - top)),
+    ];
+    this.grown = true;
+    this.ask();
+  }
+
+  fit() {
+    this.grown = false;
+    const [left, bottom, right, top] = this.shown;
+    const shape = Math.min(Math.max((top - bottom) / (right - left), 0.2), 1.1);
+    this.stage.style.maxWidth = `${Math.round(TALLEST / shape)}px`;
+    this.width = this.stage.clientWidth;
+    this.height = Math.round(this.width * shape);
+    const sharp = window.devicePixelRatio || 1;
+    this.canvas.width = Math.round(this.width * sharp);
+    this.canvas.height = Math.round(this.height * sharp);
+    this.canvas.style.height = `${this.height}px`;
+    this.scale = Math.min(this.width / (right - left), this.height / (top - bottom));
+    this.x0 = this.width / 2 - this.scale * (left + right) / 2;
+    this.y0 = this.height / 2 + this.scale * (bottom + top) / 2;
+    this.ask();
+  }
+
+  /** Draw the newest frame when the browser next paints. */
+  ask() {
+    if (!this.asked) this.asked = requestAnimationFrame(() => { this.asked = 0; this.paint(); });
+  }
+
+  at(x, y) {
+    return [this.x0 + this.scale * x, this.y0 - this.scale * y];
+  }
+
+  paint() {
+    if (this.grown) this.fit();
+    if (!this.width) return; // out of sight, as in a folded part of the page
+    const sharp = window.devicePixelRatio || 1;
+    this.look = colours(this.stage);
+    this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
+    this.context.lineJoin = this.context.lineCap = "round";
+    this.floor();
+    const hits = this.rays();
+    this.things();
+    this.context.fillStyle = this.look.hit;
+    for (const [px, py] of hits) this.context.fillRect(px - 1.5, py - 1.5, 3, 3);
+    this.ways();
+    this.world.bodies.forEach((body, index) => this.body(body, this.frame.poses[index]));
+    this.touches();
+    this.ruler();
+  }
+
+  line(points, colour, width, close = false) {
+    const c = this.context;
+    c.beginPath();
+    for (const [x, y] of points) c.lineTo(...this.at(x, y));
+    if (close) c.closePath();
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.stroke();
+  }
+
+  area(points, fill, edge) {
+    this.line(points, edge, 1.5, true);
+    this.context.fillStyle = fill;
+    this.context.fill();
+  }
+
+  disc(x, y, radius, fill, edge, width = 1.5) {
+    const c = this.context;
+    c.beginPath();
+    c.arc(...this.at(x, y), radius * this.scale, 0, 7);
+    c.fillStyle = fill;
+    c.fill();
+    c.strokeStyle = edge;
+    c.lineWidth = width;
+    c.stroke();
+  }
+
+  floor() {
+    const c = this.context;
+    const [left, bottom, right, top] = this.world.bounds;
+    c.fillStyle = this.look.ground;
+    c.fillRect(0, 0, this.width, this.height);
+    c.fillStyle = this.look.floor;
+    c.fillRect(...this.at(left, top), this.scale * (right - left), this.scale * (top - bottom));
+    this.unit = STEPS.find((step) => step * this.scale > 44) || STEPS.at(-1);
+    c.beginPath();
+    for (let x = Math.ceil(-this.x0 / this.scale / this.unit); ; x++) {
+      const [px] = this.at(x * this.unit, 0);
+      if (px > this.width) break;
+      c.moveTo(px, 0);
+      c.lineTo(px, this.height);
+    }
+    for (let y = Math.ceil((this.y0 - this.height) / this.scale / this.unit); ; y++) {
+      const [, py] = this.at(0, y * this.unit);
+      if (py < 0) break;
+      c.moveTo(0, py);
+      c.lineTo(this.width, py);
+    }
+    c.strokeStyle = this.look.grid;
+    c.lineWidth = 1;
+    c.stroke();
+  }
+
+  /**
+   * Draw rays from where the scan was taken, and return the points where they hit.
+   * inf met nothing, nan and -inf measured nothing (REP-117).
+   */
+  rays() {
+    const { scan } = this.frame;
+    if (!scan) return [];
+    const c = this.context;
+    const [x, y, yaw] = scan.pose;
+    const rays = { true: new Path2D(), false: new Path2D() };
+    const hits = [];
+    const centre = this.at(x, y);
+    scan.ranges.forEach((range, ray) => {
+      if (Number.isNaN(range) || range === -Infinity) return;
+      const angle = yaw + scan.start + ray * scan.step;
+      const met = range !== Infinity;
+      const reach = met ? range : scan.far;
+      const end = this.at(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
+      rays[met].moveTo(...centre);
+      rays[met].lineTo(...end);
+      if (met) hits.push(end);
+    });
+    c.lineWidth = 1;
+    c.strokeStyle = this.look.far;
+    c.stroke(rays.false);
+    c.strokeStyle = this.look.ray;
+    c.stroke(rays.true);
+    return hits;
+  }
+
+  things() {
+    const { look, world } = this;
+    for (const box of world.boxes) this.area(box, look.solid, look.edge);
+    for (const [x, y, radius] of world.circles) this.disc(x, y, radius, look.solid, look.edge);
+    const c = this.context;
+    c.beginPath();
+    for (const [x0, y0, x1, y1] of world.walls) {
+      c.moveTo(...this.at(x0, y0));
+      c.lineTo(...this.at(x1, y1));
+    }
+    c.strokeStyle = look.wall;
+    c.lineWidth = 3;
+    c.stroke();
+    if (world.goal) this.star(...world.goal);
+  }
+
+  star(x, y) {
+    const [px, py] = this.at(x, y);
+    const c = this.context;
+    c.beginPath();
+    for (let tip = 0; tip < 10; tip++) {
+      const reach = tip % 2 ? 4.5 : 11;
+      const angle = Math.PI * (tip / 5 - 0.5);
+      c.lineTo(px + reach * Math.cos(angle), py + reach * Math.sin(angle));
+    }
+    c.closePath();
+    c.fillStyle = this.look.goal;
+    c.fill();
+    c.strokeStyle = this.look.rim;
+    c.lineWidth = 1;
+    c.stroke();
+  }
+
+  ways() {
+    this.world.bodies.forEach((body, index) => {
+      if (body.kind !== "robot") return;
+      if (this.frame.ahead[index]) this.line(this.frame.ahead[index], this.look.ahead, 2);
+      if (this.frame.trails[index]) this.line(this.frame.trails[index], this.robot(index), 2.25);
+    });
+  }
+
+  robot(index) {
+    const robots = this.world.bodies.filter((body) => body.kind === "robot");
+    return this.look.robots[robots.indexOf(this.world.bodies[index]) % this.look.robots.length];
+  }
+
+  body(body, pose) {
+    if (!pose) return;
+    const [x, y, yaw] = pose;
+    const cos = Math.cos(yaw), sin = Math.sin(yaw);
+    const placed = (u, v) => [x + cos * u - sin * v, y + sin * u + cos * v];
+    const robot = body.kind === "robot";
+    const fill = robot ? this.robot(this.world.bodies.indexOf(body)) : this.look[body.kind] || this.look.solid;
+    if (body.radius) this.disc(x, y, body.radius, fill, robot ? this.look.floor : this.look.edge);
+    else this.area(body.outline.map(([u, v]) => placed(u, v)), fill, robot ? this.look.floor : this.look.wall);
+    if (robot) {
+      const r = body.radius || Math.max(...body.outline.map(([u, v]) => Math.hypot(u, v))) / 2;
+      this.context.beginPath();
+      for (const [u, v] of [[0.8, 0], [-0.4, 0.55], [-0.15, 0], [-0.4, -0.55]]) {
+        this.context.lineTo(...this.at(...placed(r * u, r * v)));
+      }
+      this.context.fillStyle = this.look.nose;
+      this.context.fill();
+    }
+    if (body.kind === "link") this.disc(x, y, 3 / this.scale, this.look.nose, this.look.wall);
+  }
+
+  touches() {
+    for (const [x, y] of this.frame.contacts) {
+      const [px, py] = this.at(x, y);
+      const c = this.context;
+      c.beginPath();
+      c.moveTo(px - 5, py - 5);
+      c.lineTo(px + 5, py + 5);
+      c.moveTo(px - 5, py + 5);
+      c.lineTo(px + 5, py - 5);
+      c.strokeStyle = this.look.floor;
+      c.lineWidth = 5;
+      c.stroke();
+      c.strokeStyle = this.look.contact;
+      c.lineWidth = 2.5;
+      c.stroke();
+    }
+  }
+
+  /** How long a square of the grid is. */
+  ruler() {
+    const c = this.context;
+    const [x, y] = this.at(this.world.bounds[0], this.world.bounds[1]);
+    const left = Math.max(x, 0) + 10, low = Math.min(y, this.height) - 10, right = left + this.unit * this.scale;
+    c.beginPath();
+    c.moveTo(left, low - 4);
+    c.lineTo(left, low);
+    c.lineTo(right, low);
+    c.lineTo(right, low - 4);
+    c.font = "11px system-ui, sans-serif";
+    c.textAlign = "center";
+    for (const [colour, width] of [[this.look.floor, 4], [this.look.ink, 1.5]]) {
+      c.strokeStyle = c.fillStyle = colour;
+      c.lineWidth = width;
+      c.stroke();
+      if (width > 2) c.strokeText(`${this.unit} m`, (left + right) / 2, low - 4);
+      else c.fillText(`${this.unit} m`, (left + right) / 2, low - 4);
+    }
+  }
+}
