@@ -15,9 +15,12 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sim.world import Contact, World
+
+if TYPE_CHECKING:
+    from sim.view.replay import Replay
 
 Seconds = float
 
@@ -208,6 +211,15 @@ class Recording:
         from sim.ros.storage import read
 
         return read(Path(path))
+
+    def replay(self, *, speed: float = 1.0) -> Replay:
+        """The run as a player with a scrub bar; it stays in the saved notebook and in pages made from it.
+
+        speed: simulated seconds per second, to begin with. Raises ValueError if it isn't above 0.
+        """
+        from sim.view.replay import replay
+
+        return replay(self, speed=speed)
 
     def __repr__(self) -> str:
         return (
