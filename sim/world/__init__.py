@@ -3,8 +3,9 @@
 from sim.world.bodies import Body
 from sim.world.contacts import Contact
 from sim.world.description import World
-from sim.world.imu import ImuModel
+from sim.world.imu import ImuModel, ImuReading
 from sim.world.lidar import LidarModel, Scan
+from sim.world.mobile_robot import MobileRobot
 from sim.world.model import ModelError, WorldError
 from sim.world.obstacles import Box, Circle, MovableBox
 from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, Wheels
@@ -19,7 +20,9 @@ __all__ = [
     "CommandError",
     "Contact",
     "ImuModel",
+    "ImuReading",
     "LidarModel",
+    "MobileRobot",
     "ModelError",
     "MovableBox",
     "Odometry",

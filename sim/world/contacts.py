@@ -1,4 +1,4 @@
-"""What the robot touched, when, and with which side."""
+"""What a robot touched, when, and with which side."""
 
 import math
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ _SIDES = ("front", "left", "back", "right")
 class Contact(NamedTuple):
     """One touch: when it began and ended (s; end is None while it lasts), and where in the map frame (m).
 
-    `side` is front, left, right or back of the robot; `what` is wall, box or circle.
+    `side` is front, left, right or back of the robot; `what` is wall, box, circle or robot.
     """
 
     stamp: float
@@ -27,35 +27,29 @@ class Contact(NamedTuple):
 
 
 class ContactLog:
-    """Follows the touches between the robot and the obstacles of a space."""
+    """The touches of one robot."""
 
-    def __init__(
-        self, space: pymunk.Space, robot: pymunk.Shape, obstacles: Mapping[pymunk.Shape, str]
-    ) -> None:
-        self._body = robot.body
-        self._obstacles = obstacles
+    def __init__(self, body: pymunk.Body) -> None:
+        self._body = body
         self._touching: dict[pymunk.Shape, int] = {}
-        self._notes: list[tuple[pymunk.Shape, bool]] = []
         self.contacts: list[Contact] = []
-        robot.collision_type = _ROBOT
-        for shape in obstacles:
-            shape.collision_type = _OBSTACLE
-        # pymunk prints what a callback raises and goes on, so the callbacks only take notes.
-        space.on_collision(_ROBOT, _OBSTACLE, begin=self._note_begin, separate=self._note_end)
 
-    def update(self, stamp: float) -> None:
-        """Take over what began or ended in the step that ended at `stamp` (s); call after each step."""
-        if not self._notes:
-            return
-        for shape, began in self._notes:
-            if began:
-                self._touching[shape] = len(self.contacts)
-                x, y = self._touch(shape)
-                self.contacts.append(Contact(stamp, None, x, y, self._side(x, y), self._obstacles[shape]))
-            else:
-                index = self._touching.pop(shape)
-                self.contacts[index] = self.contacts[index]._replace(end=stamp)
-        self._notes.clear()
+    def begin(self, stamp: float, shape: pymunk.Shape, what: str) -> None:
+        """From `stamp` (s) on, the robot touches this shape."""
+        self._touching[shape] = len(self.contacts)
+        x, y = self._touch(shape)
+        self.contacts.append(Contact(stamp, None, x, y, self._side(x, y), what))
+
+    def end(self, stamp: float, shape: pymunk.Shape) -> None:
+        """From `stamp` (s) on, the robot no longer touches this shape."""
+        index = self._touching.pop(shape)
+        self.contacts[index] = self.contacts[index]._replace(end=stamp)
+
+    def forget(self) -> None:
+        """Drop the touches that have ended."""
+        lasting = sorted(self._touching.items(), key=lambda item: item[1])
+        self.contacts = [self.contacts[index] for _, index in lasting]
+        self._touching = {shape: index for index, (shape, _) in enumerate(lasting)}
 
     @property
     def pressed(self) -> frozenset[str]:
@@ -63,7 +57,7 @@ class ContactLog:
         return frozenset(self._side(*self._touch(shape)) for shape in self._touching)
 
     def _touch(self, shape: pymunk.Shape) -> tuple[float, float]:
-        """The point of the obstacle that is nearest to the robot, in the map frame."""
+        """The point of the shape that is nearest to the robot, in the map frame."""
         x, y = shape.point_query(self._body.position).point
         return x, y
 
@@ -72,8 +66,42 @@ class ContactLog:
         bearing = wrap(math.atan2(y - position.y, x - position.x) - self._body.angle)
         return _SIDES[round(bearing / (math.pi / 2)) % 4]
 
+
+class Touches:
+    """Follows the touches of a space and tells each robot's log about its own.
+
+    names: what everything solid is, the robots too.
+    """
+
+    def __init__(
+        self,
+        space: pymunk.Space,
+        logs: Mapping[pymunk.Shape, ContactLog],
+        names: Mapping[pymunk.Shape, str],
+    ) -> None:
+        self._logs, self._names = logs, names
+        self._notes: list[tuple[pymunk.Shape, pymunk.Shape, bool]] = []
+        for shape in names:
+            shape.collision_type = _ROBOT if shape in logs else _OBSTACLE
+        # pymunk prints what a callback raises and goes on, so the callbacks only take notes.
+        for other in (_ROBOT, _OBSTACLE):
+            space.on_collision(_ROBOT, other, begin=self._note_begin, separate=self._note_end)
+
+    def update(self, stamp: float) -> None:
+        """Take over what began or ended in the step that ended at `stamp` (s); call after each step."""
+        if not self._notes:
+            return
+        for first, second, began in self._notes:
+            for shape, other in ((first, second), (second, first)):
+                log = self._logs.get(shape)
+                if log and began:
+                    log.begin(stamp, other, self._names[other])
+                elif log:
+                    log.end(stamp, other)
+        self._notes.clear()
+
     def _note_begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
-        self._notes.append((arbiter.shapes[1], True))
+        self._notes.append((*arbiter.shapes, True))
 
     def _note_end(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
-        self._notes.append((arbiter.shapes[1], False))
+        self._notes.append((*arbiter.shapes, False))

@@ -47,20 +47,37 @@ class Scan(NamedTuple):
 
 
 class Lidar:
-    """Measures distances from a pose to the obstacles of one world.
+    """Measures distances from a pose to the obstacles of one world, `segments` and `discs` of `World`.
 
     All obstacles are worked on at once, each only with the rays inside the angle under which it is seen.
     """
 
     def __init__(self, model: LidarModel, segments: np.ndarray, discs: np.ndarray) -> None:
         self._model = model
-        self._x0, self._y0, x1, y1 = segments.T.copy()
-        self._ex, self._ey = x1 - self._x0, y1 - self._y0
-        self._discs = discs
+        self._still = len(segments), len(discs)
+        self._ends = segments.T.copy()
+        self._discs = discs.copy()
+        self._split()
         angles = [ray * model.angle_increment for ray in range(model.rays)]
         # libm, not numpy: numpy's sine differs in the last bit from one kind of processor to the next.
         self._cos = np.array([math.cos(angle) for angle in angles])
         self._sin = np.array([math.sin(angle) for angle in angles])
+
+    def _split(self) -> None:
+        self._x0, self._y0, x1, y1 = self._ends
+        self._ex, self._ey = x1 - self._x0, y1 - self._y0
+
+    def place(self, segments: list[tuple[float, ...]], discs: list[tuple[float, ...]]) -> None:
+        """Put what moves where it is now, beside what stands still.
+
+        segments: (x0, y0, x1, y1), discs: (x, y, radius); m, map frame.
+        """
+        straight, round_ = self._still
+        if segments:
+            self._ends = np.concatenate((self._ends[:, :straight], np.array(segments).T), axis=1)
+            self._split()
+        if discs:
+            self._discs = np.concatenate((self._discs[:round_], np.array(discs)))
 
     def measure(self, x: float, y: float, yaw: float, rng: np.random.Generator) -> np.ndarray:
         """One noisy scan from this pose in the map frame: float32, shape (rays,), m.

@@ -1,54 +1,47 @@
-"""One robot in one world, moved in fixed steps of simulated time."""
+"""The mobile robots and boxes of one world, moved in fixed steps of simulated time."""
 
 import math
 
 import numpy as np
-import pymunk
 
-from sim.world.contacts import Contact, ContactLog
+from sim.world.contacts import Contact, Touches
 from sim.world.description import World
-from sim.world.lidar import Lidar, Scan
-from sim.world.model import WorldError
-from sim.world.robot import DT, RATE, Drive, Odometry, RobotModel, Wheels, wrap
+from sim.world.lidar import LidarModel, Scan
+from sim.world.mobile_robot import MobileRobot
+from sim.world.robot import DT, RATE, Odometry, Pose, Wheels
+from sim.world.solids import add_boxes, add_obstacles, check_start, make_space
 
-_STEPS_PER_SAMPLE = round(0.05 * RATE)
-_OBSTACLE_FRICTION = 0.5
-# How deep touching bodies may overlap (m), for a contact to last; pymunk's own 0.1 suits pixels.
-_COLLISION_SLOP = 1e-3
-# The share of any deeper overlap that is left after a second: all of it goes in the next step.
-_COLLISION_BIAS = 0
+Rows = list[tuple[float, ...]]
 
 
 class Simulation:
-    """The robot in a world, from time 0 on. To start again, make a new one.
+    """The robots in a world, from time 0 on. To start again, make a new one.
 
     Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed is for the
-    sensors' noise.
+    sensors' noise. What one asks the simulation itself (pose, command, scan, ...) is for its first robot.
+
+    Attributes:
+        robots: all mobile robots by name; the first is "robot", the others are in the world's order.
 
     Raises:
-        WorldError: the robot does not fit at the world's start.
+        WorldError: a robot does not fit at its start, or a box is inside something.
     """
 
-    def __init__(
-        self,
-        world: World,
-        seed: int = 0,
-    ) -> None:
-        self.world = world
-        self.robot = robot = world.robot
-        self.lidar = lidar = world.lidar
-        self._space = pymunk.Space()
-        self._space.collision_slop = _COLLISION_SLOP
-        self._space.collision_bias = _COLLISION_BIAS
-        obstacles = _add_obstacles(self._space, world)
-        _check_start(self._space, world, robot, obstacles)
-        self._drive = Drive(self._space, robot, world.start)
-        self._contacts = ContactLog(self._space, self._drive.shape, obstacles)
-        self._beams = Lidar(lidar, world.segments(), world.discs())
-        self._rng = np.random.Generator(np.random.PCG64(seed))
-        self.last_scan: Scan | None = None
+    def __init__(self, world: World, seed: int = 0) -> None:
+        self.world, self.seed = world, seed
         self._steps = 0
-        self._path = [(0.0, *self.pose)]
+        self._space = make_space()
+        names = add_obstacles(self._space, world)
+        self._boxes = add_boxes(self._space, world, names)
+        self.robots: dict[str, MobileRobot] = {}
+        for number, name in enumerate(world.starts()):
+            check_start(self._space, world, name, names)
+            self.robots[name] = robot = MobileRobot(self, self._space, name, number)
+            names[robot.shape] = "robot"
+        self._first = self.robots["robot"]
+        self._touches = Touches(
+            self._space, {robot.shape: robot.log for robot in self.robots.values()}, names
+        )
 
     @property
     def time(self) -> float:
@@ -56,101 +49,71 @@ class Simulation:
         return self._steps / RATE
 
     @property
-    def radius(self) -> float:
-        """The robot's radius, m."""
-        return self.robot.radius
-
-    @property
-    def pose(self) -> tuple[float, float, float]:
-        """Where the robot truly is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
-        x, y = self._drive.body.position
-        return x, y, wrap(self._drive.body.angle)
-
-    @property
-    def poses(self) -> list[tuple[float, float, float]]:
+    def poses(self) -> list[Pose]:
         """The pose of each of `world.bodies`, in their order."""
-        return [self.pose]
-
-    @property
-    def odometry(self) -> Odometry:
-        """Where the wheels say the robot is, from (0, 0, 0) at time 0; wrong once something held it."""
-        return self._drive.odometry
-
-    @property
-    def wheels(self) -> Wheels:
-        """Angles and rates of the two wheel joints."""
-        return self._drive.wheels
-
-    @property
-    def bumper(self) -> frozenset[str]:
-        """The sides that touch something now: any of front, left, right, back."""
-        return self._contacts.pressed
-
-    @property
-    def contacts(self) -> list[Contact]:
-        """All touches so far, oldest first."""
-        return list(self._contacts.contacts)
-
-    @property
-    def path(self) -> list[tuple[float, float, float, float]]:
-        """(stamp, x, y, yaw) of the true pose, every 0.05 s from time 0 on."""
-        return list(self._path)
-
-    def command(self, v: float, w: float) -> None:
-        """From now on, drive at v (m/s, forwards) and w (rad/s, counter-clockwise), within the limits.
-
-        The speed ramps up to it. `robot.command_timeout` (s) after the last command it ramps down to 0.
-
-        Raises:
-            CommandError: v or w is infinite or not a number.
-        """
-        self._drive.command(v, w)
+        return [*(robot.pose for robot in self.robots.values()), *(box.pose for box in self._boxes)]
 
     def advance(self, until: float) -> None:
         """Do the physics steps, if any are due, that end at or before `until` (s)."""
         last = math.floor(until * RATE + 1e-6)
-        drive, contacts, step = self._drive, self._contacts, self._space.step
+        before = [robot.roll for robot in self.robots.values()]
+        after = [robot.feel for robot in self.robots.values() if robot.feel]
+        touches, step = self._touches, self._space.step
         while self._steps < last:
-            drive.roll()
+            for roll in before:
+                roll()
             step(DT)
             self._steps += 1
-            contacts.update(self._steps / RATE)
-            if self._steps % _STEPS_PER_SAMPLE == 0:
-                self._path.append((self.time, *self.pose))
+            touches.update(self._steps / RATE)
+            for feel in after:
+                feel()
+
+    def movers(self, robot: MobileRobot) -> tuple[Rows, Rows]:
+        """What moves around one robot: segments (x0, y0, x1, y1) and discs (x, y, radius); m, map frame."""
+        sides = [side for box in self._boxes for side in box.sides()]
+        radius = self.world.robot.radius
+        others = (other for other in self.robots.values() if other is not robot)
+        return sides, [(*other.pose[:2], radius) for other in others]
+
+    @property
+    def lidar(self) -> LidarModel:
+        """The figures of the robots' lidars."""
+        return self.world.lidar
+
+    @property
+    def pose(self) -> Pose:
+        """See `MobileRobot.pose`."""
+        return self._first.pose
+
+    @property
+    def odometry(self) -> Odometry:
+        """See `MobileRobot.odometry`."""
+        return self._first.odometry
+
+    @property
+    def wheels(self) -> Wheels:
+        """See `MobileRobot.wheels`."""
+        return self._first.wheels
+
+    @property
+    def bumper(self) -> frozenset[str]:
+        """See `MobileRobot.bumper`."""
+        return self._first.bumper
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """See `MobileRobot.contacts`."""
+        return self._first.contacts
+
+    @property
+    def last_scan(self) -> Scan | None:
+        """See `MobileRobot.last_scan`."""
+        return self._first.last_scan
+
+    def command(self, v: float, w: float) -> None:
+        """See `MobileRobot.command`."""
+        self._first.command(v, w)
 
     def scan(self) -> np.ndarray:
-        """One new lidar scan from the true pose: float32, shape (rays,), m; ray 0 forward, counter-clockwise.
-
-        inf: nothing within `lidar.range_max`; -inf: something nearer than `lidar.range_min` (REP-117).
-        """
-        ranges = self._beams.measure(*self.pose, self._rng)
-        self.last_scan = Scan(self.time, self.pose, ranges)
-        return ranges
-
-
-def _add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]:
-    """Add the world's solid things in the order of its file, for the order changes the solver's rounding."""
-    ground = space.static_body
-    shapes: dict[pymunk.Shape, str] = {}
-    shapes |= {pymunk.Segment(ground, start, end, 0): "wall" for start, end in world.walls}
-    shapes |= {pymunk.Poly(ground, box.corners()): "box" for box in world.boxes}
-    shapes |= {
-        pymunk.Circle(ground, circle.radius, (circle.x, circle.y)): "circle" for circle in world.circles
-    }
-    for shape in shapes:
-        shape.friction = _OBSTACLE_FRICTION
-        space.add(shape)
-    return shapes
-
-
-def _check_start(
-    space: pymunk.Space, world: World, robot: RobotModel, obstacles: dict[pymunk.Shape, str]
-) -> None:
-    x, y, _ = world.start
-    hit = space.point_query_nearest((x, y), robot.radius, pymunk.ShapeFilter())
-    if hit:
-        what = obstacles[hit.shape]
-        raise WorldError(
-            f"World {world.name!r}: the robot (radius {robot.radius:g} m) does not fit at the start "
-            f"({x:g}, {y:g}), where a {what} is; move the start or the {what}."
-        )
+        """See `MobileRobot.scan`."""
+        return self._first.scan()

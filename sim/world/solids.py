@@ -1,0 +1,116 @@
+"""The solid things of a world in the physics: those that stand still, and the boxes that can be pushed."""
+
+from __future__ import annotations
+
+import math
+
+import pymunk
+
+from sim.world.description import World
+from sim.world.model import WorldError
+from sim.world.obstacles import MovableBox
+from sim.world.robot import Pose, wrap
+
+_FRICTION = 0.5
+# How deep touching bodies may overlap (m), for a contact to last; pymunk's own 0.1 suits pixels.
+_COLLISION_SLOP = 1e-3
+# The share of any deeper overlap that is left after a second: all of it goes in the next step.
+_COLLISION_BIAS = 0
+
+
+class PushedBox:
+    """A movable box in the physics, held by the floor's friction."""
+
+    def __init__(self, space: pymunk.Space, box: MovableBox) -> None:
+        self._outline = box.outline()
+        self.body = pymunk.Body(box.mass, pymunk.moment_for_box(box.mass, (box.width, box.height)))
+        self.body.position, self.body.angle = (box.x, box.y), box.yaw
+        self.shape = pymunk.Poly(self.body, self._outline)
+        self.shape.friction = _FRICTION
+        space.add(self.body, self.shape)
+        ground = space.static_body
+        pivot = pymunk.PivotJoint(ground, self.body, (box.x, box.y), (0, 0))
+        gear = pymunk.GearJoint(ground, self.body, 0, 1)
+        pivot.max_force, gear.max_force = box.grip, box.twist_grip
+        for joint in (pivot, gear):
+            # Joints of finite force that pass on velocity only: they slow the box and don't pull it back.
+            joint.max_bias = 0
+            space.add(joint)
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
+        x, y = self.body.position
+        return x, y, wrap(self.body.angle)
+
+    def sides(self) -> list[tuple[float, float, float, float]]:
+        """Its four sides in the map frame, each (x0, y0, x1, y1)."""
+        x, y = self.body.position
+        c, s = math.cos(self.body.angle), math.sin(self.body.angle)
+        corners = [(x + c * u - s * v, y + s * u + c * v) for u, v in self._outline]
+        return [
+            (*corner, *following)
+            for corner, following in zip(corners, corners[1:] + corners[:1], strict=True)
+        ]
+
+
+def make_space() -> pymunk.Space:
+    """An empty space that is seen from above."""
+    space = pymunk.Space()
+    space.collision_slop = _COLLISION_SLOP
+    space.collision_bias = _COLLISION_BIAS
+    return space
+
+
+def add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]:
+    """Add what stands still, in the order of the world's file, for the order changes the solver's rounding.
+
+    Returns what each shape is: wall, box or circle.
+    """
+    ground = space.static_body
+    shapes: dict[pymunk.Shape, str] = {}
+    shapes |= {pymunk.Segment(ground, start, end, 0): "wall" for start, end in world.walls}
+    shapes |= {pymunk.Poly(ground, box.corners()): "box" for box in world.boxes}
+    shapes |= {
+        pymunk.Circle(ground, circle.radius, (circle.x, circle.y)): "circle" for circle in world.circles
+    }
+    for shape in shapes:
+        shape.friction = _FRICTION
+        space.add(shape)
+    return shapes
+
+
+def add_boxes(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str]) -> list[PushedBox]:
+    """Add the boxes that can be pushed, in the order of the world's file, and their shapes to `names`.
+
+    Raises:
+        WorldError: one of them is inside something.
+    """
+    boxes = []
+    for number, box in enumerate(world.movable, start=1):
+        boxes.append(added := PushedBox(space, box))
+        for hit in space.shape_query(added.shape):
+            if (
+                hit.shape in names
+                and min(p.distance for p in hit.contact_point_set.points) < -_COLLISION_SLOP
+            ):
+                what = names[hit.shape]
+                raise WorldError(
+                    f"World {world.name!r}: box_{number} does not fit at ({box.x:g}, {box.y:g}), "
+                    f"where a {what} is; move one of the two."
+                )
+        names[added.shape] = "box"
+    return boxes
+
+
+def check_start(space: pymunk.Space, world: World, name: str, names: dict[pymunk.Shape, str]) -> None:
+    """Raise WorldError if the robot of this name, which is not in the space yet, has no room at its start."""
+    x, y, _ = world.starts()[name]
+    hit = space.point_query_nearest((x, y), world.robot.radius, pymunk.ShapeFilter())
+    if hit:
+        what = names[hit.shape]
+        who = "the robot" if name == "robot" else name
+        raise WorldError(
+            f"World {world.name!r}: {who} (radius {world.robot.radius:g} m) does not fit at the start "
+            f"({x:g}, {y:g}), where a {what} is; move the start or the {what}."
+        )
