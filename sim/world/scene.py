@@ -7,7 +7,10 @@ from typing import Protocol
 from sim.world.contacts import Contact
 from sim.world.description import World
 from sim.world.lidar import Scan
+from sim.world.machines import Arm, ArmModel, CartPole, CartPoleModel, Joint, JointModel
 from sim.world.simulation import Simulation
+
+_MACHINES = {JointModel: Joint, ArmModel: Arm, CartPoleModel: CartPole}
 
 
 class Scene(Protocol):
@@ -35,5 +38,7 @@ class Scene(Protocol):
 
 
 def simulate(world: World, seed: int) -> Scene:
-    """The simulation that a world asks for; the seed is for its sensors' noise."""
-    return Simulation(world, seed=seed)
+    """The simulation that a world asks for; the seed is for all that chance decides in it."""
+    if world.machine is None:
+        return Simulation(world, seed)
+    return _MACHINES[type(world.machine)](world, seed)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel
+from sim.world.machines import ArmModel, CartPoleModel, JointModel
 from sim.world.model import Model, ModelError, UnfitError, WorldError, fit, hints, shown, words
 from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
 from sim.world.robot import OtherRobot, RobotModel
@@ -33,7 +34,7 @@ LISTS: dict[str, type[Model]] = {
     "robots": OtherRobot,
 }
 # At most one of these; it becomes `World.machine`.
-MACHINES: dict[str, type[Model]] = {}
+MACHINES: dict[str, type[Model]] = {"joint": JointModel, "arm": ArmModel, "cart_pole": CartPoleModel}
 
 _KEYS = ("bounds", "start", "goal", "walls", *LISTS, *TABLES, *MACHINES, "card")
 _CARD = f"a [card] table with a text for each of {', '.join(CARD_HEADINGS)}"

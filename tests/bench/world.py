@@ -11,6 +11,7 @@ import pymunk
 from sim.world import DT, LidarModel, Simulation, World
 from sim.world.lidar import Lidar
 from tests.bench.report import table
+from tests.sim.world.mobile import MOBILE
 
 SEGMENTS, DISCS, POSES, REACH = 50, 10, 200, 30.0
 PHYSICS_SECONDS = 60
@@ -83,7 +84,7 @@ def lidar() -> None:
 def physics() -> None:
     """Drive a robot about in every world."""
     rows = []
-    for name in World.names():
+    for name in MOBILE:
         simulation = Simulation(World.load(name), seed=1)
         steps = round(PHYSICS_SECONDS / DT)
         begin = time.perf_counter()

@@ -1,0 +1,146 @@
+"""An arm of two joints in a plane, which moves to positions or along a trajectory."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from sim.world.bodies import Body
+from sim.world.machines.machine import Machine, Pose, bar
+from sim.world.machines.servo import THICKNESS, JointModel, Servo
+from sim.world.machines.trajectory import Trajectory, Values, Waypoint
+from sim.world.model import Model
+from sim.world.robot import RATE, CommandError, wrap
+
+if TYPE_CHECKING:
+    from sim.world.description import World
+
+
+class ReachError(ValueError):
+    """A place that the tip of the arm cannot reach."""
+
+
+@dataclass(frozen=True)
+class ArmModel(Model):
+    """Two links in a row, each turned by a joint; the elbow's angle is 0 where the arm is straight.
+
+    Places are in the arm's own frame: metres, its shoulder at the origin, x along the arm at angles 0, 0.
+    """
+
+    shoulder: JointModel = field(default_factory=JointModel)
+    elbow: JointModel = field(default_factory=lambda: JointModel(lower=-2.5, upper=2.5, length=0.4))
+
+    @property
+    def joints(self) -> tuple[JointModel, JointModel]:
+        """The joints from the base to the tip."""
+        return self.shoulder, self.elbow
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves: the two links, each with its x from its own joint to the next one or the tip."""
+        return tuple(
+            Body(name, "link", outline=bar(joint.length, THICKNESS))
+            for name, joint in zip(("upper_arm", "forearm"), self.joints, strict=True)
+        )
+
+    def forward(self, shoulder: float, elbow: float) -> Pose:
+        """Where the tip is (x, y) and which way it points (yaw) at these angles (rad)."""
+        x, y, yaw = self.elbow_pose(shoulder, elbow)
+        return x + self.elbow.length * math.cos(yaw), y + self.elbow.length * math.sin(yaw), yaw
+
+    def elbow_pose(self, shoulder: float, elbow: float) -> Pose:
+        """Where the elbow is and which way the forearm points at these angles (rad)."""
+        upper = self.shoulder.length
+        return upper * math.cos(shoulder), upper * math.sin(shoulder), wrap(shoulder + elbow)
+
+    def inverse(self, x: float, y: float, elbow_left: bool = True) -> tuple[float, float]:
+        """The angles (rad) of shoulder and elbow that bring the tip to a place.
+
+        elbow_left: of the two ways to bend, the one whose elbow angle is positive. The joints' limits are not
+        looked at. Raises ReachError for a place that is too far away or too near.
+        """
+        upper, fore = self.shoulder.length, self.elbow.length
+        distance = math.hypot(x, y)
+        if not abs(upper - fore) <= distance <= upper + fore:
+            raise ReachError(
+                f"The tip can be {abs(upper - fore):g} to {upper + fore:g} m from the shoulder; "
+                f"({x:g}, {y:g}) is {distance:.3g} m away: choose another place."
+            )
+        cosine = (x * x + y * y - upper * upper - fore * fore) / (2 * upper * fore)
+        elbow = math.acos(min(max(cosine, -1.0), 1.0))
+        if not elbow_left:
+            elbow = -elbow
+        inside = math.atan2(fore * math.sin(elbow), upper + fore * math.cos(elbow))
+        return wrap(math.atan2(y, x) - inside), elbow
+
+
+class Arm(Machine):
+    """The arm under way; `world.machine` is its `ArmModel`. Nothing in it is left to chance."""
+
+    def __init__(self, world: World, seed: int = 0) -> None:
+        super().__init__(world)
+        self.model: ArmModel = world.machine
+        self._servos = [Servo(joint) for joint in self.model.joints]
+        self._reference = Trajectory([Waypoint(0.0, self.positions)])
+
+    @property
+    def poses(self) -> list[Pose]:
+        """The poses of both links in the map frame."""
+        shoulder, elbow = self.positions
+        return [self._placed(0.0, 0.0, shoulder), self._placed(*self.model.elbow_pose(shoulder, elbow))]
+
+    @property
+    def positions(self) -> Values:
+        """The joints' angles (rad), shoulder first."""
+        return tuple(servo.position for servo in self._servos)
+
+    @property
+    def velocities(self) -> Values:
+        """How fast the joints turn, rad/s."""
+        return tuple(servo.velocity for servo in self._servos)
+
+    @property
+    def desired(self) -> tuple[Values, Values]:
+        """The positions (rad) and velocities (rad/s) that the joints should have now."""
+        return self._reference.at(self.time)
+
+    def command(self, positions: Sequence[float]) -> None:
+        """From now on, turn each joint to its position (rad), or as far towards it as its limits let it.
+
+        Raises:
+            CommandError: not one finite number for each joint.
+        """
+        if len(positions) != len(self._servos) or not all(map(math.isfinite, positions)):
+            raise CommandError(
+                f"A command is one finite number (rad) for each of the {len(self._servos)} joints; "
+                f"this one was {list(positions)}: check how it was worked out."
+            )
+        self._aim(servo.cut(position) for servo, position in zip(self._servos, positions, strict=True))
+
+    def hold(self) -> None:
+        """Stop as soon as the joints can, and stay there."""
+        self._aim(servo.stop for servo in self._servos)
+
+    def follow(self, waypoints: Sequence[Waypoint], delay: float = 0.0) -> Trajectory:
+        """Go through waypoints from where the arm is, and stay at the last.
+
+        Their times (s) count from `delay` (s) on, from now; one that has passed by now is left out. Returns
+        the trajectory in the arm's own time.
+        """
+        begin = self.time + delay
+        here = Waypoint(max(begin, self.time), self.positions, self.velocities)
+        ahead = [point._replace(time=begin + point.time) for point in waypoints]
+        ahead = [point for point in ahead[:-1] if point.time > here.time] + ahead[-1:]
+        self._reference = Trajectory([here, *ahead])
+        return self._reference
+
+    def _aim(self, positions: Iterable[float]) -> None:
+        self._reference = Trajectory([Waypoint(self.time, tuple(positions))])
+
+    def _step(self) -> None:
+        positions, velocities = self._reference.at((self._steps + 1) / RATE)
+        for servo, position, velocity in zip(self._servos, positions, velocities, strict=True):
+            within = servo.cut(position)
+            servo.step(within, velocity if within == position else 0.0)

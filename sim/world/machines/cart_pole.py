@@ -1,0 +1,190 @@
+"""A cart on a straight track with a pole that swings freely about it, to be balanced."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+import numpy as np
+
+from sim.world.bodies import Body
+from sim.world.machines.machine import Machine, Pose, bar
+from sim.world.model import Angle, Length, Model, above, at_least
+from sim.world.robot import DT, RATE, CommandError
+
+if TYPE_CHECKING:
+    from sim.world.description import World
+
+GRAVITY = 9.81
+"""m/s^2, downwards in the picture."""
+# In one second at 0.005 s a free swing loses less than 1e-9 of its energy; at 0.01 s, 1e-8.
+_SUBSTEPS = 2
+# To find when the cart meets an end of the track; each step doubles the figures that are right.
+_NEWTON_STEPS = 3
+_CART = (0.3, 0.15)
+_POLE_THICKNESS = 0.04
+
+
+class State(NamedTuple):
+    """The cart's place on the track (m, to the right) and the pole's angle (rad), with their rates.
+
+    The angle is 0 where the pole stands upright, counter-clockwise, and not wrapped: pi and -pi hang.
+    """
+
+    x: float
+    angle: float
+    v: float
+    w: float
+
+
+@dataclass(frozen=True)
+class CartPoleModel(Model):
+    """A cart of one mass and a pole whose mass is all at its tip, seen from the side (m, kg, s, rad, N).
+
+    With force F, cart and pole mass M and m, length l, angle a (0 upright, counter-clockwise):
+        (M + m) x'' - m l cos(a) a'' + m l sin(a) a'^2 = F - cart_friction x'
+        m l^2 a'' - m l cos(a) x'' - m g l sin(a) = - pole_friction a'
+
+    Attributes:
+        track_length: the cart's middle can be up to half of it from the middle; the ends stop it dead.
+        cart_friction, pole_friction: N per m/s and N m per rad/s.
+        start_angle, start_spread: the pole starts at this angle, plus or minus up to the spread, by the seed.
+        max_force: the motor's greatest, either way.
+        command_timeout: after so long without a command the motor is off.
+        position_noise, angle_noise: standard deviations of what is measured (m, rad).
+    """
+
+    cart_mass: Annotated[float, above(0, "kg")] = 1.0
+    pole_mass: Annotated[float, above(0, "kg")] = 0.2
+    pole_length: Length = 0.6
+    track_length: Length = 4.0
+    cart_friction: Annotated[float, at_least(0, "N per m/s")] = 0.1
+    pole_friction: Annotated[float, at_least(0, "N m per rad/s")] = 0.002
+    start_angle: Angle = 0.0
+    start_spread: Annotated[float, at_least(0, "radians")] = 0.05
+    max_force: Annotated[float, above(0, "N")] = 20.0
+    command_timeout: Annotated[float, above(0, "s")] = 0.2
+    position_noise: Annotated[float, at_least(0, "metres")] = 0.0
+    angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves: the cart, and the pole with its x from the cart to its tip."""
+        width, height = _CART
+        corners = ((-width, -height), (width, -height), (width, height), (-width, height))
+        cart = Body("cart", "cart", outline=tuple((x / 2, y / 2) for x, y in corners))
+        return cart, Body("pole", "link", outline=bar(self.pole_length, _POLE_THICKNESS))
+
+    def accelerations(self, state: State, force: float, held: bool = False) -> tuple[float, float]:
+        """Return x'' (m/s^2) and a'' (rad/s^2) under a force (N) on the cart.
+
+        held: the cart stands at an end of the track, which keeps it from going on but not from going back.
+        """
+        x, angle, v, w = state
+        c, s = math.cos(angle), math.sin(angle)
+        m, length = self.pole_mass, self.pole_length
+        drag = self.pole_friction * w / length
+        push = force - self.cart_friction * v + m * s * (GRAVITY * c - length * w * w) - c * drag
+        along = push / (self.cart_mass + m * s * s)
+        if held and along * x > 0:
+            along = 0.0
+        return along, (c * along + GRAVITY * s - drag / m) / length
+
+    def energy(self, state: State) -> float:
+        """Kinetic and potential energy, J; 0 at rest with the pole level with the cart."""
+        _, angle, v, w = state
+        m, length = self.pole_mass, self.pole_length
+        swing = length * w
+        kinetic = (self.cart_mass + m) * v * v / 2 + m * swing * (swing / 2 - math.cos(angle) * v)
+        return kinetic + m * GRAVITY * length * math.cos(angle)
+
+
+class CartPole(Machine):
+    """The cart and its pole under way; `world.machine` is its `CartPoleModel`.
+
+    The seed is for the pole's first angle and for the noise of what is measured.
+    """
+
+    def __init__(self, world: World, seed: int = 0) -> None:
+        super().__init__(world)
+        self.model: CartPoleModel = world.machine
+        self._rng = np.random.Generator(np.random.PCG64(seed))
+        spread = self.model.start_spread
+        self.state = State(0.0, self.model.start_angle + self._rng.uniform(-spread, spread), 0.0, 0.0)
+        self._force = 0.0
+        self._steps_left = 0
+
+    @property
+    def poses(self) -> list[Pose]:
+        """The poses of cart and pole in the map frame."""
+        x, angle, _, _ = self.state
+        return [self._placed(x, 0.0, 0.0), self._placed(x, 0.0, angle + math.pi / 2)]
+
+    def command(self, force: float) -> None:
+        """From now on, push the cart with this force (N, to the right), cut to the motor's greatest.
+
+        `model.command_timeout` (s) after the last command the motor is off.
+
+        Raises:
+            CommandError: the force is infinite or not a number.
+        """
+        if not math.isfinite(force):
+            raise CommandError(
+                f"Efforts are finite numbers (N); this one was {force}: check how it was worked out."
+            )
+        self._force = min(max(force, -self.model.max_force), self.model.max_force)
+        self._steps_left = round(self.model.command_timeout * RATE)
+
+    def measure(self) -> State:
+        """What the sensors say now: the state, with noise on place and angle."""
+        model, state = self.model, self.state
+        if not (model.position_noise or model.angle_noise):
+            return state
+        place, turn = self._rng.standard_normal(2)
+        x, angle = state.x + model.position_noise * place, state.angle + model.angle_noise * turn
+        return state._replace(x=float(x), angle=float(angle))
+
+    def _step(self) -> None:
+        if self._steps_left:
+            self._steps_left -= 1
+        else:
+            self._force = 0.0
+        for _ in range(_SUBSTEPS):
+            self.state = self._moved(self.state, DT / _SUBSTEPS)
+
+    def _moved(self, state: State, h: float) -> State:
+        """The state h seconds later. A cart that meets an end of the track stops dead there."""
+        end = math.copysign(self.model.track_length / 2, state.x + h * state.v)
+        held = state.x == end and state.v == 0.0
+        after = self._integrated(state, h, held)
+        if abs(after.x) <= abs(end):
+            return after
+        until = h
+        for _ in range(_NEWTON_STEPS):
+            if after.v * end <= 0:  # it is turning back already: so gentle a touch needs no better moment
+                break
+            until = min(max(until - (after.x - end) / after.v, 0.0), h)
+            after = self._integrated(state, until, held)
+        # The blow acts on the cart; what stays is the pole's angular momentum about the cart.
+        spin = after.w - math.cos(after.angle) * after.v / self.model.pole_length
+        return self._moved(State(end, after.angle, 0.0, spin), h - until)
+
+    def _integrated(self, state: State, h: float, held: bool) -> State:
+        """The state h seconds later by the classic Runge-Kutta method of order 4."""
+        accelerations, force = self.model.accelerations, self._force
+        x, a, v, w = state
+        half = h / 2
+        dv1, dw1 = accelerations(state, force, held)
+        v2, w2 = v + half * dv1, w + half * dw1
+        dv2, dw2 = accelerations((x + half * v, a + half * w, v2, w2), force, held)
+        v3, w3 = v + half * dv2, w + half * dw2
+        dv3, dw3 = accelerations((x + half * v2, a + half * w2, v3, w3), force, held)
+        v4, w4 = v + h * dv3, w + h * dw3
+        dv4, dw4 = accelerations((x + h * v3, a + h * w3, v4, w4), force, held)
+        return State(
+            x + h / 6 * (v + 2 * v2 + 2 * v3 + v4),
+            a + h / 6 * (w + 2 * w2 + 2 * w3 + w4),
+            v + h / 6 * (dv1 + 2 * dv2 + 2 * dv3 + dv4),
+            w + h / 6 * (dw1 + 2 * dw2 + 2 * dw3 + dw4),
+        )

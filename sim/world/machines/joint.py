@@ -1,0 +1,53 @@
+"""A single joint that turns a link to the angle it is told."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from sim.world.machines.machine import Machine, Pose
+from sim.world.machines.servo import Servo
+from sim.world.robot import CommandError
+
+if TYPE_CHECKING:
+    from sim.world.description import World
+
+
+class Joint(Machine):
+    """One position-controlled joint; `world.machine` is its `JointModel`. Nothing in it is left to chance."""
+
+    def __init__(self, world: World, seed: int = 0) -> None:
+        super().__init__(world)
+        self._servo = Servo(world.machine)
+        self._target = self._servo.position
+
+    @property
+    def poses(self) -> list[Pose]:
+        """The link's pose in the map frame."""
+        return [self._placed(0.0, 0.0, self._servo.position)]
+
+    @property
+    def position(self) -> float:
+        """The joint's angle (rad), counter-clockwise."""
+        return self._servo.position
+
+    @property
+    def velocity(self) -> float:
+        """How fast it turns, rad/s."""
+        return self._servo.velocity
+
+    def command(self, position: float) -> None:
+        """From now on, turn to this angle (rad), or as far towards it as the limits let the joint.
+
+        Raises:
+            CommandError: the position is infinite or not a number.
+        """
+        if not math.isfinite(position):
+            raise CommandError(
+                f"Joint commands are finite numbers (rad); this one was {position}: "
+                "check how it was worked out."
+            )
+        self._target = self._servo.cut(position)
+
+    def _step(self) -> None:
+        self._servo.step(self._target)

@@ -1,0 +1,107 @@
+"""A joint with a motor that holds a position: it follows a reference as fast as its limits allow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+from sim.world.bodies import Body
+from sim.world.machines.machine import bar
+from sim.world.model import Angle, Length, Model, above
+from sim.world.robot import DT
+
+# A reference that changes speed with just the greatest acceleration can be followed.
+_ROUNDING = 1 + 1e-9
+THICKNESS = 0.06
+"""Of a link in pictures, m."""
+
+
+@dataclass(frozen=True)
+class JointModel(Model):
+    """One revolute joint and the link that it turns (rad, rad/s, rad/s^2, m). 0 is along x of what holds it.
+
+    Attributes:
+        lower, upper: the angles at which the joint ends.
+        start: its angle at time 0.
+        max_velocity, max_acceleration: what its motor can do, in either direction.
+        length: of the link, from this joint to the next, or to the tip.
+    """
+
+    lower: Angle = -math.pi / 2
+    upper: Angle = math.pi / 2
+    start: Angle = 0.0
+    max_velocity: Annotated[float, above(0, "rad/s")] = 1.0
+    max_acceleration: Annotated[float, above(0, "rad/s^2")] = 2.0
+    length: Length = 0.5
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.lower < self.upper:
+            self.refuse("lower", f"an angle (radians) below upper, which is {self.upper:g}")
+        if not self.lower <= self.start <= self.upper:
+            self.refuse("start", f"an angle (radians) from lower to upper, {self.lower:g} to {self.upper:g}")
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves: the link, whose x points from the joint to the tip."""
+        return (Body("link", "link", outline=bar(self.length, THICKNESS)),)
+
+
+class Servo:
+    """Position control with a trapezoidal velocity profile: at once towards the reference, with the greatest
+    acceleration up to the greatest velocity, and braking in time.
+
+    The reference may move, and change at any moment: the joint's velocity never jumps, and its position never
+    leaves the limits.
+    """
+
+    def __init__(self, model: JointModel) -> None:
+        self.model = model
+        self.position = model.start
+        self.velocity = 0.0
+
+    def cut(self, position: float) -> float:
+        """The position (rad) that a command for this one means: the nearest one within the limits."""
+        return min(max(position, self.model.lower), self.model.upper)
+
+    @property
+    def stop(self) -> float:
+        """Where (rad) the joint stands still if it brakes from now on."""
+        return self.cut(
+            self.position + self.velocity * abs(self.velocity) / (2 * self.model.max_acceleration)
+        )
+
+    def step(self, reference: float, rate: float = 0.0) -> None:
+        """Move for one step.
+
+        reference, rate: where (rad) the joint should be at the step's end, and how fast (rad/s) it should
+        turn there.
+        """
+        model, q, v = self.model, self.position, self.velocity
+        most = model.max_acceleration * DT
+        off = reference - q - (v + rate) / 2 * DT
+        if (
+            abs(off) <= most * DT / 2
+            and abs(rate - v) <= most * _ROUNDING
+            and abs(rate) <= model.max_velocity
+        ):
+            self._set(reference, rate)
+            return
+        gap = reference - rate * DT - q
+        ahead = math.copysign(1.0, gap)
+        wanted = rate + ahead * self._speed_within(abs(gap), ahead * (v - rate))
+        wanted = min(max(wanted, v - most, -model.max_velocity), v + most, model.max_velocity)
+        wanted = min(wanted, self._speed_within(model.upper - q, v))
+        wanted = max(wanted, -self._speed_within(q - model.lower, -v))
+        self._set(q + (v + wanted) / 2 * DT, wanted)
+
+    def _speed_within(self, distance: float, speed: float) -> float:
+        """The greatest speed after a step, begun with `speed`, from which it can stop within `distance`."""
+        limit = self.model.max_acceleration
+        rest = distance - speed * DT / 2
+        return limit * (math.sqrt(DT * DT / 4 + 2 * rest / limit) - DT / 2) if rest > 0 else 0.0
+
+    def _set(self, position: float, velocity: float) -> None:
+        self.position = self.cut(position)
+        self.velocity = velocity if self.position == position else 0.0
