@@ -6,18 +6,34 @@ from typing import Any
 
 from sim.recording import Pose, Recording
 from sim.ros.processes import Process
-from sim.world import Scene
+from sim.world import MobileRobot, OtherRobot, Scene, Simulation
 
 
-def machines(scene: Scene, recording: Recording | None) -> list[Process]:
+def machines(scene: Any, recording: Recording | None) -> list[Process]:
     """What a run starts before the student's programs; without a recording, nothing is written down."""
+    world = scene.world
+    robots = [
+        _robot(scene, robot, recording if robot.name == "robot" else None) for robot in scene.robots.values()
+    ]
+    return robots + [_driver(robot, world.robot.radius) for robot in world.robots if robot.route]
 
+
+def _robot(scene: Simulation, mobile: MobileRobot, recording: Recording | None) -> Process:
     def robot() -> Any:
         from sim.ros.robot import Robot  # here, because it imports message packages, which takes a while
 
-        return Robot(scene, recording)
+        return Robot(scene, mobile, recording)
 
-    return [Process(robot)]
+    return Process(robot)
+
+
+def _driver(robot: OtherRobot, radius: float) -> Process:
+    def driver() -> Any:
+        from sim.ros.route_driver import RouteDriver
+
+        return RouteDriver(robot, radius)
+
+    return Process(driver)
 
 
 def track(scene: Scene, recording: Recording | None, stamp: float) -> None:

@@ -1,4 +1,4 @@
-"""The simulated robot as an ordinary ROS 2 node: commands in, sensors out."""
+"""A simulated robot as an ordinary ROS 2 node: commands in, sensors out."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from tf2_msgs.msg import TFMessage
 from sim.recording import Recording
 from sim.ros.codec import encode
 from sim.ros.fibers import SECOND
+from sim.ros.imu import ImuTopic
 from sim.ros.machines import track
 from sim.ros.template import Template
-from sim.world import CommandError, Simulation
+from sim.world import CommandError, MobileRobot, Simulation
 
 SENSOR_RATE = 20.0  # Hz
-BASE, ODOM = "base_link", "odom"
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
@@ -29,20 +29,30 @@ TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
 class Robot(Node):
-    """A differential-drive robot with a 360-ray lidar and a bumper.
+    """A differential-drive robot with a lidar, a bumper and, where the world says so, an IMU.
 
-    Subscribes /cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
-    Publishes at 20 Hz /odom, /scan, /joint_states, /tf (odom -> base_link), /bumper (std_msgs/Bool) and
-    /clock, all reliable, which best-effort subscriptions can hear too. /odom starts at zero where the robot
-    starts; the lidar sits at base_link's origin.
+    Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
+    Publishes at 20 Hz odom, scan, joint_states, bumper (std_msgs/Bool) and /tf (odom -> base_link), and
+    imu/data at the IMU's rate; all reliable, which best-effort subscriptions can hear too. odom starts at
+    zero where the robot starts; lidar and IMU sit at base_link's origin.
+
+    The world's first robot is in the root namespace, and publishes /clock. Any other one has its name as
+    namespace, and before the names of its frames.
+
+    recording: gets the tracks of everything that moves; None if another robot sees to that or nobody does.
     """
 
-    def __init__(self, simulation: Simulation, recording: Recording | None) -> None:
-        super().__init__("robot", start_parameter_services=False)
-        self.simulation, self.recording = simulation, recording
+    def __init__(self, scene: Simulation, robot: MobileRobot, recording: Recording | None) -> None:
+        self.first = robot.name == "robot"
+        super().__init__(
+            "robot", namespace=None if self.first else robot.name, start_parameter_services=False
+        )
+        self.scene, self.robot, self.recording = scene, robot, recording
+        frames = "" if self.first else f"{robot.name}/"
+        self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
         self._make_templates()
         self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
-        self.clock_pub = self.create_publisher(Clock, "/clock", 1)
+        self.clock_pub = self.create_publisher(Clock, "/clock", 1) if self.first else None
         self.odom_pub = self.create_publisher(Odometry, "odom", 10)
         self.tf_pub = self.create_publisher(TFMessage, "/tf", 100)
         self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
@@ -50,20 +60,25 @@ class Robot(Node):
         self.bumper_pub = self.create_publisher(Bool, "bumper", 10)
         self.sense()
         self.create_timer(1.0 / SENSOR_RATE, self.sense)
+        imu = scene.world.imu
+        if imu is not None:
+            self.imu = ImuTopic(self, robot, imu, self.base_frame)
+            self.feel()
+            self.create_timer(1.0 / imu.rate, self.feel)
 
     def _make_templates(self) -> None:
         self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
-        odom = Odometry(header=Header(frame_id=ODOM), child_frame_id=BASE)
+        odom = Odometry(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
         pose = [f"pose.pose.{name}" for name in POSE]
         self.odom = Template(odom, [*STAMP, *pose, "twist.twist.linear.x", "twist.twist.angular.z"])
-        transform = TransformStamped(header=Header(frame_id=ODOM), child_frame_id=BASE)
+        transform = TransformStamped(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
         fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
         self.tf = Template(TFMessage(transforms=[transform]), [f"transforms.0.{field}" for field in fields])
         joints = JointState(name=WHEELS, position=[0.0, 0.0], velocity=[0.0, 0.0])
         self.joints = Template(joints, [*STAMP, "position", "velocity"])
-        lidar = self.simulation.lidar
+        lidar = self.scene.world.lidar
         scan = LaserScan(
-            header=Header(frame_id=BASE),
+            header=Header(frame_id=self.base_frame),
             angle_max=math.tau - lidar.angle_increment,
             angle_increment=lidar.angle_increment,
             scan_time=1 / SENSOR_RATE,
@@ -76,23 +91,36 @@ class Robot(Node):
 
     def on_cmd_vel(self, command: Twist) -> None:
         """Drive on to now with the old command, then take the new one."""
-        self.simulation.advance(self.get_clock().now().nanoseconds / SECOND)
+        self.move_to_now()
         try:
-            self.simulation.command(command.linear.x, command.angular.z)
+            self.robot.command(command.linear.x, command.angular.z)
         except CommandError as error:
             self.get_logger().error(str(error), throttle_duration_sec=1.0)
 
+    def move_to_now(self) -> int:
+        """Move the world to the node's time; that time in nanoseconds."""
+        now = self.get_clock().now().nanoseconds
+        self.scene.advance(now / SECOND)
+        return now
+
+    def feel(self) -> None:
+        """Publish what the IMU measures."""
+        self.imu.publish(self.move_to_now())
+
     def sense(self) -> None:
-        """Move the world to now and publish what the sensors see."""
-        simulation, now = self.simulation, self.get_clock().now().nanoseconds
-        simulation.advance(now / SECOND)
-        track(simulation, self.recording, now / SECOND)
+        """Publish what the other sensors see."""
+        robot, now = self.robot, self.move_to_now()
+        if self.recording is not None:
+            track(self.scene, self.recording, now / SECOND)
+        else:
+            robot.forget()
         stamp = divmod(now, SECOND)
-        x, y, yaw, v, w = simulation.odometry
+        x, y, yaw, v, w = robot.odometry
         pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
-        self.clock_pub.publish(self.clock.fill(*stamp))
+        if self.clock_pub is not None:
+            self.clock_pub.publish(self.clock.fill(*stamp))
         self.odom_pub.publish(self.odom.fill(*stamp, *pose, v, w))
         self.tf_pub.publish(self.tf.fill(*stamp, *pose))
-        self.joint_pub.publish(self.joints.fill(*stamp, *simulation.wheels))
-        self.scan_pub.publish(self.scan.fill(*stamp, simulation.scan().tobytes()))
-        self.bumper_pub.publish(self.bumper[bool(simulation.bumper)])
+        self.joint_pub.publish(self.joints.fill(*stamp, *robot.wheels))
+        self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
+        self.bumper_pub.publish(self.bumper[bool(robot.bumper)])

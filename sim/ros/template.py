@@ -45,8 +45,8 @@ class Template:
         *path, name = field.split(".")
         owner = message
         for step in path:
-            owner = owner[int(step)] if step.isdecimal() else getattr(owner, step)
-        before = getattr(owner, name)
+            owner = _get(owner, step)
+        before = _get(owner, name)
         if isinstance(before, array.array):
             place = None if before.typecode == "f" else _FLOAT64
             mark = array.array(before.typecode, _MARK * len(before) * before.itemsize)
@@ -55,8 +55,19 @@ class Template:
             place = _FLOAT64 if isinstance(before, float) else _INT32
             size, count = place.size, 1
             mark = place.unpack(_MARK * size)[0]
-        setattr(owner, name, mark)
+        _set(owner, name, mark)
         raw = canonical(type_name(type(message)), encode(message))
-        setattr(owner, name, before)
+        _set(owner, name, before)
         offset = raw.index(_MARK * size)
         return [(place, offset + 8 * index) for index in range(count)]
+
+
+def _get(owner: Any, step: str) -> Any:
+    return owner[int(step)] if step.isdecimal() else getattr(owner, step)
+
+
+def _set(owner: Any, step: str, value: Any) -> None:
+    if step.isdecimal():
+        owner[int(step)] = value
+    else:
+        setattr(owner, step, value)

@@ -9,6 +9,7 @@ from sim.world.mobile_robot import MobileRobot
 from sim.world.model import ModelError, WorldError
 from sim.world.obstacles import Box, Circle, MovableBox
 from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, Wheels
+from sim.world.route import Route
 from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
 
@@ -28,6 +29,7 @@ __all__ = [
     "Odometry",
     "OtherRobot",
     "RobotModel",
+    "Route",
     "Scan",
     "Scene",
     "Simulation",
