@@ -17,6 +17,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sim.exchanges import Call, Goal, is_node_service
+from sim.graph import Endpoint as Endpoint
+from sim.graph import Graph
+from sim.graph import TimerInfo as TimerInfo
 from sim.world import Contact, World
 
 if TYPE_CHECKING:
@@ -81,24 +85,6 @@ class Pose(NamedTuple):
     yaw: float
 
 
-class Endpoint(NamedTuple):
-    """One end of a topic, service or action, as a node declared it."""
-
-    kind: str  # publisher, subscription, service, client, action server, action client
-    node: str
-    name: str  # resolved name, e.g. "/robot1/cmd_vel"
-    type: str
-    qos: dict[str, Any]  # reliability, durability, history, depth; {} for actions
-
-
-class TimerInfo(NamedTuple):
-    """One timer as a node created it."""
-
-    node: str
-    period: Seconds
-    callback: str
-
-
 class Ended(NamedTuple):
     """Why the run ended: time, goal, finished, error, hang, livelock, blocked or interrupted."""
 
@@ -108,26 +94,6 @@ class Ended(NamedTuple):
 
 
 STILL_RUNNING = Ended("running", 0.0, "The run has not ended yet.")
-
-
-@dataclass
-class Graph:
-    """All nodes of a run and what they were connected to."""
-
-    nodes: list[str] = field(default_factory=list)
-    endpoints: list[Endpoint] = field(default_factory=list)
-    timers: list[TimerInfo] = field(default_factory=list)
-
-    def publishers(self, topic: str | None = None) -> list[Endpoint]:
-        """Publishers, of one topic or of all."""
-        return self._ends("publisher", topic)
-
-    def subscriptions(self, topic: str | None = None) -> list[Endpoint]:
-        """Subscriptions, of one topic or of all."""
-        return self._ends("subscription", topic)
-
-    def _ends(self, kind: str, name: str | None) -> list[Endpoint]:
-        return [e for e in self.endpoints if e.kind == kind and name in (None, e.name)]
 
 
 # Chatter of ROS itself: recorded, but not offered as something a student's node said.
@@ -143,6 +109,8 @@ class Recording:
     seed: int = 0
     stamp: Seconds = 0.0  # how far the run has come
     heard: list[Heard] = field(default_factory=list)
+    calls: list[Call] = field(default_factory=list)  # of services, in the order they were asked
+    goals: list[Goal] = field(default_factory=list)  # of actions, in the order they were asked
     path: list[Pose] = field(default_factory=list)
     # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
     tracks: dict[str, list[Pose]] = field(default_factory=dict)
@@ -165,6 +133,33 @@ class Recording:
             return [h for h in wanted if h.topic not in INFRASTRUCTURE_TOPICS]
         return [h for h in wanted if h.topic == topic]
 
+    def calls_of(
+        self, service: str | None = None, client: str | None = None, server: str | None = None
+    ) -> list[Call]:
+        """Calls in the order they were asked; of one service, or all but those that every node has.
+
+        service: resolved name, e.g. "/add". client, server: a node that asked or answered, e.g. "/adder".
+        """
+        return [
+            call
+            for call in self.calls
+            if (not is_node_service(call.service) if service is None else call.service == service)
+            and client in (None, call.client)
+            and server in (None, call.server)
+        ]
+
+    def goals_of(
+        self, action: str | None = None, client: str | None = None, server: str | None = None
+    ) -> list[Goal]:
+        """Goals in the order they were asked; of one action, of one client or server, or all."""
+        return [
+            goal
+            for goal in self.goals
+            if action in (None, goal.action)
+            and client in (None, goal.client)
+            and server in (None, goal.server)
+        ]
+
     @property
     def topics(self) -> dict[str, str]:
         """Topic name to type, for every topic with a publisher, sorted by name."""
@@ -182,6 +177,8 @@ class Recording:
                 f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {len(heard.raw)} ".encode()
             )
             digest.update(heard.raw)
+        for exchange in (*self.calls, *self.goals):
+            digest.update(repr(exchange).encode())
         digest.update(json.dumps(self._evidence(), sort_keys=True).encode())
         return digest.hexdigest()
 

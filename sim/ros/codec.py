@@ -18,9 +18,15 @@ def type_name(message_class: type) -> str:
 
 @functools.cache
 def message_class(name: str) -> type:
-    """The class of that name, e.g. "std_msgs/msg/String". Raises ImportError or AttributeError for none."""
+    """The class of that name, e.g. "std_msgs/msg/String" or "std_srvs/srv/SetBool_Request".
+
+    Raises ImportError or AttributeError for none.
+    """
     package, kind, short = name.split("/")
-    return getattr(importlib.import_module(f"{package}.{kind}"), short)
+    module = importlib.import_module(f"{package}.{kind}")
+    whole, _, part = short.partition("_")  # a name of ROS's own has no underscore
+    parts = vars(getattr(module, whole)) if part else {}  # an action's, which its module hides
+    return parts[part] if part in parts else getattr(module, short)
 
 
 def encode(message: Any) -> bytes:
@@ -31,3 +37,9 @@ def encode(message: Any) -> bytes:
 def decode(name: str, raw: bytes) -> Any:
     """A message object from its type's name and its bytes."""
     return deserialize_message(raw, message_class(name))
+
+
+def expect(message: Any, wanted: type) -> None:
+    """Raise the TypeError that rclpy raises for a message of another type; but rclpy's has no words."""
+    if not isinstance(message, wanted):
+        raise TypeError(f"Expected {wanted}, got {type(message)}")

@@ -14,6 +14,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
 from sim.ros.callbacks import Work
+from sim.ros.codec import encode, expect
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
@@ -120,6 +121,7 @@ class Questions:
             future = client.get_pending_request(header.request_id.sequence_number)
         except KeyError:  # nobody waits for this answer any more
             return
+        self.engine.recorder.calls.received(client, header.request_id.sequence_number)
         future._set_executor(self.executor)
         future.set_result(response)
 
@@ -130,14 +132,25 @@ class Questions:
         if header is None:
             return None
 
+        calls = self.engine.recorder.calls
+        call = calls.taken(service, node, header.request_id.sequence_number, request)
+
+        def respond(response: Any) -> None:
+            expect(response, service.srv_type.Response)
+            raw = encode(response)
+            service.send_response(response, header)
+            calls.answered(call, raw)
+
         def answer() -> None:
-            service.send_response(service.callback(request, service.srv_type.Response()), header)
+            with calls.answering(call):
+                respond(service.callback(request, service.srv_type.Response()))
 
         async def answer_later() -> None:
-            service.send_response(await service.callback(request, service.srv_type.Response()), header)
+            with calls.answering(call):
+                respond(await service.callback(request, service.srv_type.Response()))
 
-        call = answer_later if inspect.iscoroutinefunction(service.callback) else answer
-        return Work("service", service, node, call, (), service.callback)
+        function = answer_later if inspect.iscoroutinefunction(service.callback) else answer
+        return Work("service", service, node, function, (), service.callback)
 
     def _action_server(self, server: Any, node: Any) -> Work | None:
         if not self._free(server):
@@ -161,7 +174,10 @@ class Questions:
             client._is_result_response_ready
         ) = True
         client._is_feedback_ready = client._is_status_ready = True
-        return self._waitable(client, node, client.take_data(), "action")
+        data = client.take_data()
+        if data:
+            self.engine.recorder.goals.client_took(client, data)
+        return self._waitable(client, node, data, "action")
 
     def _event(self, handler: Any, node: Any) -> Work | None:
         handler._ready_to_take_data = True

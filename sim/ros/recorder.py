@@ -13,6 +13,7 @@ from rclpy.action import ActionClient, ActionServer
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
+from sim.exchanges import is_node_service
 from sim.recording import (
     INFRASTRUCTURE_TOPICS,
     CallbackError,
@@ -24,19 +25,16 @@ from sim.recording import (
     TimerInfo,
 )
 from sim.ros.callbacks import Running, callback_name
+from sim.ros.calls import Calls
 from sim.ros.cdr import canonical
 from sim.ros.codec import type_name
 from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
+from sim.ros.goals import Goals
 
 MAX_MESSAGES_PER_INSTANT = 20_000
 MAX_MESSAGE_BYTES = 500_000_000  # of a run
 MAX_LOG_LINES = 100_000
 MAX_PRINTED = 1_000_000  # characters
-# Services that every node has: of no interest to a reader of the graph.
-NODE_SERVICES = frozenset({
-    "describe_parameters", "get_parameter_types", "get_parameters", "list_parameters", "set_parameters",
-    "set_parameters_atomically", "get_type_description", "get_logger_levels", "set_logger_levels",
-})  # fmt: skip
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 NO_FAULT = (
     RunOver,
@@ -56,6 +54,7 @@ class Recorder:
     def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
         self.scheduler, self.recording = scheduler, recording
         self.open = True
+        self.calls, self.goals = Calls(self), Goals(self)
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
         self._printed = self._bytes = 0
         self._known: list[BaseException] = []
@@ -82,7 +81,7 @@ class Recorder:
 
     def endpoint(self, kind: str, node: Any, name: str, type_: type, qos: Any = None) -> None:
         """A node declared one end of a topic, service or action."""
-        infrastructure = name in INFRASTRUCTURE_TOPICS or name.rsplit("/", 1)[-1] in NODE_SERVICES
+        infrastructure = name in INFRASTRUCTURE_TOPICS or is_node_service(name)
         if self.open and not infrastructure:
             end = Endpoint(kind, self.name_of(node), name, type_name(type_), _qos(qos))
             self.recording.graph.endpoints.append(end)
@@ -95,10 +94,8 @@ class Recorder:
             )
             self.recording.graph.timers.append(info)
 
-    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
-        """A message was published. Raises Livelock for too many."""
-        if not self.open:
-            return
+    def count(self, sender: str, size: int) -> None:
+        """A node sent a message, request or the like, of so many bytes. Raises Livelock for too many."""
         now = self.scheduler.now
         if now != self._instant:
             self._instant, self._messages = now, 0
@@ -108,12 +105,18 @@ class Recorder:
                 f"{sender} published {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
                 " without letting time move on"
             )
-        self._bytes += len(raw)
+        self._bytes += size
         if self._bytes > MAX_MESSAGE_BYTES:
             self.scheduler.refuse_to_go_on(
                 f"the nodes published more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
-        self.recording.heard.append(Heard(now / SECOND, topic, type_, sender, canonical(type_, raw)))
+
+    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+        """A message was published. Raises Livelock for too many."""
+        if not self.open:
+            return
+        self.count(sender, len(raw))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, canonical(type_, raw)))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""

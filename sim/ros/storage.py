@@ -8,8 +8,9 @@ is ever executed: no pickle.
 from __future__ import annotations
 
 import json
+from base64 import b64decode, b64encode
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from ament_index_python.packages import get_package_share_directory
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
+from sim.exchanges import Call, Goal
 from sim.recording import (
     CallbackError,
     CallbackRun,
@@ -36,7 +38,18 @@ from sim.world import World, WorldError
 
 ATTACHMENT = "recording.json"
 FORMAT = 3  # of the attachment; raise it when what is in there changes
+
+
+def _goal(*values: Any) -> Goal:
+    goal = Goal(*values)
+    goal.events = [(stamp, word) for stamp, word in goal.events]
+    goal.feedback = [Heard(*heard) for heard in goal.feedback]
+    return goal
+
+
 ROWS = {
+    "calls": Call,
+    "goals": _goal,
     "path": Pose,
     "contacts": Contact,
     "logs": LogLine,
@@ -61,9 +74,22 @@ def write(recording: Recording, path: Path) -> Path:
         writer = Writer(file)
         writer.start(profile="ros2", library="sim")
         _write_messages(writer, recording.heard)
-        writer.add_attachment(0, 0, ATTACHMENT, "application/json", json.dumps(rest, sort_keys=True).encode())
+        writer.add_attachment(0, 0, ATTACHMENT, "application/json", _pack(rest))
         writer.finish()
     return path
+
+
+def _pack(rest: dict[str, Any]) -> bytes:
+    """As JSON, with bytes as {"base64": text} and rows as lists."""
+
+    def plain(value: Any) -> Any:
+        return {"base64": b64encode(value).decode()} if isinstance(value, bytes) else astuple(value)
+
+    return json.dumps(rest, sort_keys=True, default=plain).encode()
+
+
+def _unpack(data: bytes) -> dict[str, Any]:
+    return json.loads(data, object_hook=lambda item: b64decode(item["base64"]) if "base64" in item else item)
 
 
 def _write_messages(writer: Writer, heard: list[Heard]) -> None:
@@ -129,7 +155,7 @@ def _parse(path: Path, data: bytes) -> Recording:
         raise StorageError(
             f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
         )
-    rest = json.loads(attachments[ATTACHMENT])
+    rest = _unpack(attachments[ATTACHMENT])
     if rest["format"] != FORMAT:
         raise StorageError(
             f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."

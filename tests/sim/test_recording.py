@@ -2,6 +2,7 @@
 
 import json
 import random
+from dataclasses import replace
 
 import pytest
 from mcap.reader import make_reader
@@ -9,10 +10,16 @@ from mcap.writer import Writer
 from std_msgs.msg import Int32
 
 from sim import Recording, run
+from sim.exchanges import Call, Goal
 from sim.recording import Ended, Heard, rate, stamps
 from sim.ros.codec import decode, encode
 from sim.ros.storage import ATTACHMENT, FORMAT, StorageError
 from tests.students.engine import actions, errors, mains, names, services, threads
+
+CALL = Call("/add", "example_interfaces/srv/AddTwoInts", "/customer", b"\0\1\0\0", 1.0)
+CALLS = [CALL, replace(CALL, asked=1.1), replace(CALL, raw_response=b"\0"), replace(CALL, raised="KeyError")]
+GOAL = Goal("/fibonacci", "example_interfaces/action/Fibonacci", "/customer", "00" * 16, b"\0\1\0\0", 1.0)
+GOALS = [GOAL, replace(GOAL, received=1.5), replace(GOAL, events=[(1.0, "accepted")])]
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +96,8 @@ def test_the_digest_depends_on_all_evidence_and_not_on_what_was_printed():
         Recording(heard=[heard._replace(sender="/d")]), Recording(heard=[heard._replace(raw=b"\0\1\0\0\1")]),
         Recording(heard=[heard, heard]), Recording(heard=[heard], ended=Ended("goal", 1.0, "")),
         Recording(heard=[heard], seed=1), Recording(heard=[heard], seconds=1),
+        *(Recording(heard=[heard], calls=[call]) for call in CALLS),
+        *(Recording(heard=[heard], goals=[goal]) for goal in GOALS),
     ]  # fmt: skip
     assert len({recording.digest for recording in [plain, *others]}) == len(others) + 1
     assert len(plain.digest) == 32 and int(plain.digest, 16)
@@ -103,6 +112,8 @@ def test_a_saved_recording_comes_back_equal(driven, tmp_path):
     assert again.world == driven.world and again.contacts == driven.contacts
     assert again.graph.publishers("/count") == driven.graph.publishers("/count")
     assert again.prints == [(0.0, "hello"), (0.0, "\n")]
+    assert again.calls == driven.calls and again.calls[0].response.sum == 5
+    assert again.goals == driven.goals and again.goals[0].feedback[0].message.sequence[2] == 1
 
 
 def test_saving_twice_gives_the_same_bytes(driven, tmp_path):

@@ -46,10 +46,12 @@ def install() -> None:
     if _replaced:
         return
     from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
+        actions,
         executors,
         graph,
         processes,
         ros_time,
+        services,
         threads,
         time_and_chance,
     )

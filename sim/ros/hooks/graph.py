@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.action import ActionClient, ActionServer
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from sim.ros.callbacks import recorded
 from sim.ros.codec import type_name
 from sim.ros.fibers import engine
 from sim.ros.hooks import hook
@@ -51,34 +49,6 @@ def create_subscription(original: Callable) -> Callable:
     return create_subscription
 
 
-@hook(Node, "create_service", "the graph")
-def create_service(original: Callable) -> Callable:
-    def create_service(self: Node, srv_type: Any, srv_name: str, *arguments: Any, **keywords: Any) -> Any:
-        service = original(self, srv_type, srv_name, *arguments, **keywords)
-        run = engine()
-        if run is not None:
-            name = self.resolve_service_name(srv_name)
-            run.recorder.endpoint("service", self, name, srv_type, service.qos_profile)
-        return service
-
-    return create_service
-
-
-@hook(Node, "create_client", "the graph; and services are asked for requests only once there is a client")
-def create_client(original: Callable) -> Callable:
-    def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
-        client = original(self, srv_type, srv_name, **keywords)
-        run = engine()
-        if run is not None:
-            run.has_clients = run.eager = True
-            run.endpoints_changed()
-            name = client._sim_name = self.resolve_service_name(srv_name)
-            run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
-        return client
-
-    return create_client
-
-
 @hook(Node, "create_timer", "the graph")
 def create_timer(original: Callable) -> Callable:
     def create_timer(self: Node, *arguments: Any, **keywords: Any) -> Any:
@@ -89,40 +59,6 @@ def create_timer(original: Callable) -> Callable:
         return timer
 
     return create_timer
-
-
-def _action_end(owner: type, kind: str) -> None:
-    @hook(owner, "__init__", "the graph")
-    def init(original: Callable) -> Callable:
-        def __init__(
-            self: Any, node: Node, action_type: Any, action_name: str, *more: Any, **keywords: Any
-        ) -> None:
-            original(self, node, action_type, action_name, *more, **keywords)
-            run = engine()
-            if run is not None:
-                run.eager = True
-                run.recorder.endpoint(kind, node, node.resolve_service_name(action_name), action_type)
-
-        return __init__
-
-
-_action_end(ActionServer, "action server")
-_action_end(ActionClient, "action client")
-
-
-@hook(
-    ActionServer,
-    "_execute_goal",
-    "rclpy prints an exception of an execute callback and goes on; the recording keeps it",
-)
-def execute_goal(original: Callable) -> Callable:
-    async def _execute_goal(self: ActionServer, execute_callback: Any, goal_handle: Any) -> None:
-        run = engine()
-        if run is None:
-            return await original(self, execute_callback, goal_handle)
-        return await original(self, recorded(run, execute_callback, self._node), goal_handle)
-
-    return _execute_goal
 
 
 @hook(Publisher, "publish", "every message is recorded as the bytes that are sent")

@@ -19,7 +19,8 @@ FIRST_ERROR = {
         "'Trigger_Response' object has no attribute 'missing'",
     ),
     errors.ServiceThatReturnsNothing: (
-        1.0, "/server", "ServiceThatReturnsNothing.answer", "TypeError", "",
+        1.0, "/server", "ServiceThatReturnsNothing.answer", "TypeError",
+        "Expected <class 'example_interfaces.srv._trigger.Trigger_Response'>, got <class 'NoneType'>",
     ),
     errors.in_main: (0.0, "/in_main", "in_main", "RuntimeError", "at once"),
     errors.in_thread: (0.0, "/threads", "thread work", "KeyError", "'in thread'"),
@@ -50,7 +51,7 @@ FIRST_ERROR = {
     ),
     errors.starts_a_run: (
         0.0, "/starts_a_run", "starts_a_run", "RuntimeError",
-        "run() is running already: a node can't start another run.",
+        "run() can't start another run here: this is a node of one under way.",
     ),
     errors.wrong_qos: (
         0.0, "/qos", "wrong_qos", "TypeError",

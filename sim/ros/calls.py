@@ -1,0 +1,110 @@
+"""Writes down the calls of services: who asked, who answered, when, and what."""
+
+from __future__ import annotations
+
+import contextlib
+from collections import defaultdict, deque
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import HistoryPolicy
+
+from sim.exchanges import Call
+from sim.ros.cdr import canonical
+from sim.ros.codec import encode, type_name
+
+if TYPE_CHECKING:
+    from sim.ros.recorder import Recorder
+
+# A request that was sent: its number among those of its client, and its calls, one for each server.
+Request = tuple[int, list[Call]]
+
+
+class Calls:
+    """The calls of one run.
+
+    What a server takes doesn't say who sent it: rclpy hides that part of a request's header. But requests
+    come in the order they were sent. So each service has an inbox, which forgets what its queue forgets, and
+    what is taken is looked up there.
+    """
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._inboxes: dict[str, list[deque[Request]]] = defaultdict(list)
+
+    def client_made(self, client: Any, node: Any, name: str) -> None:
+        """A node made a client of the service of this resolved name."""
+        client._sim_identity = name, type_name(client.srv_type), self._recorder.name_of(node)
+        client._sim_requests = {}
+
+    def service_made(self, service: Any) -> None:
+        """A node made a service: from now on requests reach it."""
+        profile = service.qos_profile
+        keeps_last = profile.history is HistoryPolicy.KEEP_LAST
+        service._sim_name = service.service_name
+        service._sim_inbox = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
+        self._inboxes[service._sim_name].append(service._sim_inbox)
+
+    def asked(self, client: Any, number: int, raw: bytes) -> None:
+        """A client sent a request."""
+        recorder = self._recorder
+        if not recorder.open:
+            return
+        service, type_, node = client._sim_identity
+        recorder.count(node, len(raw))
+        call = Call(service, type_, node, canonical(f"{type_}_Request", raw), recorder.now)
+        recorder.recording.calls.append(call)
+        request = client._sim_requests[number] = number, [call]
+        for inbox in self._inboxes[service]:
+            inbox.append(request)
+
+    def taken(self, service: Any, node: Any, number: int, request: Any) -> Call:
+        """A service took a request; gives the call that goes on with it."""
+        recorder, type_ = self._recorder, type_name(service.srv_type)
+        raw = canonical(f"{type_}_Request", encode(request))
+        calls = _take(service._sim_inbox, number, raw)
+        call = calls[0] if calls and not calls[0].server else None
+        if call is None:  # another server has this request too, or it was sent past rclpy's clients
+            client, asked = (calls[0].client, calls[0].asked) if calls else ("", None)
+            call = Call(service._sim_name, type_, client, raw, asked)
+            calls.append(call)
+            if recorder.open:
+                recorder.recording.calls.append(call)
+        if recorder.open:
+            call.server, call.taken = recorder.name_of(node), recorder.now
+        return call
+
+    @contextlib.contextmanager
+    def answering(self, call: Call) -> Iterator[None]:
+        """For the time in which a service's callback runs and its response is sent."""
+        try:
+            yield
+        except Exception as error:
+            if self._recorder.open:
+                call.raised = type(error).__name__
+            raise
+
+    def answered(self, call: Call, raw: bytes) -> None:
+        """A service sent its response."""
+        recorder = self._recorder
+        if recorder.open:
+            recorder.count(call.server, len(raw))
+            call.raw_response, call.answered = canonical(f"{call.type}_Response", raw), recorder.now
+
+    def received(self, client: Any, number: int) -> None:
+        """A client's future got the first response to a request."""
+        _, calls = client.__dict__.get("_sim_requests", {}).pop(number, (number, []))
+        answered = [call for call in calls if call.answered is not None]
+        if answered and self._recorder.open:
+            min(answered, key=lambda call: call.answered).received = self._recorder.now
+
+
+def _take(inbox: deque[Request], number: int, raw: bytes) -> list[Call]:
+    """The calls of the oldest request of this number, with these bytes if there is one; [] for none."""
+    alike = [request for request in inbox if request[0] == number]
+    if not alike:
+        return []
+    request = next((request for request in alike if request[1][0].raw_request == raw), alike[0])
+    while inbox.popleft() is not request:
+        pass  # older ones were lost
+    return request[1]

@@ -1,0 +1,139 @@
+"""Writes down the goals of actions: asked, accepted, executed, canceled; feedback and results."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from action_msgs.msg import GoalStatus
+
+from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal
+from sim.recording import Heard
+from sim.ros.cdr import canonical
+from sim.ros.codec import encode, type_name
+
+if TYPE_CHECKING:
+    from sim.ros.recorder import Recorder
+
+WORDS = {
+    value: name.removeprefix("STATUS_").lower()
+    for name, value in vars(GoalStatus).items()
+    if name.startswith("STATUS_")
+}
+
+BEYOND_CANCEL = ("canceling", *ENDINGS)  # statuses in which rclpy refuses to cancel, and asks nobody
+
+
+def key(goal_id: Any) -> bytes:
+    """The bytes of a goal's UUID message."""
+    return bytes(goal_id.uuid)
+
+
+class Goals:
+    """The goals of one run, found again by their ids; the ends of an action carry its name and type."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
+
+    def end_made(self, end: Any, node: Any, name: str, type_: type) -> None:
+        """A node made an action server or an action client; `name` is the action's resolved name."""
+        end._sim_identity = name, type_name(type_), self._recorder.name_of(node)
+        end._sim_goals = {}  # of a server: those it goes on with, by id; of a client: those asked, by number
+
+    def _known(self, end: Any, goal_id: Any) -> list[Goal]:
+        """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
+        return self._by_id.setdefault((end._sim_identity[0], key(goal_id)), [])
+
+    def _event(self, goal: Goal | None, word: str) -> None:
+        if goal is not None and self._recorder.open:
+            goal.events.append((self._recorder.now, word))
+
+    def _new(self, end: Any, client: str, goal_id: Any, raw: bytes, asked: float | None) -> Goal:
+        action, type_, node = end._sim_identity
+        self._recorder.count(node, len(raw))
+        goal = Goal(action, type_, client, key(goal_id).hex(), canonical(f"{type_}_Goal", raw), asked)
+        self._recorder.recording.goals.append(goal)
+        self._known(end, goal_id).append(goal)
+        return goal
+
+    # -- what clients do ---------------------------------------------------------------------------
+
+    def asked(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
+        """A client sent a goal."""
+        if self._recorder.open:
+            node = client._sim_identity[2]
+            client._sim_goals[number] = self._new(client, node, goal_id, raw, self._recorder.now)
+
+    def cancel_asked(self, client: Any, goal_id: Any) -> None:
+        """A client asked for a goal to be canceled."""
+        for goal in self._known(client, goal_id):
+            if goal.status != REJECTED:
+                self._event(goal, CANCEL_REQUESTED)
+
+    def client_took(self, client: Any, data: dict[str, Any]) -> None:
+        """A client took from its queues what it waited for, as rclpy's take_data() gives it."""
+        if not self._recorder.open:
+            return
+        goal = client._sim_goals.pop(data["goal"][0], None) if "goal" in data else None
+        if goal is not None:
+            goal.answered = self._recorder.now
+        number = data["result"][0] if "result" in data else None
+        goal_id = client._result_sequence_number_to_goal_id.get(number)
+        waiting = self._known(client, goal_id) if goal_id is not None else []
+        goal = next((goal for goal in waiting if goal.raw_result is not None), None)
+        if goal is not None and goal.received is None:
+            goal.received = self._recorder.now
+
+    # -- what servers do ---------------------------------------------------------------------------
+
+    def taken(self, server: Any, goal_id: Any, request: Any) -> Goal | None:
+        """A server took the request for a goal; gives the goal, or None after the end of the run."""
+        if not self._recorder.open:
+            return None
+        known = self._known(server, goal_id)
+        goal = next((goal for goal in known if not goal.server), None)
+        if goal is None:  # another server has it too, or it was sent past rclpy's clients
+            client, asked = (known[0].client, known[0].asked) if known else ("", None)
+            goal = self._new(server, client, goal_id, encode(request), asked)
+        goal.server = server._sim_identity[2]
+        if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
+            server._sim_goals[key(goal_id)] = goal
+        return goal
+
+    def decided(self, goal: Goal | None) -> None:
+        """A server is done with the request for a goal; what it accepted is written down already."""
+        if goal is not None and not goal.status:
+            self._event(goal, REJECTED)
+
+    def accepted(self, server: Any, goal_id: Any) -> None:
+        """A server accepted a goal."""
+        self._event(server._sim_goals.get(key(goal_id)), "accepted")
+
+    def changed(self, server: Any, goal_id: Any, status: int) -> None:
+        """A goal has another status: a number of action_msgs/msg/GoalStatus."""
+        self._event(server._sim_goals.get(key(goal_id)), WORDS[status])
+
+    def to_cancel(self, server: Any, goal_id: Any) -> tuple[Goal | None, str]:
+        """A server took the request to cancel a goal; gives the goal and its status."""
+        goal = server._sim_goals.get(key(goal_id))
+        return goal, goal.status if goal is not None else ""
+
+    def cancel_decided(self, goal: Goal | None, before: str) -> None:
+        """A server is done with the request to cancel a goal that had this status before."""
+        if goal is not None and (before in BEYOND_CANCEL or goal.at("canceling") is None):
+            self._event(goal, CANCEL_REJECTED)
+
+    def feedback(self, server: Any, goal_id: Any, message: Any) -> None:
+        """A server published feedback on a goal."""
+        goal, recorder = server._sim_goals.get(key(goal_id)), self._recorder
+        if goal is not None and recorder.open:
+            raw, type_ = encode(message), f"{goal.type}_Feedback"
+            recorder.count(goal.server, len(raw))
+            topic = f"{goal.action}/_action/feedback"
+            goal.feedback.append(Heard(recorder.now, topic, type_, goal.server, canonical(type_, raw)))
+
+    def result(self, server: Any, goal_id: Any, message: Any) -> None:
+        """A server has the result of a goal, which it gives to those who ask."""
+        goal = server._sim_goals.get(key(goal_id))
+        if goal is not None and self._recorder.open:
+            goal.raw_result = canonical(f"{goal.type}_Result", encode(message))

@@ -1,0 +1,160 @@
+"""Who offers and calls which action; goals for the recording.
+
+What an action sends goes through C++: its topics and services never pass Python's publishers and clients. So
+it is written down where rclpy's Python decides on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.action import ActionClient, ActionServer
+from rclpy.action.server import ServerGoalHandle
+from rclpy.node import Node
+from rclpy.task import Future
+
+from sim.ros.callbacks import recorded
+from sim.ros.codec import encode, expect
+from sim.ros.fibers import engine
+from sim.ros.goals import key
+from sim.ros.hooks import hook
+
+
+def _action_end(owner: type, kind: str) -> None:
+    @hook(owner, "__init__", "the graph")
+    def init(original: Callable) -> Callable:
+        def __init__(
+            self: Any, node: Node, action_type: Any, action_name: str, *more: Any, **keywords: Any
+        ) -> None:
+            original(self, node, action_type, action_name, *more, **keywords)
+            run = engine()
+            if run is not None:
+                run.eager = True
+                name = node.resolve_service_name(action_name)
+                run.recorder.endpoint(kind, node, name, action_type)
+                run.recorder.goals.end_made(self, node, name, action_type)
+
+        return __init__
+
+
+_action_end(ActionServer, "action server")
+_action_end(ActionClient, "action client")
+
+
+@hook(ActionClient, "send_goal_async", "every goal is recorded as the bytes that are sent")
+def send_goal_async(original: Callable) -> Callable:
+    def send_goal_async(self: ActionClient, goal: Any, *arguments: Any, **keywords: Any) -> Future:
+        run = engine()
+        if run is None:
+            return original(self, goal, *arguments, **keywords)
+        expect(goal, self._action_type.Goal)
+        raw = encode(goal)
+        future = original(self, goal, *arguments, **keywords)
+        number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
+        run.recorder.goals.asked(self, number, goal_id, raw)
+        return future
+
+    return send_goal_async
+
+
+@hook(ActionClient, "send_goal", "its TypeError has no words")
+def send_goal(original: Callable) -> Callable:
+    def send_goal(self: ActionClient, goal: Any, **keywords: Any) -> Any:
+        if engine() is not None:
+            expect(goal, self._action_type.Goal)
+        return original(self, goal, **keywords)
+
+    return send_goal
+
+
+@hook(ActionClient, "_cancel_goal_async", "the recording knows when a client wanted to cancel")
+def cancel_goal_async(original: Callable) -> Callable:
+    def _cancel_goal_async(self: ActionClient, goal_handle: Any) -> Future:
+        future = original(self, goal_handle)
+        run = engine()
+        if run is not None:
+            run.recorder.goals.cancel_asked(self, goal_handle.goal_id)
+        return future
+
+    return _cancel_goal_async
+
+
+@hook(ActionServer, "_execute_goal_request", "the recording knows which goals were rejected")
+def execute_goal_request(original: Callable) -> Callable:
+    async def _execute_goal_request(self: ActionServer, taken: tuple[Any, Any]) -> None:
+        run = engine()
+        if run is None:
+            return await original(self, taken)
+        goal = run.recorder.goals.taken(self, taken[1].goal_id, taken[1].goal)
+        await original(self, taken)
+        return run.recorder.goals.decided(goal)
+
+    return _execute_goal_request
+
+
+@hook(ServerGoalHandle, "__init__", "a handle is made for goals that are accepted, before anything else")
+def goal_handle_init(original: Callable) -> Callable:
+    def __init__(self: ServerGoalHandle, action_server: ActionServer, info: Any, request: Any) -> None:
+        original(self, action_server, info, request)
+        run = engine()
+        if run is not None:
+            run.recorder.goals.accepted(action_server, info.goal_id)
+
+    return __init__
+
+
+@hook(ServerGoalHandle, "_update_state", "every status of a goal is recorded")
+def update_state(original: Callable) -> Callable:
+    def _update_state(self: ServerGoalHandle, event: Any) -> None:
+        original(self, event)
+        run, handle = engine(), self._goal_handle
+        if run is not None and handle is not None:
+            run.recorder.goals.changed(self._action_server, self.goal_id, handle.get_status())
+
+    return _update_state
+
+
+@hook(ServerGoalHandle, "publish_feedback", "feedback is recorded as the bytes that are sent")
+def publish_feedback(original: Callable) -> Callable:
+    def publish_feedback(self: ServerGoalHandle, feedback: Any) -> None:
+        run = engine()
+        if run is None:
+            return original(self, feedback)
+        expect(feedback, self._action_server.action_type.Feedback)
+        original(self, feedback)
+        return run.recorder.goals.feedback(self._action_server, self.goal_id, feedback)
+
+    return publish_feedback
+
+
+@hook(ActionServer, "_execute_cancel_request", "the recording knows which goals could not be canceled")
+def execute_cancel_request(original: Callable) -> Callable:
+    async def _execute_cancel_request(self: ActionServer, taken: tuple[Any, Any]) -> None:
+        run = engine()
+        if run is None:
+            return await original(self, taken)
+        goal, before = run.recorder.goals.to_cancel(self, taken[1].goal_info.goal_id)
+        await original(self, taken)
+        return run.recorder.goals.cancel_decided(goal, before)
+
+    return _execute_cancel_request
+
+
+@hook(
+    ActionServer,
+    "_execute_goal",
+    "rclpy prints an exception of an execute callback and goes on; the recording keeps it, and the result",
+)
+def execute_goal(original: Callable) -> Callable:
+    async def _execute_goal(self: ActionServer, execute_callback: Any, goal_handle: Any) -> None:
+        run = engine()
+        if run is None:
+            return await original(self, execute_callback, goal_handle)
+        await original(self, recorded(run, execute_callback, self._node), goal_handle)
+        future = self._result_futures.get(key(goal_handle.goal_id))
+        if future is not None and future.done():
+            run.recorder.goals.result(self, goal_handle.goal_id, future.result().result)
+        return None
+
+    return _execute_goal

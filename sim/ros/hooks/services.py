@@ -1,0 +1,80 @@
+"""Who offers and calls which service; requests for the recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.service import Service
+from rclpy.task import Future
+
+from sim.ros.codec import encode, expect
+from sim.ros.fibers import engine
+from sim.ros.hooks import hook
+
+
+@hook(Node, "create_service", "the graph")
+def create_service(original: Callable) -> Callable:
+    def create_service(self: Node, srv_type: Any, srv_name: str, *arguments: Any, **keywords: Any) -> Any:
+        service = original(self, srv_type, srv_name, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            name = self.resolve_service_name(srv_name)
+            run.recorder.endpoint("service", self, name, srv_type, service.qos_profile)
+        return service
+
+    return create_service
+
+
+@hook(Service, "__init__", "requests wait in a service's queue; the recording knows who sent them")
+def service_init(original: Callable) -> Callable:
+    def __init__(self: Service, *arguments: Any, **keywords: Any) -> None:
+        original(self, *arguments, **keywords)
+        run = engine()
+        if run is not None:
+            run.recorder.calls.service_made(self)
+
+    return __init__
+
+
+@hook(Node, "create_client", "the graph; and services are asked for requests only once there is a client")
+def create_client(original: Callable) -> Callable:
+    def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
+        client = original(self, srv_type, srv_name, **keywords)
+        run = engine()
+        if run is not None:
+            run.has_clients = run.eager = True
+            run.endpoints_changed()
+            name = client._sim_name = self.resolve_service_name(srv_name)
+            run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
+            run.recorder.calls.client_made(client, self, name)
+        return client
+
+    return create_client
+
+
+@hook(Client, "call_async", "every request is recorded as the bytes that are sent")
+def call_async(original: Callable) -> Callable:
+    def call_async(self: Client, request: Any) -> Future:
+        run = engine()
+        if run is None or "_sim_requests" not in self.__dict__:
+            return original(self, request)
+        expect(request, self.srv_type.Request)
+        raw = encode(request)
+        future = original(self, request)
+        run.recorder.calls.asked(self, next(reversed(self._pending_requests)), raw)
+        return future
+
+    return call_async
+
+
+@hook(Client, "call", "its TypeError has no words")
+def call(original: Callable) -> Callable:
+    def call(self: Client, request: Any, timeout_sec: float | None = None) -> Any:
+        if engine() is not None:
+            expect(request, self.srv_type.Request)
+        return original(self, request, timeout_sec)
+
+    return call
