@@ -90,14 +90,12 @@ def add_boxes(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str])
     for number, box in enumerate(world.movable, start=1):
         boxes.append(added := PushedBox(space, box))
         for hit in space.shape_query(added.shape):
-            if (
-                hit.shape in names
-                and min(p.distance for p in hit.contact_point_set.points) < -_COLLISION_SLOP
-            ):
-                what = names[hit.shape]
+            # pymunk's sign of a depth depends on the kinds of the two shapes.
+            depth = max(abs(point.distance) for point in hit.contact_point_set.points)
+            if hit.shape in names and depth > _COLLISION_SLOP:
                 raise WorldError(
                     f"World {world.name!r}: box_{number} does not fit at ({box.x:g}, {box.y:g}), "
-                    f"where a {what} is; move one of the two."
+                    f"where a {names[hit.shape]} is; move one of the two."
                 )
         names[added.shape] = "box"
     return boxes

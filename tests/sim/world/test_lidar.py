@@ -131,3 +131,26 @@ def test_noise_is_gaussian_with_the_stated_deviation():
 def test_each_scan_has_new_noise():
     simulation = Simulation(room(walls=square(1)), seed=3)
     assert (simulation.scan() != simulation.scan()).mean() > 0.99
+
+
+def test_dropouts_are_nan_and_as_frequent_as_stated():
+    simulation = Simulation(replace(room(walls=square(1)), lidar=LidarModel(dropouts=0.1)), seed=3)
+    lost = np.isnan([simulation.scan() for _ in range(200)])
+    assert abs(lost.mean() - 0.1) < 5 * math.sqrt(0.1 * 0.9 / lost.size)
+    # Each ray of each scan on its own.
+    assert abs(np.corrcoef(lost[:, :-1].ravel(), lost[:, 1:].ravel())[0, 1]) < 5 / math.sqrt(lost.size)
+    assert abs(np.corrcoef(lost[:-1].ravel(), lost[1:].ravel())[0, 1]) < 5 / math.sqrt(lost.size)
+
+
+def test_rays_that_are_not_lost_measure_as_without_dropouts():
+    world = room(walls=square(1))
+    scan = Simulation(world, seed=3).scan()
+    dropped = Simulation(replace(world, lidar=LidarModel(dropouts=0.3)), seed=3).scan()
+    there = ~np.isnan(dropped)
+    assert 200 < there.sum() < 300
+    assert (scan[there] == dropped[there]).all()
+
+
+def test_a_lidar_of_one_ray_looks_forward():
+    world = replace(room(walls=square(1)), lidar=LidarModel(rays=1, noise=0))
+    assert Simulation(world).scan() == pytest.approx([1.0])

@@ -1,17 +1,31 @@
 """World files: those that come with the course, and what is said about faulty ones."""
 
 import dataclasses
+import json
 import math
 import tomllib
 
 import numpy as np
 import pytest
 
-from sim.world import Box, Circle, RobotModel, Simulation, World, WorldError
+from sim.world import (
+    Box,
+    Circle,
+    ImuModel,
+    LidarModel,
+    MovableBox,
+    OtherRobot,
+    RobotModel,
+    Simulation,
+    World,
+    WorldError,
+)
 from sim.world.worldfile import MACHINES
 from tests.sim.world.mobile import MOBILE
 
 HEADINGS = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
+IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
+LIDAR = "rays, range_min, range_max, noise, dropouts"
 CARD = "[card]\n" + "\n".join(f'"{heading}" = "text"' for heading in HEADINGS) + "\n"
 GOOD = "bounds = [-3, -3, 3, 3]\nstart = [0, 0, 0]\n" + CARD
 
@@ -290,6 +304,47 @@ def test_file_that_is_not_toml(tmp_path):
             "[[circles]]\nx = 1\ny = 1\nradius = 1\n[[circles]]\nx = 1\ny = 1\nradus = 1\n[card]",
             "circles[1].radus is not a known key; did you mean radius?",
         ),
+        ("[card]", "imu = 3\n[card]", f"imu is 3; write a [imu] table with any of {IMU}."),
+        ("[card]", "[[lidar]]\n[card]", f"lidar is [{{}}]; write a [lidar] table with any of {LIDAR}."),
+        ("[card]", "[lidar]\nrays = 0\n[card]", "lidar.rays is 0; write a number from 1 to 10000."),
+        (
+            "[card]",
+            "[lidar]\nrange_min = 4\n[card]",
+            "lidar.range_min is 4.0; write a number below range_max, 3.5 (metres).",
+        ),
+        (
+            "[card]",
+            "[robot]\nmax_force = 1\n[card]",
+            "robot.max_force is 1.0; write more than 2.5 N, which the robot's ramps and curves need.",
+        ),
+        ("[card]", "[robot]\nradus = 1\n[card]", "robot.radus is not a known key; did you mean radius?"),
+        (
+            "[card]",
+            "[[movable]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
+            "movable[0].height is missing; write a number above 0 and up to 1000 (metres).",
+        ),
+        (
+            "[card]",
+            "[robots]\nname = 'leader'\n[card]",
+            "robots is {'name': 'leader'}; write a [[robots]] table for each, "
+            "with name, start, route and speed.",
+        ),
+        (
+            "[card]",
+            "[[robots]]\nname = 'leader'\n[card]",
+            "robots[0].start is missing; write [x, y, yaw] (metres and radians).",
+        ),
+        (
+            "[card]",
+            "[joint]\n[arm]\n[card]",
+            "joint and arm are both here; keep one of them.",
+        ),
+        (
+            "[card]",
+            "[joint]\n[imu]\nrate = 50\n[card]",
+            "imu is ImuModel(rate=50.0, gyro_noise=0.005, gyro_bias=0.02, accel_noise=0.05, accel...; "
+            "write nothing there, for this world holds a machine instead of a mobile robot.",
+        ),
         (
             "[card]",
             "lava = 1\n[card]",
@@ -321,6 +376,75 @@ def test_faulty_file(tmp_path, good, bad, sentence):
     load(tmp_path, GOOD)
     assert good in GOOD
     assert words(tmp_path, GOOD.replace(good, bad, 1)) == f"mine.toml: {sentence}"
+
+
+def test_a_file_sets_the_figures_of_robots_and_sensors(tmp_path):
+    text = """
+        [robot]
+        max_v = 1
+        [lidar]
+        rays = 180
+        dropouts = 0.05
+        [imu]
+        [[movable]]
+        x = 1
+        y = 1
+        yaw = 0
+        width = 0.4
+        height = 0.2
+        friction = 0.5
+        [[robots]]
+        name = "leader"
+        start = [-1, 0, 0]
+        route = [[-1, 0], [-1, 2], [1, 2]]
+        """
+    world = load(tmp_path, GOOD.replace("[card]", text + "[card]"))
+    assert world.robot == RobotModel(max_v=1)
+    assert world.lidar == LidarModel(rays=180, dropouts=0.05)
+    assert world.imu == ImuModel()
+    assert world.movable == (MovableBox(1, 1, 0, 0.4, 0.2, friction=0.5),)
+    assert world.robots == (OtherRobot("leader", (-1, 0, 0), ((-1, 0), (-1, 2), (1, 2))),)
+    assert World.from_data(json.loads(json.dumps(world.to_data()))) == world
+
+
+@pytest.mark.parametrize("name", World.names())
+def test_every_world_comes_back_from_plain_data(name):
+    world = World.load(name)
+    assert World.from_data(json.loads(json.dumps(world.to_data()))) == world
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"start": [9, 0, 0]},
+            "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        ({"lidar": {"rays": 1e9}}, "lidar.rays is 1000000000.0; write a number from 1 to 10000."),
+        (
+            {"boxes": [[1]]},
+            "boxes is [[1]]; write a [[boxes]] table for each, with x, y, yaw, width and height.",
+        ),
+        ({"name": None}, "name is None; write a text."),
+        ({"__class__": 1}, "__class__ is not a known key; the keys are bounds,"),
+    ],
+)
+def test_hostile_data_of_a_world(changes, sentence):
+    with pytest.raises(WorldError) as caught:
+        World.from_data(World.load("room").to_data() | changes)
+    assert str(caught.value).startswith(f"the world: {sentence}")
+
+
+def test_data_that_is_no_table():
+    with pytest.raises(WorldError) as caught:
+        World.from_data([1])
+    assert str(caught.value) == "the world is [1]; write a table of its keys and values."
+
+
+@pytest.mark.parametrize("text", ["a = " + "9" * 5000, "a = " + "[" * 5000 + "]" * 5000])
+def test_toml_beyond_what_python_reads(tmp_path, text):
+    assert words(tmp_path, text).startswith("mine.toml is not a world file (")
+    assert words(tmp_path, text).endswith("); correct it there.")
 
 
 def test_a_number_too_big_for_a_float_is_not_finite(tmp_path):

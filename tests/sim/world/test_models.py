@@ -1,0 +1,138 @@
+"""Figures that cannot be are refused by the models, from Python as from a world file."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from sim.world import Box, ImuModel, LidarModel, ModelError, MovableBox, OtherRobot, RobotModel, World
+
+NAME = "a name of small letters, digits and single underscores that begins with a letter"
+ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
+
+
+@pytest.mark.parametrize(
+    ("model", "figures", "sentence"),
+    [
+        (RobotModel, {"radius": -1}, "radius is -1; write a number above 0 and up to 1000 (metres)."),
+        (RobotModel, {"mass": 0}, "mass is 0; write a finite number above 0 (kg)."),
+        (RobotModel, {"max_v": math.nan}, "max_v is nan; write a finite number above 0 (m/s)."),
+        (RobotModel, {"max_w": math.inf}, "max_w is inf; write a finite number above 0 (rad/s)."),
+        (RobotModel, {"mass": "1"}, "mass is '1'; write a finite number above 0 (kg)."),
+        (RobotModel, {"mass": True}, "mass is True; write a finite number above 0 (kg)."),
+        (
+            RobotModel,
+            {"command_timeout": 0},
+            "command_timeout is 0; write a number from 0.01 to 1000 (seconds).",
+        ),
+        (RobotModel, {"friction": -0.1}, "friction is -0.1; write a number from 0 to 10."),
+        (
+            RobotModel,
+            {"max_v": 11},
+            "max_v is 11.0; write 10 m/s or less, one radius in a physics step of 0.01 s.",
+        ),
+        (
+            RobotModel,
+            {"max_force": 2},
+            "max_force is 2.0; write more than 2.5 N, which the robot's ramps and curves need.",
+        ),
+        (
+            RobotModel,
+            {"max_torque": 0.04},
+            "max_torque is 0.04; write more than 0.04 N m, which the robot's ramps need.",
+        ),
+        (LidarModel, {"rays": 0}, "rays is 0; write a number from 1 to 10000."),
+        (LidarModel, {"rays": 10**9}, "rays is 1000000000; write a number from 1 to 10000."),
+        (LidarModel, {"rays": 36.0}, "rays is 36.0; write a number from 1 to 10000."),
+        (
+            LidarModel,
+            {"rays": 10**5000},
+            "rays is a number of thousands of digits; write a number from 1 to 10000.",
+        ),
+        (
+            LidarModel,
+            {"range_min": 3.5},
+            "range_min is 3.5; write a number below range_max, 3.5 (metres).",
+        ),
+        (LidarModel, {"noise": -1}, "noise is -1; write a finite number, 0 or more (metres)."),
+        (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
+        (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
+        (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a finite number, 0 or more (rad/s)."),
+        (ImuModel, {"accel_noise": None}, "accel_noise is None; write a finite number, 0 or more (m/s^2)."),
+        (
+            Box,
+            {"x": 1e9, "y": 0, "yaw": 0, "width": 1, "height": 1},
+            "x is 1000000000.0; write a number from -1000 to 1000 (metres).",
+        ),
+        (
+            MovableBox,
+            {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "mass": -1},
+            "mass is -1; write a finite number above 0 (kg).",
+        ),
+        (
+            MovableBox,
+            {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "friction": 0},
+            "friction is 0; write a number from 0.01 to 10.",
+        ),
+        (OtherRobot, {"name": "Bob 1", "start": (0, 0, 0)}, f"name is 'Bob 1'; write {NAME}."),
+        (OtherRobot, {"name": "a__b", "start": (0, 0, 0)}, f"name is 'a__b'; write {NAME}."),
+        (
+            OtherRobot,
+            {"name": "a", "start": (0, 0)},
+            "start is [0, 0]; write [x, y, yaw] (metres and radians).",
+        ),
+        (
+            OtherRobot,
+            {"name": "a", "start": (0, 0, 0), "route": ((1, 1),)},
+            f"route is [[1, 1]]; write {ROUTE}.",
+        ),
+        (
+            OtherRobot,
+            {"name": "a", "start": (0, 0, 0), "route": ((1, 1), (2, 2), (1, 1))},
+            f"route is [[1, 1], [2, 2], [1, 1]]; write {ROUTE}.",
+        ),
+    ],
+)
+def test_figures_that_cannot_be(model, figures, sentence):
+    with pytest.raises(ModelError) as caught:
+        model(**figures)
+    assert str(caught.value) == f"{model.__name__}: {sentence}"
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"start": (math.nan, 0, 0)},
+            "start is [nan, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
+        ),
+        ({"goal": (9, 9)}, "goal is [9.0, 9.0]; write [x, y] (metres) inside the bounds."),
+        ({"lidar": 3}, "lidar is 3; write a LidarModel."),
+        ({"robots": (3,)}, "robots is [3]; write a list of OtherRobot."),
+        ({"name": 3}, "name is 3; write a text."),
+        (
+            {"walls": (((1, 1), (1, 1)),)},
+            "walls is [[[1, 1], [1, 1]]]; write a list of walls, each a list of two or more corners [x, y] "
+            "(metres), each different from the one before.",
+        ),
+    ],
+)
+def test_a_changed_world_that_cannot_be(changes, sentence):
+    with pytest.raises(ModelError) as caught:
+        dataclasses.replace(World.load("yard"), **changes)
+    assert str(caught.value) == f"World: {sentence}"
+
+
+def test_long_values_are_cut():
+    with pytest.raises(ModelError) as caught:
+        dataclasses.replace(World.load("yard"), walls=[[[i, i], [i, i]] for i in range(100)])
+    assert "[[3, 3], [3, 3]], [[4,...; write a list of walls" in str(caught.value)
+    assert len(str(caught.value)) < 250
+
+
+def test_numbers_of_other_kinds_become_floats_and_lists_tuples():
+    robot = OtherRobot("a", [np.float64(1), np.int64(2), 3])
+    assert robot.start == (1.0, 2.0, 3.0)
+    assert {type(value) for value in robot.start} == {float}
+    assert hash(robot) == hash(OtherRobot("a", (1.0, 2.0, 3.0)))
