@@ -57,8 +57,12 @@ class Score(float):
         return page.text(self.title, float(self), self.max, self.verdicts, self._runs)
 
     @property
-    def pictures(self) -> list[tuple[str, bytes]]:
-        """Where a figure says more than words: pairs of a caption and a PNG, each of them once."""
+    def pictures(self) -> list[tuple[str, Any]]:
+        """Where a picture says more than words: pairs of a caption and what Jupyter displays, each once.
+
+        Of a drive it is the replay, so that one sees when it went wrong; it holds a PNG for pages without
+        scripts.
+        """
         from grader.pictures import draw
 
         return draw(self.verdicts, self.recordings)
@@ -91,7 +95,7 @@ class Score(float):
         return page.html(self.title, float(self), self.max, self.verdicts, self._runs)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        # Pictures go out as images of their own: a sanitiser that is strict about HTML lets PNGs pass.
+        # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.
         with quiet_stderr():
             try:
                 _show(self.pictures)
@@ -100,12 +104,12 @@ class Score(float):
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
 
 
-def _show(pictures: list[tuple[str, bytes]]) -> None:
+def _show(pictures: list[tuple[str, Any]]) -> None:
     if pictures:
-        from IPython.display import Image, display
+        from IPython.display import display
 
-        for caption, png in pictures:
-            display(Image(png, alt=caption))
+        for caption, picture in pictures:
+            display(picture, metadata={"image/png": {"alt": caption}})
 
 
 def _run(recording: Recording, count: str) -> str:

@@ -60,7 +60,7 @@ def clean_output(html: object) -> str:
         return safe
     from sim.view.replay import PLAYER_SCRIPT
 
-    return safe + PLAYER_SCRIPT
+    return f"{safe}<script>{PLAYER_SCRIPT}</script>"
 
 
 def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:

@@ -1,5 +1,6 @@
 import shutil
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -30,8 +31,8 @@ def browser():
 
 
 @pytest.fixture(scope="session")
-def address(tmp_path_factory) -> Iterator[str]:
-    """A running JupyterLab: the course as students have it, with the folders solved/ and tiny/.
+def students_folder(tmp_path_factory) -> Path:
+    """The course as students have it, with the folders solved/ and tiny/.
 
     solved/ has the assignments with all answers; tiny/ has three submissions of a small one.
     """
@@ -44,7 +45,13 @@ def address(tmp_path_factory) -> Iterator[str]:
         submitted = course / "class" / "submitted" / student / "01_tiny" / "tiny.ipynb"
         shutil.copy(submitted, folder / "tiny" / f"{student}.ipynb")
     shutil.copytree(ROOT / "solutions", folder / "solved", ignore=shutil.ignore_patterns(".*", "my_*"))
-    with server(folder) as url:
+    return folder
+
+
+@pytest.fixture(scope="session")
+def address(students_folder) -> Iterator[str]:
+    """A running JupyterLab in the students' folder."""
+    with server(students_folder) as url:
         yield url
 
 

@@ -1,4 +1,5 @@
 """JupyterLab as students see it: a real server with their configuration, driven in Chromium."""
+import json
 import os
 import shutil
 import socket
@@ -10,8 +11,10 @@ import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
-from playwright.sync_api import Page
+import nbformat
+from playwright.sync_api import Locator, Page
 
 ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
@@ -34,6 +37,39 @@ ALL_CELLS_DONE = """() => {
     return true;
 }"""
 
+RUN_CELL = """index => {
+    const panel = window.jupyterapp.shell.currentWidget;
+    panel.content.activeCellIndex = index;
+    panel.content.deselectAll();
+    window.jupyterapp.commands.execute('notebook:run-cell');
+}"""
+CELL_DONE = """index => {
+    const cell = window.jupyterapp.shell.currentWidget.content.model.cells.get(index);
+    return cell.executionCount !== null && cell.executionState === 'idle';
+}"""
+# Beside the notebook: it is no cell, so nothing of it shows.
+ASK = """async code => {
+    const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+    let said = '';
+    const future = kernel.requestExecute({code, store_history: false, stop_on_error: false});
+    future.onIOPub = ({content}) => {
+        said += content.text || (content.data || {})['text/plain'] || content.evalue || '';
+    };
+    await future.done;
+    return said;
+}"""
+SOURCES = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].map(
+    cell => cell.sharedModel.getSource())"""
+OUTPUTS = """index => window.jupyterapp.shell.currentWidget.content.model.cells.get(index).outputs.toJSON()"""
+
+
+def write_notebook(path: Path, *sources: str) -> None:
+    """Write a notebook with these cells of code."""
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in sources])
+    notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    path.parent.mkdir(exist_ok=True)
+    nbformat.write(notebook, path)
+
 
 def copy_for_students(target: Path) -> Path:
     """Copy what a student works with into `target`, so that a test may save notebooks; return `target`."""
@@ -47,13 +83,16 @@ def copy_for_students(target: Path) -> Path:
 
 
 @contextmanager
-def server(folder: Path) -> Iterator[str]:
-    """Run JupyterLab for the course in `folder`; yield its address. Log: test-artifacts/jupyterlab.log."""
+def server(folder: Path, *more: str) -> Iterator[str]:
+    """Run JupyterLab for the course in `folder`; yield its address. Log: test-artifacts/jupyterlab.log.
+
+    more: options for its command line.
+    """
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     address = f"http://127.0.0.1:{port}"
-    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token="]
+    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token=", *more]
     options.append("--LabApp.expose_app_in_browser=True")  # for Lab.run_all and Lab.has_command
     home = folder / "home"  # Lab keeps a student's layout and settings there
     home.mkdir(exist_ok=True)
@@ -104,6 +143,40 @@ class Lab:
             assert time.monotonic() < deadline, f"the cells were not done within {CELL_SECONDS} s"
             self.page.wait_for_timeout(100)
         self.page.wait_for_timeout(500)  # the last output is drawn after its message has come
+
+    def run_cell(self, index: int, *, wait: bool = True) -> None:
+        """Run a cell, and wait until the kernel is done with it."""
+        self.page.evaluate(RUN_CELL, index)
+        if wait:
+            self.wait_for_cell(index)
+
+    def wait_for_cell(self, index: int) -> None:
+        """Wait until a cell is done."""
+        self.page.wait_for_function(CELL_DONE, arg=index, timeout=CELL_SECONDS * 1000)
+
+    def cell(self, index: int) -> Locator:
+        """Return a cell of the notebook, as it shows."""
+        return self.page.locator(f".jp-Notebook .jp-Cell[data-windowed-list-index='{index}']")
+
+    def sources(self) -> list[str]:
+        """Return the text of all cells."""
+        return self.page.evaluate(SOURCES)
+
+    def outputs(self, index: int) -> list[dict]:
+        """Return a cell's outputs as the notebook keeps them."""
+        return self.page.evaluate(OUTPUTS, index)
+
+    def ask(self, expression: str) -> Any:
+        """Return what a Python expression is in the notebook's kernel, through JSON."""
+        said = self.page.evaluate(ASK, f"import json; print(json.dumps({expression}))")
+        try:
+            return json.loads(said)
+        except ValueError:
+            raise AssertionError(f"{expression} gave: {said}") from None
+
+    def command(self, name: str) -> None:
+        """Do one of JupyterLab's commands, such as `docmanager:save`."""
+        self.page.evaluate("name => window.jupyterapp.commands.execute(name)", name)
 
     def output(self) -> str:
         """Return the text of all outputs that show."""

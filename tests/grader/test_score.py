@@ -1,7 +1,11 @@
+import base64
 import json
 import math
+import os
 import random
 import re
+import sys
+import zlib
 
 import bleach
 import pytest
@@ -12,6 +16,7 @@ from grader.checks import Verdict
 from grader.marking.safe_html import clean
 from grader.page import MARKS, number
 from sim import Recording, World, run
+from sim.view import plot_topics
 from tests.grader.recordings import driven
 from tests.students import misfits
 
@@ -156,22 +161,20 @@ def test_each_kind_of_picture_is_drawn_once():
     path = verdict(1.0, "failed", picture="path")
     topics = verdict(2.0, "failed", picture="topics")
     recording = run(misfits.Talker, world="yard", seconds=1, quiet=True)
-    pictures = Score("drive", [path, path, topics, verdict(3.0)], [recording]).pictures
-    assert [caption for caption, _ in pictures] == [
-        "The robot's path, seen from above",
-        "What was published, and when",
-    ]
-    assert all(png.startswith(b"\x89PNG") for _, png in pictures)
+    (said, way), (told, strokes) = Score("drive", [path, path, topics, verdict(3.0)], [recording]).pictures
+    assert (said, told) == ("The robot's path, seen from above", "What was published, and when")
+    assert way.html == recording.replay().html
+    assert strokes._repr_png_() == plot_topics(recording)._repr_png_()
 
 
 def test_a_picture_that_cannot_be_drawn_costs_nothing(capfd):
-    score = Score("drive", [verdict(1.0, "failed", picture="path")], [Recording()])
+    nothing_moved = Recording(world=World.load("yard"))
+    score = Score("drive", [verdict(1.0, "failed", picture="path")], [nothing_moved])
     bundle = score._repr_mimebundle_()
     assert bundle == {"text/plain": "0", "text/html": score._repr_html_()}
     said = capfd.readouterr()
     assert said.out == (
-        "(A picture could not be drawn: this run has no robot to draw: give run() a world, such as "
-        'world="yard")\n'
+        "(A picture could not be drawn: this run moved nothing yet: it has no pose to draw)\n"
     )
     assert said.err == ""
 
@@ -179,9 +182,28 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing(capfd):
 def test_the_picture_is_of_the_run_that_missed():
     missed_in_second = Verdict("drives", "It drives.", 1.0, "failed", 0.0, picture="path", run=1)
     near, far = driven([(0, 0), (0.1, 0)]), driven([(0, 0), (2, 0)])
-    ((_, png),) = Score("drive", [missed_in_second], [near, far]).pictures
+    ((_, shown),) = Score("drive", [missed_in_second], [near, far]).pictures
     ((_, of_far),) = Score("drive", [missed_in_second], [far, far]).pictures
-    assert png == of_far
+    ((_, of_near),) = Score("drive", [missed_in_second], [far, near]).pictures
+    assert shown.html == of_far.html != of_near.html
+
+
+def test_a_picture_holds_neither_the_seed_nor_a_path_of_the_machine():
+    class Raising(misfits.Talker):
+        def tick(self):
+            raise ValueError("no words")
+
+    seed = 3_141_592_653
+    recording = run(Raising, world="room", seconds=1, seed=seed, quiet=True)
+    ((_, shown),) = Score("drive", [verdict(1.0, "failed", picture="path")], [recording]).pictures
+    packed = re.search(r'data-replay="([^"]+)"', shown.html)[1]
+    said = zlib.decompress(base64.b64decode(packed), -15).decode()
+    assert '"name":"room"' in said
+    assert "ValueError in Raising.tick: no words" in said
+    words = re.sub(r"[A-Za-z0-9+/=]{200,}", "", shown.html) + said
+    assert [
+        secret for secret in (str(seed), os.getcwd(), os.path.dirname(sys.executable)) if secret in words
+    ] == []
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,79 @@
+"""The live picture and the replay in a page, as somebody uses them."""
+
+from playwright.sync_api import Locator, Page
+
+# A frame counts when something was drawn on a canvas before the browser painted next.
+COUNT_FRAMES = """
+    window.framesPainted = 0;
+    let asked = false;
+    const fillRect = CanvasRenderingContext2D.prototype.fillRect;
+    CanvasRenderingContext2D.prototype.fillRect = function (...where) {
+        if (!asked) {
+            asked = true;
+            requestAnimationFrame(() => { asked = false; window.framesPainted += 1; });
+        }
+        return fillRect.apply(this, where);
+    };
+"""
+PIXELS = """canvas => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(
+    () => done(canvas.toDataURL()))))"""
+SECONDS = 30  # how long to wait for what should come at once: a busy machine is slow
+
+
+def watch(page: Page) -> list[str]:
+    """Note the address of whatever the page asks for from now on."""
+    requests: list[str] = []
+    page.on("request", lambda request: requests.append(request.url))
+    return requests
+
+
+class Picture:
+    """A live picture or a replay. The locator finds its root, a `.ros2-view`."""
+
+    def __init__(self, root: Locator):
+        self.root = root
+        self.page = root.page
+        self.canvas = root.locator(".stage canvas")
+
+    def time(self) -> float:
+        """Return the simulated time that shows, in seconds."""
+        return float(self.root.locator(".time b").inner_text())
+
+    def click(self, label: str) -> None:
+        """Click the button of this label."""
+        self.root.get_by_role("button", name=label, exact=True).click()
+
+    def pixels(self) -> str:
+        """Return what the canvas shows after the next paint, as a data URL."""
+        return self.canvas.evaluate(PIXELS)
+
+    def scrub(self, share: float) -> None:
+        """Move the scrub bar to this share of the run."""
+        bar = self.root.get_by_role("slider")
+        size = bar.bounding_box()
+        bar.click(position={"x": 7 + share * (size["width"] - 14), "y": size["height"] / 2})
+
+    def wait_until(self, condition: str, argument: object = None) -> None:
+        """Wait until a JavaScript function of the root and the argument gives true."""
+        self.page.wait_for_function(
+            f"([root, argument]) => ({condition})(root, argument)",
+            arg=[self.root.element_handle(), argument],
+            timeout=SECONDS * 1000,
+        )
+
+    def wait_for_time(self, stamp: float) -> None:
+        """Wait until the simulated time that shows has passed `stamp`."""
+        self.wait_until("(root, stamp) => Number(root.querySelector('.time b').textContent) > stamp", stamp)
+
+    def plays(self) -> None:
+        """Assert that the replay plays from its begin, and that the scrub bar moves the robot."""
+        self.scrub(0.0)
+        begin, first = self.time(), self.pixels()
+        self.click("Play")
+        self.wait_for_time(begin + 0.5)
+        self.click("Pause")
+        assert self.pixels() != first
+        self.scrub(1.0)
+        last = self.pixels()
+        self.scrub(0.5)
+        assert last != self.pixels() != first

@@ -1,0 +1,91 @@
+"""The pages that nbgrader makes of a submission: ours plays in them, and nothing of the student's runs."""
+
+import nbformat
+import pytest
+
+from grader.marking.demo import mark_samples
+from sim.view.replay import PLAYER_SCRIPT
+from tests.browser.lab import ARTIFACTS, ROOT, server
+from tests.browser.pictures import Picture, watch
+from tests.marking.tiny import answer, course, grade
+
+pytestmark = pytest.mark.browser
+HOSTILE = (ROOT / "tests" / "students" / "hostile_page.py").read_text()
+STEAL = "window.stolen=(window.stolen||0)+1"
+NODE = """
+import rclpy
+from rclpy.node import Node
+from geometry_msgs.msg import Twist
+from rclpy.qos import qos_profile_system_default as qos
+
+class TooShort(Node):
+    def __init__(self):
+        super().__init__("driver")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", qos)
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        twist = Twist()
+        twist.linear.x = 0.3 if self.get_clock().now().nanoseconds < 2e9 else 0.0
+        self.publisher.publish(twist)
+"""
+TEST = """
+from grader import Exercise, check
+from grader.checks import arrives
+
+@check(points=2)
+def comes(recording):
+    "The robot comes to its goal."
+    arrives(recording, (1.5, 1.0))
+
+Exercise("drive", "Drive", checks=[comes], world="room", seconds=4).grade(TooShort)
+"""
+
+
+@pytest.fixture(scope="module")
+def submission(tmp_path_factory):
+    """A course whose only submission misses a check, shows a hostile page, and has words in hostile Markdown."""
+    folder = course(
+        tmp_path_factory.mktemp("class"),
+        answer("node", f"### BEGIN SOLUTION\n{NODE}\n### END SOLUTION"),
+        grade("test_drive", 2, TEST),
+        answer("page", f"### BEGIN SOLUTION\n{HOSTILE}\n### END SOLUTION"),
+        grade("test_page", 1, "1.0"),
+        nbformat.v4.new_markdown_cell(f"<script>{STEAL}</script> <img src=x onerror='{STEAL}'>", id="words"),
+    )
+    return folder, mark_samples(folder, "01_tiny")[0]
+
+
+def check_page(page, address: str, name: str) -> None:
+    """Open the page; the course's replay plays in it, and nothing else has run or was loaded from elsewhere."""
+    requests = watch(page)
+    page.goto(address)
+    replay = Picture(page.locator(".ros2-view:has(canvas)").first)
+    replay.plays()
+    page.locator(".ros2-view:has(canvas)").first.scroll_into_view_if_needed()
+    page.screenshot(path=ARTIFACTS / f"{name}.png")
+    assert page.evaluate("window.stolen") is None
+    assert [url for url in requests if "collector" in url] == []
+    shown = page.locator("#notebook-container")
+    assert shown.locator("[onclick], [onerror], [onload], iframe:not(.isolated-iframe)").count() == 0
+    assert set(shown.locator("script").all_text_contents()) == {PLAYER_SCRIPT}
+    assert shown.locator(".navbar-fixed-top, .modal-backdrop").count() == 0
+    assert shown.get_by_text("forged").count() >= 2  # what can't be played shows what was there before
+
+
+def test_a_feedback_page_plays_the_replay_and_nothing_of_the_submission(browser, submission):
+    _, marked = submission
+    assert marked.points["test_drive"] == (0, 2)
+    page = browser.new_page(viewport={"width": 1100, "height": 900})
+    check_page(page, marked.feedback.as_uri(), "feedback")
+    page.close()
+
+
+def test_the_formgrader_plays_the_replay_and_nothing_of_the_submission(browser, submission):
+    folder, _ = submission
+    with server(folder, "--allow-root") as address:
+        page = browser.new_page(viewport={"width": 1100, "height": 900})
+        notebooks = f"{address}/formgrader/api/submitted_notebooks/01_tiny/tiny"
+        right = next(one for one in page.request.get(notebooks).json() if one["student"] == "right")
+        check_page(page, f"{address}/formgrader/submissions/{right['id']}/", "formgrader")
+        page.close()
