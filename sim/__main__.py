@@ -6,6 +6,8 @@ import argparse
 import signal
 import sys
 import threading
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, nullcontext
 from types import FrameType
 from typing import NoReturn
 
@@ -13,6 +15,7 @@ from sim.ros.realtime import RealTimeRun
 from sim.world import World, WorldError
 
 DOMAIN = 42  # of its own: a plain `python node.py` elsewhere has 0
+PORT = 8090
 DOMAINS = range(102)  # more would need ports that Linux gives to others
 WRONG = 2  # exit status, as argparse's
 HEAR_IT = """
@@ -29,13 +32,37 @@ def main(words: list[str] | None = None) -> int:
     _stop_on_signals(stopped)
     options = _options(words)
     try:
-        with RealTimeRun(_world(options), options.seed, options.domain) as run:
-            print(_offer(run), flush=True)
+        with (
+            RealTimeRun(World.load(options.world), options.seed, options.domain) as run,
+            nullcontext() if options.headless else _page(run, options.port) as address,
+        ):
+            print(_offer(run, address), flush=True)
             run.spin(stopped.is_set)
-    except WorldError as error:
+    except (WorldError, PortError) as error:
         print(error, file=sys.stderr)
         return WRONG
     return 0
+
+
+class PortError(Exception):
+    """The page can't have its port."""
+
+
+@contextmanager
+def _page(run: RealTimeRun, port: int) -> Iterator[str]:
+    """Show the run in browsers; the page's address."""
+    from sim.standalone import (
+        LivePage,
+    )  # here, because it brings libraries that a headless robot does without
+
+    try:
+        page = LivePage(run, port)
+    except OSError as error:
+        raise PortError(
+            f"Port {port} can't be used ({error.strerror}); choose another with --port."
+        ) from error
+    with closing(page):
+        yield page.address
 
 
 def _stop_on_signals(stopped: threading.Event) -> None:
@@ -62,6 +89,10 @@ def _options(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--domain", type=_domain, default=DOMAIN, help=f"ROS domain, 0 to {DOMAINS[-1]}; default {DOMAIN}"
     )
+    parser.add_argument(
+        "--port", type=_port, default=PORT, help=f"of the picture in a browser, 0 for any; default {PORT}"
+    )
+    parser.add_argument("--headless", action="store_true", help="without the picture")
     return parser.parse_args(words)
 
 
@@ -79,15 +110,18 @@ def _domain(word: str) -> int:
     return int(word)
 
 
-def _world(options: argparse.Namespace) -> World:
-    return World.load(options.world)
+def _port(word: str) -> int:
+    if not word.isdecimal() or int(word) > 65535:
+        raise argparse.ArgumentTypeError(f"a port is a whole number from 0 to 65535; this is {word!r}.")
+    return int(word)
 
 
-def _offer(run: RealTimeRun) -> str:
+def _offer(run: RealTimeRun, address: str | None) -> str:
     """What other processes can do with it."""
     lines = [f"World {run.scene.world.name!r} in real time, ROS domain {run.domain}, this machine only."]
     for what, topics in (("takes", run.takes), ("gives", run.gives)):
         lines += [f"  {what} {name}  [{kind}]" for name, kind in topics.items()]
+    lines += [f"See and drive it at {address}"] if address else []
     return "\n".join(lines) + "\n" + HEAR_IT.format(domain=run.domain)
 
 

@@ -82,8 +82,28 @@ class RealTimeRun:
 
     @property
     def gives(self) -> dict[str, str]:
-        """The topics that the nodes give, each with its type, sorted by name."""
-        return _topics(end for node in self.nodes for end in node.publishers)
+        """The topics that only the nodes give, each with its type, sorted by name."""
+        given = _topics(end for node in self.nodes for end in node.publishers)
+        return {name: kind for name, kind in given.items() if name not in self.takes}
+
+    def every(self, seconds: float, act: Callable[[], None]) -> None:
+        """Have something done again and again, between the nodes' callbacks."""
+        self.nodes[0].create_timer(seconds, act)
+
+    def teleop(self) -> Callable[[float, float], None]:
+        """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
+        from geometry_msgs.msg import Twist
+
+        node, model = Node("teleop"), self.scene.world.robot
+        publisher = node.create_publisher(Twist, "cmd_vel", 10)
+        self.add(node)
+
+        def drive(forward: float, left: float) -> None:
+            command = Twist()
+            command.linear.x, command.angular.z = forward * model.max_v, left * model.max_w
+            publisher.publish(command)
+
+        return drive
 
     def spin(self, stopped: Callable[[], bool]) -> None:
         """Run the nodes until `stopped()`."""

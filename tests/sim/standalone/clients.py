@@ -29,23 +29,19 @@ def spin(node, seconds, each=lambda: None):
 
 def listen(seconds):
     """Count scans, and keep the last odometry."""
-    node, stamps, odoms = node_of("listener"), [], []
-    node.create_subscription(
-        LaserScan, "scan", lambda m: stamps.append(m.header.stamp.sec + m.header.stamp.nanosec / 1e9), 10
-    )
+    node, scans, odoms = node_of("listener"), [], []
+    node.create_subscription(LaserScan, "scan", scans.append, 10)
     node.create_subscription(Odometry, "odom", odoms.append, 10)
     end = time.time() + 20
-    while not (stamps and odoms) and time.time() < end:  # until they have found each other
+    while not (scans and odoms) and time.time() < end:  # until they have found each other
         rclpy.spin_once(node, timeout_sec=0.1)
-    stamps.clear()
+    scans.clear()
     began = time.time()
     spin(node, seconds)
-    last = odoms[-1]
-    senders = {end.node_name for end in node.get_publishers_info_by_topic("/scan")}
+    last, stamp = odoms[-1], scans[-1].header.stamp
     print(json.dumps({
-        "rate": len(stamps) / (time.time() - began), "age": time.time() - stamps[-1],
-        "frame": last.header.frame_id, "senders": sorted(senders),
-        "x": last.pose.pose.position.x, "v": last.twist.twist.linear.x,
+        "rate": len(scans) / (time.time() - began), "age": time.time() - stamp.sec - stamp.nanosec / 1e9,
+        "frame": scans[-1].header.frame_id, "x": last.pose.pose.position.x, "v": last.twist.twist.linear.x,
     }))  # fmt: skip
 
 

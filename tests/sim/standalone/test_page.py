@@ -1,0 +1,147 @@
+"""The stand-alone robot's page: who may see it, who may drive, and what a browser makes of it."""
+
+import base64
+import contextlib
+import http.client
+import json
+import re
+import socket
+import struct
+
+import pytest
+
+from sim.standalone import server
+from tests.browser.conftest import browser  # noqa: F401  (a fixture)
+from tests.sim.standalone.programs import ended, robot
+
+FACTS = {"world": {"name": "nowhere"}, "status": {}}
+DRIVE = json.dumps({"drive": [1, -0.5]})
+FORBIDDEN = (403, b"Forbidden\n")
+BAD = (400, b"Bad Request\n")
+
+
+@pytest.fixture
+def page():
+    driven = []
+    with contextlib.closing(server.PageServer(0, FACTS, lambda *way: driven.append(way))) as running:
+        running.driven = driven
+        yield running
+
+
+def ask(page, method, path, body=None, **headers):
+    """Status and body of one request; underscores in names of headers are dashes."""
+    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=20)
+    names = {name.replace("_", "-"): value for name, value in headers.items()}
+    connection.request(method, path, body, {"Host": f"localhost:{page.port}"} | names)
+    answer = connection.getresponse()
+    return answer.status, answer.read()
+
+
+def own(page):
+    return f"http://localhost:{page.port}"
+
+
+def test_the_page_has_all_its_parts(page):
+    status, html = ask(page, "GET", "/")
+    assert status == 200
+    assert re.findall(rb'src="(.*?)"', html) == [b"/page.js"]
+    assert b'from "/live.js"' in ask(page, "GET", "/page.js")[1]
+    assert b"export default" in ask(page, "GET", "/live.js")[1]
+    assert json.loads(ask(page, "GET", "/world")[1]) == FACTS
+    assert ask(page, "GET", "/../server.py") == (404, b"Not Found\n")
+
+
+def test_only_its_own_page_drives(page):
+    assert ask(page, "POST", "/drive", DRIVE, Origin=own(page)) == (200, b"")
+    assert page.driven == [(1.0, -0.5)]
+    for headers in (
+        {},
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": "http://evil.example", "Host": "evil.example"},  # a name that leads here
+        {"Origin": f"http://localhost:{page.port + 1}"},
+    ):
+        assert ask(page, "POST", "/drive", DRIVE, **headers) == FORBIDDEN
+    assert page.driven == [(1.0, -0.5)]
+
+
+@pytest.mark.parametrize("body", [
+    "", "{", "[" * 199, '{"drive": [1]}', '{"drive": [1, NaN]}', '{"drive": [2, 0]}', '{"stop": true}',
+    '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 200,
+])  # fmt: skip
+def test_what_is_no_command_is_refused(page, body):
+    assert ask(page, "POST", "/drive", body, Origin=own(page)) == BAD
+    assert page.driven == []
+
+
+def test_other_sites_see_nothing(page):
+    for path in ("/", "/world", "/frames"):
+        assert ask(page, "GET", path, Host="evil.example") == FORBIDDEN
+    for path in ("/world", "/frames", "/live.js"):
+        assert ask(page, "GET", path, Sec_Fetch_Site="cross-site") == FORBIDDEN
+
+
+def stream(page):
+    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=20)
+    connection.request("GET", "/frames", headers={"Host": f"localhost:{page.port}"})
+    return connection.getresponse()
+
+
+def test_frames_come_as_they_are_shown_and_end_with_the_robot(page):
+    page.show(b"\x00\x01\x02")
+    frames = stream(page)
+    assert frames.readline() == b"data: " + base64.b64encode(b"\x00\x01\x02") + b"\n"
+    page.close()
+    assert frames.read() == b"\n"
+
+
+def test_so_many_may_look_and_no_more(page):
+    page.show(b"frame")
+    streams = [stream(page) for _ in range(server.MOST_VIEWERS)]
+    assert {one.status for one in streams} == {200}
+    assert stream(page).status == 503
+
+
+def test_a_port_that_is_taken_is_told_in_a_sentence():
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        sentence = f"Port {port} can't be used (Address already in use); choose another with --port.\n"
+        assert ended("--port", str(port)) == (2, "", sentence)
+
+
+@pytest.mark.browser
+def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
+    with robot("--world", "yard", "--port", "0") as running:
+        address = re.search(r"See and drive it at (\S+)", running.offer)[1]
+        page = browser.new_page()
+        faults = []
+        page.on("console", lambda line: faults.append(line.text))
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(address)
+        page.wait_for_function("Number(document.querySelector('.time b').textContent) > 0.5")
+        page.locator("canvas").click()
+        page.keyboard.down("ArrowUp")
+        page.wait_for_timeout(2000)
+        heard = running.listen(1)
+        assert heard["x"] > 0.2 and heard["v"] > 0.0
+        page.keyboard.up("ArrowUp")
+        page.wait_for_timeout(1500)
+        assert running.listen(1)["v"] == 0.0
+        assert faults == []
+        assert running.stop() == (0, "")
+        words = "The robot's program has ended. Start it again, then reload this page."
+        page.get_by_text(words).wait_for()
+        page.close()
+
+
+def test_a_frame_holds_stamp_poses_and_scan():
+    with robot("--world", "room", "--port", "0") as running:
+        port = int(re.search(r"localhost:(\d+)", running.offer)[1])
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+        connection.request("GET", "/frames")
+        raw = base64.b64decode(connection.getresponse().readline().removeprefix(b"data: "))
+        floats = struct.unpack(f"<{len(raw) // 4}f", raw)
+        assert len(floats) == 1 + 3 + 3 + 360
+        assert floats[1:7] == (0.0,) * 6
+        assert floats[7] == pytest.approx(3, abs=0.06)  # the wall ahead
+        assert running.stop() == (0, "")

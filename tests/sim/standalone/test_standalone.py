@@ -1,0 +1,134 @@
+"""python -m sim: an ordinary ROS 2 process that other processes see and drive, and that survives them."""
+
+import signal
+
+import pytest
+
+from tests.sim.standalone.programs import REPOSITORY, ended, finish, robot
+
+OFFER = """\
+World 'yard' in real time, ROS domain {domain}, this machine only.
+  takes /cmd_vel  [geometry_msgs/msg/Twist]
+  gives /bumper  [std_msgs/msg/Bool]
+  gives /clock  [rosgraph_msgs/msg/Clock]
+  gives /joint_states  [sensor_msgs/msg/JointState]
+  gives /odom  [nav_msgs/msg/Odometry]
+  gives /scan  [sensor_msgs/msg/LaserScan]
+  gives /tf  [tf2_msgs/msg/TFMessage]
+
+In another terminal:
+  export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
+  python my_node.py        # or, where ROS 2 is installed: ros2 topic list
+
+"""
+NO_NUMBER = (
+    "[ERROR] [robot]: Velocity commands are finite numbers; this one was {}: check how it was worked out."
+)
+
+
+@pytest.fixture(scope="module")
+def yard():
+    """One robot for the tests in which clients come, misbehave and go: it must outlive them all."""
+    with robot("--world", "yard", "--headless") as running:
+        yield running
+
+
+def alive(heard):
+    """Whether a listener heard about 20 fresh scans a second; generous, for a busy machine."""
+    return 10 < heard["rate"] < 30 and heard["age"] < 2 and heard["frame"] == "base_link"
+
+
+def test_it_says_what_it_offers_and_how_to_reach_it(yard):
+    assert yard.offer == OFFER.format(domain=yard.domain)
+
+
+def test_other_processes_hear_and_drive_it(yard):
+    driver = yard.client("drive", 4)
+    assert alive(yard.listen())
+    finish(driver)
+    after = yard.listen()
+    assert alive(after)
+    assert after["x"] > 0.5
+    assert after["v"] == 0.0  # nobody commands any more
+
+
+@pytest.mark.parametrize("client", ["flood", "huge", "wrong_type", "broken_bytes", "impostor", "crowd"])
+def test_it_goes_on_while_a_client_misbehaves(yard, client):
+    misbehaving = yard.client(client, 4)
+    assert alive(yard.listen())
+    finish(misbehaving)
+    assert alive(yard.listen(1))
+
+
+def test_it_goes_on_with_clients_that_are_killed_or_stand_still(yard):
+    clients = [yard.client(name, 60) for name in ("flood", "crowd", "listen", "crowd")]
+    for crowd in clients[1::2]:
+        crowd.stdout.readline()  # it is there
+    clients[1].kill()
+    clients[0].kill()
+    clients[2].kill()
+    clients[3].send_signal(signal.SIGSTOP)  # its buffers fill up
+    assert alive(yard.listen(4))
+    clients[3].kill()
+    for client in clients:
+        client.communicate()
+    assert alive(yard.listen(1))
+
+
+def test_it_does_not_grow(yard):
+    yard.listen(1)
+    before = yard.memory()
+    flood = yard.client("flood", 8)
+    assert alive(yard.listen(4))
+    finish(flood)
+    assert yard.memory() - before < 8000  # kB; a message kept for each command would be 20 MB
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_cleanly(number):
+    with robot("--headless") as running:
+        assert alive(running.listen(1))
+        assert running.stop(number) == (0, "")
+
+
+def test_commands_that_are_no_numbers_are_told_and_ignored():
+    with robot("--world", "yard", "--headless") as running:
+        for name in ("no_numbers", "infinite"):
+            finish(running.client(name, 2))
+        assert running.listen(1)["x"] == 0.0
+        status, stderr = running.stop()
+    lines = stderr.splitlines()
+    assert status == 0
+    words = {NO_NUMBER.format("nan m/s and 0.0 rad/s"), NO_NUMBER.format("0.1 m/s and inf rad/s")}
+    assert set(lines) == words
+    assert len(lines) < 10  # once a second
+
+
+@pytest.mark.parametrize("words, sentence", [
+    (["--world", "moon"], "There is no world 'moon'. The worlds are "),
+    (["--world", "/no/w.toml"], "Cannot read /no/w.toml (No such file or directory); check the path."),
+    (["--domain", "102"],
+     "python -m sim: argument --domain: a ROS domain is a whole number from 0 to 101; this is '102'."),
+    (["--domain", "one"],
+     "python -m sim: argument --domain: a ROS domain is a whole number from 0 to 101; this is 'one'."),
+    (["--seed", "-1"], "python -m sim: argument --seed: write a whole number, 0 or more; this is '-1'."),
+    (["--port", "70000"],
+     "python -m sim: argument --port: a port is a whole number from 0 to 65535; this is '70000'."),
+    (["--wrld", "yard"], "python -m sim: unrecognized arguments: --wrld yard"),
+], ids=lambda value: value[1] if isinstance(value, list) else "")  # fmt: skip
+def test_what_can_not_be_run_is_told_in_a_sentence(words, sentence):
+    status, stdout, stderr = ended("--headless", *words)
+    assert (status, stdout) == (2, "")
+    assert stderr.startswith(sentence)
+    assert len(stderr.splitlines()) == 1
+
+
+def test_a_world_that_the_robot_does_not_fit_into_is_refused(tmp_path):
+    world = tmp_path / "tight.toml"
+    text = (REPOSITORY / "sim/world/worlds/yard.toml").read_text(encoding="utf-8")
+    circle = "[[circles]]\nx = 0\ny = 0\nradius = 1\n[card]"
+    world.write_text(text.replace("[card]", circle), encoding="utf-8")
+    assert ended("--headless", "--world", str(world)) == (2, "", (
+        "World 'tight': the robot (radius 0.1 m) does not fit at the start (0, 0), where a circle is; "
+        "move the start or the circle.\n"
+    ))  # fmt: skip
