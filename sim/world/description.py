@@ -12,6 +12,7 @@ import numpy as np
 
 from sim.world import worldfile
 from sim.world.bodies import Body
+from sim.world.generate import generate
 from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel
 from sim.world.model import Coordinate, Model, Wanted, WorldError
@@ -132,6 +133,19 @@ class World(Model):
             guess = f"Did you mean {close[0]!r}? " if close else ""
             raise WorldError(f"There is no world {name!r}. {guess}The worlds are {', '.join(names)}.")
         return _FOLDER / f"{name}.toml"
+
+    @classmethod
+    def generate(cls, kind: str, *, seed: int = 0, **figures: Any) -> World:
+        """A world drawn at random, with a way from start to goal; equal arguments give equal worlds.
+
+        kind: "room" (width, height, boxes, circles, movable), "maze" (columns, rows, cell, loops) or
+        "clutter" (width, height, density); `sim.world.generate` says what the figures may be. The world's
+        name is such as maze_7.
+
+        Raises:
+            WorldError: there is no such kind or figure, a figure cannot be, or the obstacles do not fit.
+        """
+        return cls(**generate(kind, seed, figures))
 
     def to_data(self) -> dict[str, Any]:
         """All of this world in dicts, lists, texts and numbers, for JSON."""
