@@ -1,5 +1,6 @@
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
@@ -53,6 +54,24 @@ def address(students_folder) -> Iterator[str]:
     """A running JupyterLab in the students' folder."""
     with server(students_folder) as url:
         yield url
+
+
+@pytest.fixture(scope="session")
+def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
+    """Open a notebook in a tab of its own; in the end the tab closes, and the kernel is shut down."""
+
+    @contextmanager
+    def opened(notebook: str) -> Iterator[Lab]:
+        page = browser.new_page(viewport={"width": 1280, "height": 900})
+        lab = Lab(page, address)
+        try:
+            lab.open(notebook)
+            yield lab
+        finally:
+            lab.shut_down()
+            page.close()
+
+    return opened
 
 
 @pytest.fixture

@@ -65,7 +65,8 @@ OUTPUTS = """index => window.jupyterapp.shell.currentWidget.content.model.cells.
 
 def write_notebook(path: Path, *sources: str) -> None:
     """Write a notebook with these cells of code."""
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in sources])
+    cells = [nbformat.v4.new_code_cell(source.strip()) for source in sources]
+    notebook = nbformat.v4.new_notebook(cells=cells)
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     path.parent.mkdir(exist_ok=True)
     nbformat.write(notebook, path)
@@ -177,6 +178,32 @@ class Lab:
     def command(self, name: str) -> None:
         """Do one of JupyterLab's commands, such as `docmanager:save`."""
         self.page.evaluate("name => window.jupyterapp.commands.execute(name)", name)
+
+    @contextmanager
+    def dark(self) -> Iterator[None]:
+        """Show JupyterLab in its dark theme for a while; the server would keep it for the next test."""
+        self._use_theme("JupyterLab Dark")
+        try:
+            yield
+        finally:
+            self._use_theme("JupyterLab Light")
+
+    def _use_theme(self, name: str) -> None:
+        self.page.evaluate(
+            "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
+        )
+        self.page.wait_for_selector(f"body[data-jp-theme-name='{name}']", state="attached")
+        self.page.wait_for_timeout(800)  # the style sheet comes after the name
+
+    def shut_down(self) -> None:
+        """Shut down all kernels of the server, so that what a test leaves playing ends here."""
+        for session in self.page.request.get(f"{self.address}/api/sessions").json():
+            self.page.request.delete(f"{self.address}/api/sessions/{session['id']}", headers=self._token())
+
+    def _token(self) -> dict[str, str]:
+        """Return what the server wants to see in a request that changes something."""
+        cookies = {cookie["name"]: cookie["value"] for cookie in self.page.context.cookies()}
+        return {"X-XSRFToken": cookies["_xsrf"]}
 
     def output(self) -> str:
         """Return the text of all outputs that show."""

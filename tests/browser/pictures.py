@@ -2,6 +2,8 @@
 
 from playwright.sync_api import Locator, Page
 
+from tests.browser.lab import ARTIFACTS
+
 # A frame counts when something was drawn on a canvas before the browser painted next.
 COUNT_FRAMES = """
     window.framesPainted = 0;
@@ -64,6 +66,11 @@ class Picture:
     def wait_for_time(self, stamp: float) -> None:
         """Wait until the simulated time that shows has passed `stamp`."""
         self.wait_until("(root, stamp) => Number(root.querySelector('.time b').textContent) > stamp", stamp)
+
+    def screenshot(self, name: str) -> None:
+        """Save a picture of the page, with this one in the middle, as test-artifacts/NAME.png."""
+        self.root.evaluate("root => root.scrollIntoView({block: 'center'})")
+        self.page.screenshot(path=ARTIFACTS / f"{name}.png")
 
     def plays(self) -> None:
         """Assert that the replay plays from its begin, and that the scrub bar moves the robot."""

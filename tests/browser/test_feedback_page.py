@@ -5,7 +5,7 @@ import pytest
 
 from grader.marking.demo import mark_samples
 from sim.view.replay import PLAYER_SCRIPT
-from tests.browser.lab import ARTIFACTS, ROOT, server
+from tests.browser.lab import ROOT, server
 from tests.browser.pictures import Picture, watch
 from tests.marking.tiny import answer, course, grade
 
@@ -44,7 +44,7 @@ Exercise("drive", "Drive", checks=[comes], world="room", seconds=4).grade(TooSho
 
 @pytest.fixture(scope="module")
 def submission(tmp_path_factory):
-    """A course whose only submission misses a check, shows a hostile page, and has words in hostile Markdown."""
+    """A course with a submission that misses a check, shows a hostile page and has hostile Markdown."""
     folder = course(
         tmp_path_factory.mktemp("class"),
         answer("node", f"### BEGIN SOLUTION\n{NODE}\n### END SOLUTION"),
@@ -57,13 +57,12 @@ def submission(tmp_path_factory):
 
 
 def check_page(page, address: str, name: str) -> None:
-    """Open the page; the course's replay plays in it, and nothing else has run or was loaded from elsewhere."""
+    """Open the page: the replay plays in it, nothing else has run, nothing came from elsewhere."""
     requests = watch(page)
     page.goto(address)
     replay = Picture(page.locator(".ros2-view:has(canvas)").first)
     replay.plays()
-    page.locator(".ros2-view:has(canvas)").first.scroll_into_view_if_needed()
-    page.screenshot(path=ARTIFACTS / f"{name}.png")
+    replay.screenshot(name)
     assert page.evaluate("window.stolen") is None
     assert [url for url in requests if "collector" in url] == []
     shown = page.locator("#notebook-container")

@@ -1,4 +1,4 @@
-"""What a submission may put into its outputs to reach whoever reads the feedback. It counts in `window.stolen`."""
+"""What a submission may put into its outputs to reach who reads the feedback: `window.stolen` counts it."""
 
 import base64
 import json
@@ -33,7 +33,16 @@ EVIL = {
 SHOWN = {**EVIL, "marks": [[0, "contact", WORDS, None]], "logs": [[0, "INFO", WORDS, None]]}
 HUGE = packed(b"[" + b"1," * 100_000_000 + b"1]")  # 200 MB once it is unpacked
 
-FORGED = ["", "QUJD", "A" * 4000, packed([]), packed({**SHOWN, "end": 1e300}), HUGE, packed(EVIL), packed(SHOWN)]
+FORGED = [
+    "",
+    "QUJD",
+    "A" * 4000,
+    packed([]),
+    packed({**SHOWN, "end": 1e300}),
+    HUGE,
+    packed(EVIL),
+    packed(SHOWN),
+]
 HOSTILE = [
     f"<script>{STEAL}</script>",
     f"<ScRiPt >{STEAL}</sCrIpT >",
@@ -45,7 +54,7 @@ HOSTILE = [
     f'<iframe srcdoc="<script>parent.{STEAL}</script>"></iframe>',
     f'<details open ontoggle="{STEAL}"><summary>x</summary></details>',
     f'<a href="javascript:{STEAL}" id="forged">x</a>',
-    f'<math><mtext><table><mglyph><style><img src=x onerror="{STEAL}"></style></mglyph></table></mtext></math>',
+    f'<math><mtext><table><mglyph><style><img src=x onerror="{STEAL}"></style></mglyph></table></math>',
     f'<noscript><p title="</noscript><img src=x onerror={STEAL}>"></noscript>',
     f'<meta http-equiv="refresh" content="0; url={ELSEWHERE}"><base href="{ELSEWHERE}/">',
     '<div class="navbar-fixed-top" style="height: 100000px; background-color: red">over all</div>',
@@ -59,7 +68,8 @@ display(Javascript(STEAL))
 display(Latex(rf"$\href{{javascript:{STEAL}}}{{x}}$"))
 for kind in ("image/png", "image/jpeg"):
     for bad in (f"1 onload={STEAL}", f"1 onerror={STEAL}"):
-        display({kind: PNG}, raw=True, metadata={kind: {"width": bad, "height": bad, "alt": f'"><img {bad}>'}})
+        settings = {"width": bad, "height": bad, "alt": f'"><img {bad}>'}
+        display({kind: PNG}, raw=True, metadata={kind: settings})
     display({kind: PNG}, raw=True, metadata={"filenames": {kind: ELSEWHERE}})
 view = {"model_id": "1", "version_major": 2, "version_minor": 0}
 display({"application/vnd.jupyter.widget-view+json": view, "text/html": HOSTILE[0]}, raw=True)

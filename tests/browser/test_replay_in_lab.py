@@ -1,0 +1,90 @@
+"""A replay stays: in the saved notebook, in pages made from it, and as a picture where nothing runs."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from tests.browser.lab import write_notebook
+from tests.browser.pictures import Picture, watch
+
+pytestmark = pytest.mark.browser
+CELLS = (
+    """
+from rclpy.node import Node
+from geometry_msgs.msg import Twist
+
+class Circle(Node):
+    def __init__(self):
+        super().__init__("circle")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        twist = Twist()
+        twist.linear.x, twist.angular.z = 0.4, 0.5
+        self.publisher.publish(twist)
+""",
+    """
+from sim import run
+run(Circle, world="room", seconds=20, quiet=True).replay()
+""",
+)
+
+
+@pytest.fixture(scope="module")
+def saved(browser, students_folder, address, open_lab):
+    """A notebook with a replay, run and saved in JupyterLab; its kernel is shut down."""
+    path = students_folder / "pictures" / "replay.ipynb"
+    write_notebook(path, *CELLS)
+    with open_lab("pictures/replay.ipynb") as lab:
+        lab.run_all()
+        lab.command("docmanager:save")
+        lab.page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
+    return path
+
+
+def test_a_saved_replay_plays_in_lab_without_running_anything(saved, open_lab):
+    with open_lab("pictures/replay.ipynb") as lab:
+        lab.page.wait_for_selector(".ros2-view canvas")
+        picture = Picture(lab.page.locator(".ros2-view"))
+        picture.plays()
+        picture.screenshot("replay-lab")
+
+
+def test_a_notebook_that_is_not_trusted_shows_the_picture(saved, open_lab):
+    notebook = json.loads(saved.read_text())
+    notebook["cells"][0]["source"] = "# from elsewhere"
+    (saved.parent / "untrusted.ipynb").write_text(json.dumps(notebook))
+    with open_lab("pictures/untrusted.ipynb") as lab:
+        picture = lab.page.locator(".jp-OutputArea-output img[alt='Replay of 20 s']")
+        picture.wait_for()
+        assert picture.evaluate("image => image.naturalWidth") > 300
+        assert lab.page.locator(".ros2-view").count() == 0
+        lab.screenshot("replay-untrusted")
+
+
+def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
+    command = [sys.executable, "-m", "nbconvert", "--to", "html", "--output-dir", str(tmp_path), str(saved)]
+    subprocess.run(command, check=True, capture_output=True)
+    context = browser.new_context(offline=True, viewport={"width": 1000, "height": 900})
+    page = context.new_page()
+    requests = watch(page)
+    page.goto((tmp_path / "replay.html").as_uri())
+    picture = Picture(page.locator(".ros2-view"))
+    picture.plays()
+    picture.screenshot("replay-exported")
+    assert all(url.startswith(("file:", "data:", "https://cdnjs.cloudflare.com/")) for url in requests)
+    context.close()
+
+
+def test_a_replay_fits_a_narrow_dark_window(saved, open_lab):
+    with open_lab("pictures/replay.ipynb") as lab, lab.dark():
+        lab.page.set_viewport_size({"width": 480, "height": 900})
+        lab.command("application:toggle-left-area")
+        picture = Picture(lab.page.locator(".ros2-view"))
+        picture.plays()
+        box = picture.root.bounding_box()
+        assert box["x"] + box["width"] <= 480
+        picture.screenshot("replay-narrow-dark")
