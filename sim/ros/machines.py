@@ -2,20 +2,40 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import Any
 
 from sim.recording import Pose, Recording
 from sim.ros.processes import Process
 from sim.world import MobileRobot, OtherRobot, Scene, Simulation
+from sim.world.machines import ArmModel, CartPoleModel, JointModel
+
+# Named, not imported: with them comes the import of message packages, which takes a while.
+_MACHINES = {
+    JointModel: ("sim.ros.joint", "JointNode"),
+    ArmModel: ("sim.ros.arm", "ArmNode"),
+    CartPoleModel: ("sim.ros.cart_pole", "CartPoleNode"),
+}
 
 
 def machines(scene: Any, recording: Recording | None) -> list[Process]:
     """What a run starts before the student's programs; without a recording, nothing is written down."""
     world = scene.world
+    if world.machine is not None:
+        return [_machine(scene, recording)]
     robots = [
         _robot(scene, robot, recording if robot.name == "robot" else None) for robot in scene.robots.values()
     ]
     return robots + [_driver(robot, world.robot.radius) for robot in world.robots if robot.route]
+
+
+def _machine(scene: Any, recording: Recording | None) -> Process:
+    module, name = _MACHINES[type(scene.world.machine)]
+
+    def machine() -> Any:
+        return getattr(importlib.import_module(module), name)(scene, recording)
+
+    return Process(machine)
 
 
 def _robot(scene: Simulation, mobile: MobileRobot, recording: Recording | None) -> Process:

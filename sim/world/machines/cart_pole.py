@@ -22,8 +22,9 @@ GRAVITY = 9.81
 _SUBSTEPS = 2
 # To find when the cart meets an end of the track; each step doubles the figures that are right.
 _NEWTON_STEPS = 3
-_CART = (0.3, 0.15)
-_POLE_THICKNESS = 0.04
+CART = (0.2, 0.1)
+"""Width and height of the cart in pictures, m."""
+_POLE_THICKNESS = 0.02
 
 
 class State(NamedTuple):
@@ -55,15 +56,15 @@ class CartPoleModel(Model):
         position_noise, angle_noise: standard deviations of what is measured (m, rad).
     """
 
-    cart_mass: Annotated[float, above(0, "kg")] = 1.0
-    pole_mass: Annotated[float, above(0, "kg")] = 0.2
-    pole_length: Length = 0.6
-    track_length: Length = 4.0
+    cart_mass: Annotated[float, above(0, "kg")] = 0.5
+    pole_mass: Annotated[float, above(0, "kg")] = 0.1
+    pole_length: Length = 0.3
+    track_length: Length = 2.0
     cart_friction: Annotated[float, at_least(0, "N per m/s")] = 0.1
     pole_friction: Annotated[float, at_least(0, "N m per rad/s")] = 0.002
-    start_angle: Angle = 0.0
+    start_angle: Angle = 0.1
     start_spread: Annotated[float, at_least(0, "radians")] = 0.05
-    max_force: Annotated[float, above(0, "N")] = 20.0
+    max_force: Annotated[float, above(0, "N")] = 10.0
     command_timeout: Annotated[float, above(0, "s")] = 0.2
     position_noise: Annotated[float, at_least(0, "metres")] = 0.0
     angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
@@ -71,7 +72,7 @@ class CartPoleModel(Model):
     @property
     def bodies(self) -> tuple[Body, ...]:
         """All that moves: the cart, and the pole with its x from the cart to its tip."""
-        width, height = _CART
+        width, height = CART
         corners = ((-width, -height), (width, -height), (width, height), (-width, height))
         cart = Body("cart", "cart", outline=tuple((x / 2, y / 2) for x, y in corners))
         return cart, Body("pole", "link", outline=bar(self.pole_length, _POLE_THICKNESS))

@@ -10,7 +10,9 @@ from sim.world.machines import CartPoleModel, State
 from sim.world.machines.cart_pole import GRAVITY
 from tests.sim.world.machines.machines import alone, steps
 
-FREE = CartPoleModel(cart_friction=0, pole_friction=0, start_spread=0, track_length=100, max_force=1000)
+FREE = CartPoleModel(
+    cart_friction=0, pole_friction=0, start_angle=0, start_spread=0, track_length=100, max_force=1000
+)
 M, m, LENGTH = FREE.cart_mass, FREE.pole_mass, FREE.pole_length
 EXACT = 1e-6
 
@@ -131,7 +133,7 @@ def test_a_cart_at_the_end_can_go_back():
 
 
 def test_a_command_is_cut_and_ends_after_its_timeout():
-    model = dataclasses.replace(FREE, max_force=5.0, command_timeout=0.2, pole_mass=1e-12)
+    model = dataclasses.replace(FREE, cart_mass=1.0, pole_mass=1e-12, max_force=5.0, command_timeout=0.2)
     cart_pole = begun(State(0.0, math.pi, 0.0, 0.0), model)
     cart_pole.command(80.0)
     cart_pole.advance(0.2)
