@@ -7,7 +7,7 @@ import hmac
 import inspect
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from grader.admission import refusal
@@ -30,7 +30,8 @@ class CompanionError(Exception):
 class Scenario:
     """One run of the student's nodes.
 
-    world: the name of a world, or None for a run without a robot.
+    world: the name of a world, or None for a run without a robot; or a function of the seed that gives a
+        World, such as `lambda seed: World.generate("maze", seed=seed)`.
     companions: nodes of ours that run alongside, as for sim.run; or a function of the seed that gives them.
     until: a function of the growing recording that ends the run early, as in sim.run.
     """
@@ -52,7 +53,7 @@ class Scenario:
         recording = run(
             *companions,
             *nodes,
-            world=self.world,
+            world=self._world(seed),
             seconds=self.seconds,
             seed=seed,
             until=self.until,
@@ -62,6 +63,13 @@ class Scenario:
             if _is_companion(error, companions):
                 raise CompanionError(f"{error.node}: {error.type}: {error.text}\n{error.traceback}")
         return recording
+
+    def _world(self, seed: int) -> Any:
+        if not callable(self.world):
+            return self.world
+        world = self.world(seed)
+        # Scores and replays show the name, and in marking the seed is a private one.
+        return replace(world, name=world.name.removesuffix(f"_{seed}"))
 
 
 @dataclass(frozen=True)

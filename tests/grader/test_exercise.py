@@ -8,7 +8,7 @@ from std_msgs.msg import String
 from grader import Exercise, Missed, Scenario, Score, check
 from grader.checks import logs, publishes, rate
 from grader.exercise import private_seed
-from sim import Process
+from sim import Process, World
 from tests.students import misfits, mistakes
 from tests.students.engine import output
 
@@ -184,6 +184,27 @@ def test_a_mistake_of_ours_costs_nothing_and_is_flagged(capfd):
     assert [verdict.name for verdict in score.broken] == ["mistaken"]
     said = capfd.readouterr()
     assert (said.out, said.err) == ("to be taken back\n\n", "")
+
+
+def test_a_world_may_be_drawn_from_the_seed_without_showing_it(monkeypatch):
+    monkeypatch.setenv("COURSE_SECRET", "d1ce")
+    maze = Exercise(
+        "talk",
+        "A talker",
+        [sends],
+        seconds=1,
+        world=lambda seed: World.generate("maze", seed=seed),
+        seeds=[1, 2],
+    )
+    score = maze.grade(misfits.SilentTalker)
+    seeds = [recording.seed for recording in score.recordings]
+    assert seeds == [private_seed("d1ce", "talk", index) for index in (0, 1)]
+    walls = [World.generate("maze", seed=seed).walls for seed in seeds]
+    assert [(r.world.name, r.world.walls) for r in score.recordings] == [
+        ("maze", walls[0]),
+        ("maze", walls[1]),
+    ]
+    assert "Run: 1 of 2, world maze" in score.text
 
 
 def test_a_world_that_does_not_exist_is_a_mistake_of_ours():
