@@ -22,6 +22,7 @@ from sim.ros.template import Template
 from sim.world import CommandError, MobileRobot, Simulation
 
 SENSOR_RATE = 20.0  # Hz
+MOST_COMMANDS = 1000  # in a second; ten times what the quickest robots take
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
@@ -50,6 +51,7 @@ class Robot(Node):
         self.scene, self.robot, self.recording = scene, robot, recording
         frames = "" if self.first else f"{robot.name}/"
         self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
+        self._commands = 0  # since the last sense
         self._make_templates()
         self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
         self.clock_pub = self.create_publisher(Clock, "/clock", 1) if self.first else None
@@ -92,6 +94,7 @@ class Robot(Node):
     def on_cmd_vel(self, command: Twist) -> None:
         """Drive on to now with the old command, then take the new one."""
         self.move_to_now()
+        self._commands += 1
         try:
             self.robot.command(command.linear.x, command.angular.z)
         except CommandError as error:
@@ -110,6 +113,9 @@ class Robot(Node):
     def sense(self) -> None:
         """Publish what the other sensors see."""
         robot, now = self.robot, self.move_to_now()
+        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+            self._warn_of_flood()
+        self._commands = 0
         if self.recording is not None:
             track(self.scene, self.recording, now / SECOND)
         else:
@@ -124,3 +130,10 @@ class Robot(Node):
         self.joint_pub.publish(self.joints.fill(*stamp, *robot.wheels))
         self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
         self.bumper_pub.publish(self.bumper[bool(robot.bumper)])
+
+    def _warn_of_flood(self) -> None:
+        self.get_logger().warning(
+            f"More than {MOST_COMMANDS} velocity commands came in a second; 10 to 20 are enough: "
+            "check the period of the timer that sends them.",
+            throttle_duration_sec=1.0,
+        )

@@ -5,12 +5,16 @@ import math
 import pytest
 from rclpy.time import Time
 
-from sim import run
+from sim import Process, run
 from sim.world import DT, RobotModel
 from tests.sim.ros.evidence import said, values
 from tests.students.engine import drivers
 
 MODEL = RobotModel()
+FLOOD = (
+    "More than 1000 velocity commands came in a second; 10 to 20 are enough: "
+    "check the period of the timer that sends them."
+)
 TICKS = [tick / 20 for tick in range(41)]  # of the sensors in 2 s
 SENSORS = {
     "/odom": "nav_msgs/msg/Odometry", "/scan": "sensor_msgs/msg/LaserScan", "/bumper": "std_msgs/msg/Bool",
@@ -147,6 +151,27 @@ def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored(driver, c
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "robot")}
     assert recording.path[-1] == (2.5, 0.0, 0.0, 0.0)
     assert recording.errors == []
+
+
+def test_a_flood_of_commands_is_told_once_a_second_and_obeyed():
+    recording = run(drivers.Flood, world="yard", seconds=2.5, quiet=True)
+    assert tuple(recording.ended) == ("time", 2.5, "All 2.5 s were run.")
+    assert len(recording.messages("/cmd_vel")) == 25_000
+    assert said(recording) == [(stamp, FLOOD) for stamp in (0.05, 1.05, 2.05)]
+    assert {(line.level, line.node) for line in recording.logs} == {("WARN", "robot")}
+    assert [stamp for stamp, _ in heard(recording, "/scan")] == [tick / 20 for tick in range(51)]
+    assert heard(recording, "/odom")[-1][1].twist.twist.linear.x == 0.5
+
+
+@pytest.mark.parametrize("first, second, end", [
+    (drivers.Driver, drivers.Turner, (0.0, 1.0)), (drivers.Turner, drivers.Driver, (0.5, 0.0)),
+])  # fmt: skip
+def test_of_two_that_command_at_once_the_later_is_obeyed(first, second, end):
+    recording = run(first, Process(second, name="other"), world="yard", seconds=2, quiet=True)
+    assert {h.sender for h in recording.messages("/cmd_vel")} == {"/driver", "/other"}
+    twist = heard(recording, "/odom")[-1][1].twist.twist
+    assert (twist.linear.x, twist.angular.z) == end
+    assert recording.logs == []
 
 
 def test_a_scan_begins_ahead_and_goes_round_to_the_left(still):

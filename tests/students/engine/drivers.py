@@ -42,6 +42,15 @@ class CommandsInfinity(Driver):
     v, w = 0.1, math.inf
 
 
+class Flood(Driver):
+    """10,000 commands a second."""
+
+    def __init__(self):
+        super().__init__()
+        self.destroy_timer(next(self.timers))
+        self.create_timer(1e-4, self.drive)
+
+
 class CommandsOnce(Driver):
     """Once, and never again: the robot must stop by itself."""
 
