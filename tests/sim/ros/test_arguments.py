@@ -67,7 +67,7 @@ def test_a_seed_is_a_whole_number(seed):
 
 def test_a_world_has_a_known_name():
     assert refused(WorldError, mains.Counter, world="moon") == (
-        "There is no world 'moon'. The worlds are corridor, maze, room, yard."
+        f"There is no world 'moon'. The worlds are {', '.join(World.names())}."
     )
 
 

@@ -22,6 +22,7 @@ from sim.world import (
 )
 from sim.world.worldfile import MACHINES
 from tests.sim.world.mobile import MOBILE
+from tests.sim.world.ways import has_a_way
 
 HEADINGS = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
 IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
@@ -43,29 +44,6 @@ def words(folder, text):
     return str(caught.value)
 
 
-def reachable(world, step=0.05):
-    """The grid cells that the robot's middle can drive to from the start, as (x, y) in whole steps."""
-    segments, discs = world.segments(), world.discs()
-
-    def free(cell):
-        p = np.array(cell) * step
-        a, e = segments[:, :2], segments[:, 2:] - segments[:, :2]
-        along = np.clip(((p - a) * e).sum(1) / (e * e).sum(1), 0, 1)
-        gaps = np.hypot(*(a + along[:, None] * e - p).T)
-        gaps = np.append(gaps, np.hypot(*(discs[:, :2] - p).T) - discs[:, 2])
-        return gaps.min() > RobotModel().radius
-
-    cells = {(round(world.start[0] / step), round(world.start[1] / step))}
-    edge = list(cells)
-    while edge:
-        x, y = edge.pop()
-        for cell in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
-            if cell not in cells and free(cell):
-                cells.add(cell)
-                edge.append(cell)
-    return cells
-
-
 def test_names_are_sorted_and_hold_the_first_worlds():
     names = World.names()
     assert names == sorted(names)
@@ -83,14 +61,15 @@ def test_every_card_has_the_five_headings_in_order(name):
 def test_every_start_is_free(name):
     simulation = Simulation(World.load(name))
     simulation.advance(1)
-    assert simulation.pose == pytest.approx(simulation.world.start)
-    assert simulation.bumper == frozenset()
+    for robot, start in zip(simulation.robots.values(), simulation.world.starts().values(), strict=True):
+        assert robot.pose == pytest.approx(start)
+        assert robot.bumper == frozenset()
 
 
 @pytest.mark.parametrize("name", [name for name in World.names() if World.load(name).goal])
 def test_every_goal_can_be_reached(name):
-    world = World.load(name)
-    assert (round(world.goal[0] / 0.05), round(world.goal[1] / 0.05)) in reachable(world)
+    world = dataclasses.replace(World.load(name), movable=())
+    assert has_a_way(world, RobotModel().radius)
 
 
 def test_the_maze_is_solved_by_following_its_left_wall():
