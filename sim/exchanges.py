@@ -48,6 +48,7 @@ class Call:
     answered: Seconds | None = None  # it sent the response
     received: Seconds | None = None  # the client got it
     raw_response: bytes | None = None
+    lost: bool = False  # nobody offered the service when the client asked
     raised: str = ""  # type of the exception that left the callback, e.g. "ValueError"
 
     @property
@@ -78,6 +79,7 @@ class Goal:
     answered: Seconds | None = None  # the client heard whether it is accepted
     received: Seconds | None = None  # the client got the result
     raw_result: bytes | None = None
+    lost: bool = False  # nobody offered the action when the client asked
 
     @property
     def request(self) -> Any:

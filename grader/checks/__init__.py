@@ -1,20 +1,35 @@
 """Checks, and the measures that authors of exercises build them from: plain Python over recordings."""
 
+from grader.checks.actions import (
+    accepts,
+    cancels,
+    finishes,
+    gives_feedback,
+    rejects,
+    sends_goals,
+    serves_action,
+)
 from grader.checks.check import Check, Missed, check
 from grader.checks.judge import Verdict, judge
 from grader.checks.logs import answers, logs
 from grader.checks.motion import arrives, follows, keeps_clear, passes, stands_still, travelled
 from grader.checks.nodes import has_timer, named, no_errors
+from grader.checks.services import calls, responds, serves
 from grader.checks.topics import publishes, rate, series, subscribes, within
 
 __all__ = [
     "Check",
     "Missed",
     "Verdict",
+    "accepts",
     "answers",
     "arrives",
+    "calls",
+    "cancels",
     "check",
+    "finishes",
     "follows",
+    "gives_feedback",
     "has_timer",
     "judge",
     "keeps_clear",
@@ -24,7 +39,12 @@ __all__ = [
     "passes",
     "publishes",
     "rate",
+    "rejects",
+    "responds",
+    "sends_goals",
     "series",
+    "serves",
+    "serves_action",
     "stands_still",
     "subscribes",
     "travelled",

@@ -8,9 +8,8 @@ import math
 from typing import Any
 
 from grader.checks.check import Missed
-from grader.diagnosis.activity import is_robot
-from grader.diagnosis.names import closest, difference
-from sim.recording import INFRASTRUCTURE_TOPICS, Endpoint, Heard, Recording, Seconds
+from grader.checks.ends import declared
+from sim.recording import Endpoint, Heard, Recording, Seconds
 from sim.recording import rate as mean_rate
 
 
@@ -20,7 +19,7 @@ def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int
     Raises Missed when the topic, its type or the messages are not there.
     """
     expected = f"messages of type {type} on {topic}" if type else f"messages on {topic}"
-    _declared(recording, recording.graph.publishers(), topic, type, expected, "publishes")
+    declared(recording, "publisher", topic, type, expected)
     heard = recording.messages(topic)
     if len(heard) < at_least:
         saw = (
@@ -34,31 +33,7 @@ def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int
 def subscribes(recording: Recording, topic: str, type: str = "") -> list[Endpoint]:
     """The subscriptions to a topic. Raises Missed when there is none, or one of another type."""
     expected = f"a subscription to {topic}" + (f" of type {type}" if type else "")
-    ends = recording.graph.subscriptions()
-    return _declared(recording, ends, topic, type, expected, "listens")
-
-
-def _declared(
-    recording: Recording, ends: list[Endpoint], topic: str, type: str, expected: str, verb: str
-) -> list[Endpoint]:
-    found = [end for end in ends if end.name == topic]
-    wrong = next((end for end in found if type and end.type != type), None)
-    if wrong:
-        hint = f"Both ends of a topic must use the same message type: on {topic} it is {type}."
-        raise Missed(expected, f"type {wrong.type} on {topic}", hint)
-    if not found:
-        mine = {end.name for end in ends if not is_robot(recording, end.node)}
-        others = sorted(mine - INFRASTRUCTURE_TOPICS - _answered(recording))
-        near = closest(topic, others)
-        saw = f"nobody {verb} there" + (f"; {verb} on {', '.join(others)}" if others else "")
-        raise Missed(expected, saw, difference(near, topic) if near else "")
-    return found
-
-
-def _answered(recording: Recording) -> set[str]:
-    """Topics with both ends: those are as they should be, and no candidates for a slip."""
-    graph = recording.graph
-    return {end.name for end in graph.publishers()} & {end.name for end in graph.subscriptions()}
+    return declared(recording, "subscription", topic, type, expected)
 
 
 def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1) -> float:

@@ -1,6 +1,6 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
-from grader.diagnosis import activity, connections, names
+from grader.diagnosis import actions, activity, connections, names, services
 from grader.diagnosis.faults import find_fault
 from sim.recording import Recording
 
@@ -10,8 +10,18 @@ __all__ = ["explain", "find_fault"]
 DIAGNOSES = (
     activity.slow_callback,
     names.typing_slip,
+    names.service_slip,
     connections.incompatible_qos,
+    services.nobody_offers,
+    services.asked_too_early,
     activity.never_spun,
+    services.answer_not_heard,
+    actions.no_goal_response,
+    actions.no_ending,
+    actions.cancel_not_heard,
+    actions.cancel_ignored,
+    actions.cancel_refused,
+    services.empty_answers,
     activity.ended_early,
     activity.unused_publisher,
     activity.empty_node,

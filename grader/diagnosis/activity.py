@@ -26,7 +26,9 @@ def slow_callback(recording: Recording) -> str:
 
 
 def never_spun(recording: Recording) -> str:
-    """A node with timers or incoming messages, none of whose callbacks ever ran."""
+    """A node with timers, incoming messages or requests, none of whose callbacks ever ran."""
+    if recording.ended.reason == "blocked":
+        return ""  # what is blocked did begin
     active = {run.node for run in recording.callbacks}
     for node in recording.graph.nodes:
         if node in active or is_robot(recording, node):
@@ -46,8 +48,14 @@ def _waiting_work(recording: Recording, node: str) -> str:
     if periods and (finished or min(periods) <= recording.ended.stamp):
         return "a timer"
     listening = {e.name for e in recording.graph.subscriptions() if e.node == node} - INFRASTRUCTURE_TOPICS
+    served = {end.name for end in recording.graph.ends("service") if end.node == node}
+    acting = {end.name for end in recording.graph.ends("action server") if end.node == node}
     if any(heard.topic in listening for heard in recording.heard):
         return "a subscription with messages waiting"
+    if any(call.service in served and not call.lost for call in recording.calls):
+        return "a service with requests waiting"
+    if any(goal.action in acting and not goal.lost for goal in recording.goals):
+        return "an action with goals waiting"
     return "a subscription" if listening and finished else ""
 
 
@@ -93,6 +101,8 @@ def empty_node(recording: Recording) -> str:
         e.node for e in recording.graph.endpoints if e.name not in INFRASTRUCTURE_TOPICS and "/" in e.name
     }
     busy |= {timer.node for timer in recording.graph.timers}
+    # of the services that every node has, too, which are not in the graph
+    busy |= {node for call in recording.calls for node in (call.client, call.server)}
     for node in recording.graph.nodes:
         if node not in busy:
             return f"{node} has no publisher, no subscription and no timer: nothing can happen in it."

@@ -6,6 +6,7 @@ import difflib
 import re
 
 from grader.diagnosis.rules import RULES
+from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.recording import CallbackError
 
 _HOMES = {
@@ -22,6 +23,18 @@ _HOMES = {
         for name in ("Imu", "LaserScan", "JointState", "Temperature")
     },
     "Odometry": "from nav_msgs.msg import Odometry",
+    **{name: f"from std_srvs.srv import {name}" for name in ("SetBool", "Trigger")},
+    "AddTwoInts": "from example_interfaces.srv import AddTwoInts",
+    "Fibonacci": "from example_interfaces.action import Fibonacci",
+    **{
+        name: f"from rclpy.action import {name}"
+        for name in ("ActionClient", "ActionServer", "CancelResponse", "GoalResponse")
+    },
+    "MultiThreadedExecutor": "from rclpy.executors import MultiThreadedExecutor",
+    **{
+        name: f"from rclpy.callback_groups import {name}"
+        for name in ("MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup")
+    },
 }
 
 
@@ -29,7 +42,7 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
-    for rule in RULES:
+    for rule in (*SERVICE_RULES, *RULES):
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:
             return rule.advice.format(*found.groups())
@@ -56,6 +69,7 @@ def _unknown_attribute(error: CallbackError) -> str:
     if not found:
         return "The name after the dot does not exist: check its spelling."
     owner, name = found.groups()
+    owner = re.sub(r"_(Request|Response|Goal|Result|Feedback)$", r".\1", owner)  # as students write it
     if error.callback.split(".")[0] == owner:
         return (
             f"`self.{name}` does not exist (yet): check its spelling; set it in __init__ before it is used."

@@ -1,4 +1,4 @@
-"""Topic names that nearly match."""
+"""Names of topics, services and actions that nearly match."""
 
 from __future__ import annotations
 
@@ -20,6 +20,25 @@ def typing_slip(recording: Recording) -> str:
                 f"{published[near]} publishes on {near}, {heard[wanted]} listens on {wanted}: "
                 f"two different topics. {difference(near, wanted)}"
             )
+    return ""
+
+
+def service_slip(recording: Recording) -> str:
+    """A client for something that nobody offers, of nearly the same name as what somebody does offer."""
+    for kind, client_kind, what in (
+        ("service", "client", "services"),
+        ("action server", "action client", "actions"),
+    ):
+        offered = {end.name: end.node for end in recording.graph.ends(kind)}
+        wanted = {end.name: end.node for end in recording.graph.ends(client_kind)}
+        lonely = [name for name in offered if name not in wanted]
+        for name in wanted:
+            near = closest(name, lonely) if name not in offered else ""
+            if near:
+                return (
+                    f"{wanted[name]} calls {name}, {offered[near]} offers {near}: two different {what}. "
+                    f"{difference(near, name)}"
+                )
     return ""
 
 

@@ -53,6 +53,7 @@ class Calls:
         service, type_, node = client._sim_identity
         recorder.count(node, len(raw))
         call = Call(service, type_, node, canonical(f"{type_}_Request", raw), recorder.now)
+        call.lost = not self._inboxes[service]
         recorder.recording.calls.append(call)
         request = client._sim_requests[number] = number, [call]
         for inbox in self._inboxes[service]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
+from rclpy.action import ActionServer
 
 from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal
 from sim.recording import Heard
@@ -34,9 +35,12 @@ class Goals:
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
         self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
+        self._offered: set[str] = set()  # names of actions
 
     def end_made(self, end: Any, node: Any, name: str, type_: type) -> None:
         """A node made an action server or an action client; `name` is the action's resolved name."""
+        if isinstance(end, ActionServer):
+            self._offered.add(name)
         end._sim_identity = name, type_name(type_), self._recorder.name_of(node)
         end._sim_goals = {}  # of a server: those it goes on with, by id; of a client: those asked, by number
 
@@ -62,7 +66,8 @@ class Goals:
         """A client sent a goal."""
         if self._recorder.open:
             node = client._sim_identity[2]
-            client._sim_goals[number] = self._new(client, node, goal_id, raw, self._recorder.now)
+            goal = self._new(client, node, goal_id, raw, self._recorder.now)
+            client._sim_goals[number], goal.lost = goal, goal.action not in self._offered
 
     def cancel_asked(self, client: Any, goal_id: Any) -> None:
         """A client asked for a goal to be canceled."""

@@ -4,7 +4,9 @@ import pytest
 
 from grader.diagnosis import DIAGNOSES, explain
 from sim import run
+from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits
+from tests.students.engine import actions, callers, services
 
 SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
 CAUSES = {
@@ -71,6 +73,7 @@ CAUSES = {
     ): "The timer of /talker fired once in 10 s; 10 were due. Most likely SleepyOnce.tick waits "
     "(time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 8.5 s. "
     "Let the timer do the waiting.",
+    **SERVICE_CAUSES,
 }
 
 
@@ -90,6 +93,16 @@ def test_a_cause_is_explained(students, sentence):
         ((misfits.Talker, misfits.Listener), None),
         ((misfits.Listener, misfits.Talker), "yard"),
         ((misfits.Talker,), "room"),
+        ((services.Adder, services.done_callback), "yard"),
+        ((services.SlowAdder, services.many_calls), None),
+        ((services.SlowAdder, callers.gives_up), None),
+        ((callers.two_servers, services.done_callback), None),
+        ((services.Adder, services.single_exclusive), None),
+        ((services.Wheel, services.parameter_services), None),
+        ((actions.Server, actions.Client), None),
+        ((actions.Server, actions.Greedy), None),
+        ((actions.Aborting, actions.Client), None),
+        ((actions.parallel_server, actions.Impatient), None),
     ],
 )
 def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):

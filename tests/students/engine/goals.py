@@ -159,3 +159,17 @@ def asks_nobody():
     node = Node("client")
     ActionClient(node, Fibonacci, "fibonacci").send_goal_async(Fibonacci.Goal(order=1))
     rclpy.spin(node)
+
+
+class Busy(Server):
+    """Needs longer than any run of a test."""
+
+    def execute(self, goal):
+        time.sleep(100.0)
+
+
+class AbortsOnCancel(Server):
+    def execute(self, goal):
+        time.sleep(2.0)
+        goal.abort()
+        return Fibonacci.Result()

@@ -1,0 +1,57 @@
+"""The ends of topics, services and actions that nodes declare: are they there, and of which type."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from grader.checks.check import Missed
+from grader.diagnosis.activity import is_robot
+from grader.diagnosis.names import closest, difference
+from sim.recording import INFRASTRUCTURE_TOPICS, Endpoint, Recording
+
+
+class _Words(NamedTuple):
+    """How to speak of one kind of end. other: the kind at the far end."""
+
+    other: str
+    what: str
+    type: str
+    nobody: str
+    instead: str
+
+
+_WORDS = {
+    "publisher": _Words("subscription", "topic", "message type", "nobody publishes there", "publishes on {}"),
+    "subscription": _Words("publisher", "topic", "message type", "nobody listens there", "listens on {}"),
+    "service": _Words("client", "service", "type", "nobody offers it", "there is {}"),
+    "client": _Words("service", "service", "type", "nobody has a client for it", "there is one for {}"),
+    "action server": _Words("action client", "action", "type", "nobody offers it", "there is {}"),
+    "action client": _Words(
+        "action server", "action", "type", "nobody has a client for it", "there is one for {}"
+    ),
+}
+
+
+def declared(recording: Recording, kind: str, name: str, type: str, expected: str) -> list[Endpoint]:
+    """The ends of this kind and name, all of one type if one is given. kind: as in `Endpoint`.
+
+    Raises Missed with what there is in their place.
+    """
+    words, ends = _WORDS[kind], recording.graph.ends(kind)
+    found = [end for end in ends if end.name == name]
+    wrong = next((end for end in found if type and end.type != type), None)
+    if wrong:
+        hint = f"Both ends of {_a(words.what)} must use the same {words.type}: on {name} it is {type}."
+        raise Missed(expected, f"type {wrong.type} on {name}", hint)
+    if not found:
+        mine = {end.name for end in ends if not is_robot(recording, end.node)}
+        connected = {end.name for end in recording.graph.ends(words.other)}
+        others = sorted(mine - INFRASTRUCTURE_TOPICS - connected)  # a connected one is no slip
+        near = closest(name, others)
+        saw = words.nobody + (f"; {words.instead.format(', '.join(others))}" if others else "")
+        raise Missed(expected, saw, difference(near, name) if near else "")
+    return found
+
+
+def _a(noun: str) -> str:
+    return f"an {noun}" if noun[0] in "aeiou" else f"a {noun}"

@@ -1,0 +1,84 @@
+"""Goals of actions that don't end as they should: forgotten endings, and cancels that nobody hears."""
+
+from __future__ import annotations
+
+from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, Goal
+from sim.recording import Recording
+
+# What rclpy warns of, and does all the same.
+_NO_GOAL_RESPONSE = "did not return a GoalResponse type"
+_NO_ENDING = "Goal state not set, assuming aborted"
+
+
+def no_goal_response(recording: Recording) -> str:
+    """A goal callback that returns something else than a GoalResponse."""
+    if not _warned(recording, _NO_GOAL_RESPONSE):
+        return ""
+    return (
+        "A goal callback returned something else than a GoalResponse, and so the goal was rejected: "
+        "return GoalResponse.ACCEPT or GoalResponse.REJECT."
+    )
+
+
+def no_ending(recording: Recording) -> str:
+    """An execute callback that returns without saying how the goal ended."""
+    goal = next((goal for goal in recording.goals if goal.status == "aborted"), None)
+    if goal is None or not _warned(recording, _NO_ENDING):
+        return ""
+    return (
+        f"The execute callback of {goal.action} returned without saying how the goal ended, which counts as "
+        "aborted: call goal_handle.succeed() before you return the result."
+    )
+
+
+def cancel_ignored(recording: Recording) -> str:
+    """A server that agrees to cancel a goal and then goes on with it."""
+    for goal in recording.goals:
+        agreed = goal.at("canceling")
+        if agreed is not None and goal.status != "canceled":
+            went_on = f"went on until it {_past(goal)}" if goal.over else "went on all the same"
+            return (
+                f"{goal.server} agreed at {agreed:.3g} s to cancel the goal of {goal.action}, and {went_on}. "
+                "Look at goal_handle.is_cancel_requested in the loop: when it is True, call "
+                "goal_handle.canceled() and return the result."
+            )
+    return ""
+
+
+def cancel_not_heard(recording: Recording) -> str:
+    """A server that is too busy with a goal to hear that it should cancel it."""
+    for goal in recording.goals:
+        asked, heard = goal.at(CANCEL_REQUESTED), goal.at("canceling") or goal.at(CANCEL_REJECTED)
+        if asked is None or goal.at("executing") is None or (heard is not None and heard <= asked):
+            continue
+        if not goal.over or (heard is not None and goal.at(goal.status) <= heard):
+            heard_at = f"only at {heard:.3g} s" if heard is not None else "never"
+            return (
+                f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} heard it "
+                f"{heard_at}: the execute callback kept the node busy. Give the ActionServer "
+                "callback_group=ReentrantCallbackGroup(), and spin the node with a MultiThreadedExecutor."
+            )
+    return ""
+
+
+def cancel_refused(recording: Recording) -> str:
+    """A server that refuses to cancel a goal that it still executes."""
+    for goal in recording.goals:
+        refused = goal.at(CANCEL_REJECTED)
+        ended = goal.at(goal.status) if goal.over else None
+        if refused is not None and goal.at("canceling") is None and (ended is None or refused < ended):
+            return (
+                f"{goal.server} refused at {refused:.3g} s to cancel the goal of {goal.action}. Without a "
+                "cancel_callback an ActionServer always refuses: give it one that returns "
+                "CancelResponse.ACCEPT."
+            )
+    return ""
+
+
+def _past(goal: Goal) -> str:
+    how = "was aborted" if goal.status == "aborted" else goal.status
+    return f"{how} at {goal.at(goal.status):.3g} s"
+
+
+def _warned(recording: Recording, words: str) -> bool:
+    return any(line.level == "WARN" and words in line.text for line in recording.logs)

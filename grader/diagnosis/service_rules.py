@@ -1,0 +1,83 @@
+"""Exceptions around services and actions, as `rules` has those around topics.
+
+rclpy's own TypeError has no words there; the engine gives it those of a publisher.
+"""
+
+from __future__ import annotations
+
+from grader.diagnosis.rules import Rule
+
+_GOT = r"got <class '(?:[\w.]*\.)?(\w+)'>"
+
+SERVICE_RULES = (
+    Rule(
+        "TypeError", r"Expected <class '[\w.]*?(\w+)_Response'>, got <class 'NoneType'>",
+        "The service's callback has to give its answer back: end it with `return response`.",
+    ),
+    Rule(
+        "TypeError", rf"Expected <class '[\w.]*?(\w+)_Response'>, {_GOT}",
+        "A service's callback returns the response that it was given, with its fields set; this one returned "
+        "{1}. End it with `return response`.",
+    ),
+    Rule(
+        "TypeError", r"Expected <class '[\w.]*?(\w+)_Request'>, got <class '[\w.]*Metaclass_\1_Request'>",
+        "A call takes a request, not its class: `request = {0}.Request()`, with brackets.",
+    ),
+    Rule(
+        "TypeError", rf"Expected <class '[\w.]*?(\w+)_Request'>, {_GOT}",
+        "A call takes one request: `request = {0}.Request()`, then set its fields, then "
+        "`call_async(request)`.",
+    ),
+    Rule(
+        "TypeError", rf"Expected <class '[\w.]*?(\w+)_Goal'>, {_GOT}",
+        "A goal is sent as a message: `goal = {0}.Goal()`, then set its fields, then "
+        "`send_goal_async(goal)`.",
+    ),
+    Rule(
+        "TypeError", rf"Expected <class '[\w.]*?(\w+)_Feedback'>, {_GOT}",
+        "Feedback is a message: `feedback = {0}.Feedback()`, then set its fields, then "
+        "`goal_handle.publish_feedback(feedback)`.",
+    ),
+    Rule(
+        "AssertionError", r"The 'result' field must be a sub message of type '(\w+)_Result'",
+        "An execute callback has to give the result back: end it with `return {0}.Result(...)`.",
+    ),
+    Rule(
+        "TypeError", r"^(?!RcutilsLogger)[\w.]*?(\w+)\(\) takes 2 positional arguments but 3 were given",
+        "`{0}` is called with two things, as a service's callback is: "
+        "write `def {0}(self, request, response):`.",
+    ),
+    Rule(
+        "TypeError", r"create_service\(\) missing",
+        "create_service() is missing an argument: write create_service(Type, 'name', self.callback).",
+    ),
+    Rule(
+        "TypeError", r"ActionServer\.__init__\(\) missing",
+        "ActionServer() is missing an argument: write ActionServer(self, Type, 'name', self.execute).",
+    ),
+    Rule(
+        "AttributeError", r"'ServerGoalHandle' object has no attribute '(\w+)'",
+        "What the client asks for is in the request of the goal handle: `goal_handle.request.{0}`.",
+    ),
+    Rule(
+        "RCLError", r"invalid transition from state EXECUTING with event CANCELED",
+        "canceled() is for a goal that a client wants to cancel: call it only when "
+        "goal_handle.is_cancel_requested is True; abort() is for what went wrong.",
+    ),
+    Rule(
+        "RCLError", r"invalid transition from state (SUCCEEDED|ABORTED|CANCELED)",
+        "The goal has ended already: call one of succeed(), abort() and canceled(), once, and then return.",
+    ),
+    *(
+        Rule(
+            error, r"existing request topic name r\w(/\S+?)(?:/_action/\w+)?Request with incompatible type",
+            "Another node uses {0} with another type: client and server must use the same one.",
+        )
+        for error in ("RCLError", "ValueError")  # of services, of actions
+    ),
+    Rule(
+        "RuntimeError", r"The (service|action) type provided is not valid",
+        "This is no type of a {0}. Services come from packages' `.srv`, as in `from std_srvs.srv import "
+        "SetBool`; actions from `.action`, as in `from example_interfaces.action import Fibonacci`.",
+    ),
+)  # fmt: skip

@@ -1,0 +1,81 @@
+"""Calls of services that come to nothing: nobody there, nobody spins, nothing in the answer."""
+
+from __future__ import annotations
+
+from sim.exchanges import is_node_service
+from sim.recording import Recording
+
+SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
+
+
+def nobody_offers(recording: Recording) -> str:
+    """Something that is called in vain: no node offers it, or there is no node of that name."""
+    offers = (("client", "service", "service"), ("action client", "action server", "action"))
+    asked = {(call.client, call.service) for call in recording.calls}
+    asked |= {(goal.client, goal.action) for goal in recording.goals}
+    active = {run.node for run in recording.callbacks}
+    for client_kind, server_kind, what in offers:
+        offered = {end.name for end in recording.graph.ends(server_kind)}
+        for end in recording.graph.ends(client_kind):
+            waits = (end.node, end.name) in asked or end.node not in active
+            if end.name not in offered and waits:
+                return (
+                    f"{end.node} has a client for the {what} {end.name}, but no node offers it. "
+                    "Does the server run, and is the name right?"
+                )
+    for call in recording.calls:
+        node, _, service = call.service.rpartition("/")
+        if not call.server and is_node_service(call.service) and node not in recording.graph.nodes:
+            nodes = ", ".join(recording.graph.nodes)
+            return f"{call.client} calls {service} of the node {node}, but there are only {nodes}."
+    return ""
+
+
+def asked_too_early(recording: Recording) -> str:
+    """A request or goal that was sent before there was a server to take it."""
+    lost = [(call.service, call.client, call.asked, "service") for call in recording.calls if call.lost]
+    lost += [(goal.action, goal.client, goal.asked, "server") for goal in recording.goals if goal.lost]
+    for name, client, asked, what in lost:
+        servers = [e.node for e in recording.graph.endpoints if e.name == name and "client" not in e.kind]
+        if servers:
+            return (
+                f"{client} called {name} at {asked:.3g} s, before {servers[0]} offered it: what is sent to "
+                f"nobody is lost. Wait first: `while not client.wait_for_{what}(timeout_sec=1.0)`."
+            )
+    return ""
+
+
+def answer_not_heard(recording: Recording) -> str:
+    """A client whose answer came, but whose node didn't spin any more, or never did."""
+    if recording.ended.reason == "blocked":
+        return ""
+    heard = [(c.service, c.client, c.asked, c.answered, c.received) for c in recording.calls]
+    heard += [(g.action, g.client, g.asked, _decided(g.events), g.answered) for g in recording.goals]
+    for name, client, asked, answered, received in heard:
+        if asked is None or answered is None or received is not None or not client:
+            continue
+        if any(run.node == client and run.stamp + run.duration >= answered for run in recording.callbacks):
+            continue  # it spins, and gave up waiting, or waits in a callback
+        return (
+            f"{client} called {name} at {asked:.3g} s, and the answer came at {answered:.3g} s, but {client} "
+            f"never heard it: answers come in while the node spins. Call {SPIN}."
+        )
+    return ""
+
+
+def _decided(events: list[tuple[float, str]]) -> float | None:
+    return events[0][0] if events else None
+
+
+def empty_answers(recording: Recording) -> str:
+    """A service all of whose answers are as empty as a new response."""
+    answered = [call for call in recording.calls_of() if call.raw_response is not None]
+    for service in dict.fromkeys(call.service for call in answered):
+        responses = [call.response for call in answered if call.service == service]
+        fields = list(responses[0].get_fields_and_field_types())
+        if fields and all(response == type(response)() for response in responses):
+            return (
+                f"Every answer of {service} is empty: its callback never sets a field of the response. "
+                f"Set them before you return it, as in `response.{fields[0]} = ...`."
+            )
+    return ""

@@ -1,0 +1,196 @@
+import math
+
+import pytest
+from nav2_msgs.action import NavigateToPose
+
+from grader import Missed
+from grader.checks import accepts, cancels, finishes, gives_feedback, rejects, sends_goals, serves_action
+from sim import run
+from sim.exchanges import Goal
+from sim.recording import Heard
+from sim.ros.codec import encode
+from tests.grader.recordings import recording
+from tests.students import service_misfits as misfits
+from tests.students.engine import actions, goals
+
+FIBONACCI = "example_interfaces/action/Fibonacci"
+NAVIGATE = "nav2_msgs/action/NavigateToPose"
+GOAL = "the goal /fibonacci (order=3) at 0 s"
+
+
+def ran(*programs, seconds=6):
+    return run(*programs, seconds=seconds, quiet=True)
+
+
+def missed(function, *arguments, **options):
+    with pytest.raises(Missed) as caught:
+        function(*arguments, **options)
+    return caught.value
+
+
+def fibonacci(request):
+    numbers = [0, 1]
+    for _ in range(request.order):
+        numbers.append(sum(numbers[-2:]))
+    return {"sequence": numbers}
+
+
+def driven(*distances, end=4.0):
+    """A goal for /navigate whose feedback gives these distances, one a second."""
+    feedback = [
+        Heard(float(n), "/navigate/_action/feedback", f"{NAVIGATE}_Feedback", "/navigator", encode(message))
+        for n, distance in enumerate(distances, 1)
+        for message in [NavigateToPose.Feedback(distance_remaining=distance)]
+    ]
+    events = [(0.0, "accepted"), (0.0, "executing"), (end, "succeeded")]
+    raw = encode(NavigateToPose.Goal())
+    goal = Goal("/navigate", NAVIGATE, "/client", "00" * 16, raw, 0.0, "/navigator", events, feedback)
+    return recording(goals=[goal])
+
+
+def test_serves_action_finds_the_server():
+    (end,) = serves_action(ran(actions.Server), "/fibonacci", FIBONACCI)
+    assert end.node == "/server"
+
+
+def test_serves_action_misses_one_that_nobody_offers():
+    miss = missed(serves_action, recording(), "/fibonacci", FIBONACCI)
+    assert (miss.expected, miss.saw) == (f"an action server /fibonacci of type {FIBONACCI}", "nobody offers it")
+    miss = missed(serves_action, ran(misfits.MisspeltAction), "/fibonacci")
+    assert (miss.saw, miss.hint) == (
+        "nobody offers it; there is /fibonaci", "Is /fibonaci a typing slip? Did you mean /fibonacci?",
+    )  # fmt: skip
+    miss = missed(serves_action, ran(actions.Server), "/fibonacci", NAVIGATE)
+    assert miss.hint == f"Both ends of an action must use the same type: on /fibonacci it is {NAVIGATE}."
+
+
+def test_sends_goals_gives_the_goals():
+    assert [goal.request.order for goal in sends_goals(ran(goals.asks_nobody), "/fibonacci", FIBONACCI)] == [1]
+
+
+def test_sends_goals_misses_a_client_and_its_goals():
+    miss = missed(sends_goals, ran(actions.Server), "/fibonacci")
+    assert (miss.expected, miss.saw) == ("an action client for /fibonacci", "nobody has a client for it")
+    miss = missed(sends_goals, ran(actions.Client, seconds=1), "/fibonacci", FIBONACCI)
+    assert (miss.expected, miss.saw) == ("a goal for /fibonacci", "a client, but no goal")
+    miss = missed(sends_goals, ran(goals.asks_nobody), "/fibonacci", at_least=2)
+    assert (miss.expected, miss.saw) == ("2 or more goals for /fibonacci", "only 1 in 6 s")
+
+
+def test_goals_are_accepted_and_rejected_by_what_they_ask():
+    assert len(accepts(ran(actions.Server, actions.Client), "/fibonacci")) == 1
+    assert len(rejects(ran(actions.Server, actions.Greedy), "/fibonacci")) == 1
+
+
+def test_accepts_misses_a_goal_that_is_rejected():
+    miss = missed(accepts, ran(actions.Server, actions.Greedy), "/fibonacci")
+    assert (miss.expected, miss.saw) == ("the goal /fibonacci (order=10) at 0 s accepted", "rejected at 0 s")
+
+
+def test_rejects_misses_a_goal_that_is_accepted():
+    miss = missed(rejects, ran(actions.Server, actions.Client), "/fibonacci")
+    assert (miss.expected, miss.saw, miss.credit) == (f"{GOAL} rejected", "succeeded at 3 s", 0.0)
+
+
+def test_a_decision_is_missed_where_there_is_none():
+    assert missed(accepts, ran(goals.JudgeRaises, actions.Client), "/fibonacci").saw == "no decision on it"
+    asked = ran(misfits.server_that_nobody_spins, actions.Client)
+    assert missed(accepts, asked, "/fibonacci").saw == "nobody took the goal"
+
+
+def test_a_decision_needs_somebody_who_asks():
+    assert missed(accepts, recording(), "/fibonacci").saw == "nobody offers it"
+    with pytest.raises(ValueError, match="nobody sent such a goal to /fibonacci, so there is nothing to judge"):
+        accepts(ran(actions.Server, actions.Client), "/fibonacci", where=lambda goal: goal.request.order > 5)
+
+
+def test_finishes_judges_status_time_and_result():
+    done = ran(actions.Server, actions.Client)
+    assert len(finishes(done, "/fibonacci", "succeeded", fibonacci, within=3.0)) == 1
+    assert len(finishes(ran(actions.Aborting, actions.Client), "/fibonacci", "aborted")) == 1
+
+
+def test_finishes_misses_another_end():
+    miss = missed(finishes, ran(actions.Forgetful, actions.Client), "/fibonacci", within=3.0)
+    assert (miss.expected, miss.saw) == (f"{GOAL} succeeded within 3 s", "aborted at 0 s")
+    miss = missed(finishes, ran(goals.Busy, actions.Client), "/fibonacci")
+    assert (miss.expected, miss.saw) == (f"{GOAL} succeeded", "still executing at the end")
+
+
+def test_finishes_misses_an_end_that_comes_late():
+    miss = missed(finishes, ran(actions.Server, actions.Client), "/fibonacci", within=2.0)
+    assert (miss.expected, miss.saw) == (f"{GOAL} succeeded within 2 s", "succeeded after 3 s")
+
+
+def test_finishes_misses_a_wrong_result():
+    miss = missed(finishes, ran(actions.Coroutine, actions.Client), "/fibonacci", "succeeded", fibonacci)
+    assert miss.expected == f"sequence=[0, 1, 1, 2, 3] as the result of {GOAL}"
+    assert miss.saw == "sequence=[3]"
+    miss = missed(finishes, ran(goals.ReturnsNothing, actions.Client), "/fibonacci", "succeeded", fibonacci)
+    assert miss.saw == "no result"
+
+
+def test_gives_feedback_judges_its_rate():
+    assert len(gives_feedback(ran(actions.Server, actions.Client), "/fibonacci", 1.0)) == 1
+
+
+def test_gives_feedback_misses_a_goal_without():
+    miss = missed(gives_feedback, ran(goals.IgnoresCancel, actions.Client), "/fibonacci")
+    assert (miss.expected, miss.saw) == (f"feedback on {GOAL}", "none")
+    assert miss.hint == "In the loop of the execute callback: goal_handle.publish_feedback(feedback)."
+    miss = missed(gives_feedback, ran(actions.Server, actions.Greedy), "/fibonacci")
+    assert (miss.expected, miss.saw) == ("feedback on a goal for /fibonacci", "no goal was executed")
+
+
+def test_gives_feedback_misses_another_rate_and_a_pause():
+    done = ran(actions.Server, actions.Client)
+    miss = missed(gives_feedback, done, "/fibonacci", 2.0)
+    assert (miss.expected, miss.saw) == (f"feedback on {GOAL} at 2 Hz, within 10%", "1 Hz (3 messages)")
+    miss = missed(gives_feedback, driven(3.0, 2.0, 1.0, end=8.0), "/navigate", 1.0)
+    assert miss.saw == "none for 5 s, from 3 s on"
+    miss = missed(gives_feedback, driven(3.0), "/navigate", 5.0)
+    assert miss.saw == "none for 3 s, from 1 s on"
+
+
+def test_gives_feedback_lets_a_field_go_one_way_only():
+    falling = driven(3.0, 2.0, 2.0, 0.5)
+    assert len(gives_feedback(falling, "/navigate", falling="distance_remaining")) == 1
+    miss = missed(gives_feedback, falling, "/navigate", rising="distance_remaining")
+    assert miss.expected == "distance_remaining only rising in the feedback"
+    assert miss.saw == "2.0 after 3.0 at 2 s"
+    miss = missed(gives_feedback, driven(3.0, math.nan), "/navigate", falling="distance_remaining")
+    assert (miss.expected, miss.saw) == (
+        "distance_remaining only falling in the feedback", "nan after 3.0 at 2 s",
+    )  # fmt: skip
+
+
+def test_cancels_gives_the_goals_that_were_canceled_in_time():
+    (goal,) = cancels(ran(actions.parallel_server, actions.Impatient), "/fibonacci", within=0.5)
+    assert goal.status == "canceled"
+
+
+@pytest.mark.parametrize("server, within, saw", [
+    (actions.parallel_server, 0.4, "canceled after 0.5 s"),
+    (actions.Server, 1.0, "the request refused at 3 s; succeeded at 3 s"),
+    (goals.parallel(goals.IgnoresCancel), 1.0, "succeeded at 3 s"),
+    (goals.parallel(goals.AlwaysRejectsCancel), 1.0, "the request refused at 1.5 s; succeeded at 3 s"),
+    (goals.parallel(goals.Busy), 1.0, "still canceling at the end"),
+    (goals.Busy, 1.0, "still executing at the end"),
+], ids=range(6))  # fmt: skip
+def test_cancels_misses_what_is_not_canceled(server, within, saw):
+    miss = missed(cancels, ran(server, actions.Impatient), "/fibonacci", within=within)
+    assert miss.expected == f"{GOAL} canceled within {within:g} s of the request at 1.5 s"
+    assert miss.saw == saw
+
+
+def test_cancels_needs_somebody_who_asks():
+    with pytest.raises(ValueError, match="nobody canceled a goal for /fibonacci, so there is nothing to judge"):
+        cancels(ran(actions.Server, actions.Client), "/fibonacci")
+
+
+def test_a_long_goal_is_cut_in_words():
+    pose = NavigateToPose.Goal()
+    goal = Goal("/navigate", NAVIGATE, "/client", "00" * 16, encode(pose), 1.0)
+    miss = missed(accepts, recording(goals=[goal]), "/navigate")
+    assert miss.expected.startswith("the goal /navigate (pose=geometry_msgs.msg.PoseStamped(")
+    assert miss.expected.endswith("...) at 1 s accepted")

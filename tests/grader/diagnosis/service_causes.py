@@ -1,0 +1,64 @@
+"""What goes wrong with services and actions without an error, and the sentence for each."""
+
+from tests.students import service_misfits as misfits
+from tests.students.engine import actions, callers, goals, services
+
+SLIP = "/customer calls /add, {}: two different services. "
+SPIN = (
+    "never heard it: answers come in while the node spins. Call rclpy.spin(node), or "
+    "rclpy.spin_until_future_complete(node, future)."
+)
+IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
+NEVER_RAN = "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
+THREADS = (
+    "the execute callback kept the node busy. Give the ActionServer callback_group=ReentrantCallbackGroup(), and "
+    "spin the node with a MultiThreadedExecutor."
+)
+LOOK = (
+    "Look at goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
+    "the result."
+)
+
+SERVICE_CAUSES = {
+    (misfits.MisspeltService, services.done_callback): SLIP.format("/adder offers /ad")
+    + "Is /ad a typing slip? Did you mean /add?",
+    (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format("/robot1/adder offers /robot1/add")
+    + "Only the namespace differs: write /add. A name that starts with a slash is taken as it is; without the slash "
+    "the node's namespace is put before it.",
+    (misfits.MisspeltAction, goals.asks_nobody): "/client calls /fibonacci, /server offers /fibonaci: two different "
+    "actions. Is /fibonaci a typing slip? Did you mean /fibonacci?",
+    (services.until_future_complete,): f"/customer has a client for the service /add{IN_VAIN}",
+    (services.nobody_answers,): f"/customer has a client for the service /add{IN_VAIN}",
+    (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
+    (services.Wheel, misfits.asks_another_node): "/asker calls get_parameters of the node /wheels, but there are only "
+    "/wheel, /asker.",
+    (services.done_callback, services.late_adder): "/customer called /add at 0 s, before /adder offered it: what is "
+    "sent to nobody is lost. Wait first: `while not client.wait_for_service(timeout_sec=1.0)`.",
+    (goals.asks_nobody, actions.late_server): "/client called /fibonacci at 0 s, before /server offered it: what is "
+    "sent to nobody is lost. Wait first: `while not client.wait_for_server(timeout_sec=1.0)`.",
+    (misfits.adder_that_nobody_spins, services.done_callback): "/adder has a service with requests waiting, "
+    + NEVER_RAN,
+    (misfits.server_that_nobody_spins, actions.Client): f"/server has an action with goals waiting, {NEVER_RAN}",
+    (services.Adder, callers.never_spins): "/customer called /add at 0 s, and the answer came at 0 s, but /customer "
+    + SPIN,
+    (actions.Server, goals.never_spins): "/client called /fibonacci at 0 s, and the answer came at 0 s, but /client "
+    + SPIN,
+    (goals.JudgesWithTrue, actions.Client): "A goal callback returned something else than a GoalResponse, and so the "
+    "goal was rejected: return GoalResponse.ACCEPT or GoalResponse.REJECT.",
+    (actions.Forgetful, actions.Client): "The execute callback of /fibonacci returned without saying how the goal "
+    "ended, which counts as aborted: call goal_handle.succeed() before you return the result.",
+    (actions.Server, actions.Impatient): "/client asked at 1.5 s to cancel its goal, and /server heard it only at 3 s: "
+    + THREADS,
+    (goals.Busy, actions.Impatient): f"/client asked at 1.5 s to cancel its goal, and /server heard it never: {THREADS}",
+    (goals.parallel(goals.IgnoresCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
+    f"/fibonacci, and went on until it succeeded at 3 s. {LOOK}",
+    (goals.parallel(goals.AbortsOnCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
+    f"/fibonacci, and went on until it was aborted at 2 s. {LOOK}",
+    (goals.parallel(goals.Busy), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of /fibonacci, and "
+    f"went on all the same. {LOOK}",
+    (goals.parallel(goals.AlwaysRejectsCancel), actions.Impatient): "/server refused at 1.5 s to cancel the goal of "
+    "/fibonacci. Without a cancel_callback an ActionServer always refuses: give it one that returns "
+    "CancelResponse.ACCEPT.",
+    (misfits.NeverSetsTheSum, services.done_callback): "Every answer of /add is empty: its callback never sets a field "
+    "of the response. Set them before you return it, as in `response.sum = ...`.",
+}

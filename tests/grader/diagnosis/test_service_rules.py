@@ -1,0 +1,102 @@
+"""Every usual mistake with services and actions, made by a real node, gets its own advice."""
+
+import re
+
+import pytest
+
+from grader.diagnosis import find_fault
+from grader.diagnosis.service_rules import SERVICE_RULES
+from sim import run
+from tests.students import service_mistakes as mistakes
+
+REQUEST = "A call takes one request: `request = AddTwoInts.Request()`, then set its fields, then `call_async(request)`."
+GOAL = "A goal is sent as a message: `goal = Fibonacci.Goal()`, then set its fields, then `send_goal_async(goal)`."
+FEEDBACK = (
+    "Feedback is a message: `feedback = Fibonacci.Feedback()`, then set its fields, then "
+    "`goal_handle.publish_feedback(feedback)`."
+)
+RESPONSE = (
+    "A service's callback returns the response that it was given, with its fields set; this one returned {}. "
+    "End it with `return response`."
+)
+RESULT = "An execute callback has to give the result back: end it with `return Fibonacci.Result(...)`."
+NO_SERVICE = (
+    "This is no type of a service. Services come from packages' `.srv`, as in `from std_srvs.srv import SetBool`; "
+    "actions from `.action`, as in `from example_interfaces.action import Fibonacci`."
+)
+OTHER_TYPE = "Another node uses {} with another type: client and server must use the same one."
+
+ADVICE = {
+    mistakes.ForgetsToReturnTheResponse: "The service's callback has to give its answer back: end it with "
+    "`return response`.",
+    mistakes.ReturnsTheSum: RESPONSE.format("int"),
+    mistakes.ReturnsTheRequest: RESPONSE.format("AddTwoInts_Request"),
+    mistakes.AnswersWithoutResponse: "`answer` is called with two things, as a service's callback is: write "
+    "`def answer(self, request, response):`.",
+    mistakes.FieldOfTheResponseMisspelt: "AddTwoInts.Response has no `summ`: check its spelling. Of a message, "
+    "`AddTwoInts.Response.get_fields_and_field_types()` lists the fields.",
+    mistakes.CallsWithNumbers: REQUEST,
+    mistakes.CallsWithTheClass: "A call takes a request, not its class: `request = AddTwoInts.Request()`, with brackets.",
+    mistakes.CallsWithTheResponse: REQUEST,
+    mistakes.ServesAnotherType: OTHER_TYPE.format("/sum"),
+    mistakes.AsksForAnotherType: OTHER_TYPE.format("/sum"),
+    mistakes.ServesAMessage: NO_SERVICE,
+    mistakes.AsksByAMessage: NO_SERVICE,
+    mistakes.ServesWithoutCallback: "create_service() is missing an argument: write "
+    "create_service(Type, 'name', self.callback).",
+    mistakes.ReturnsNoResult: RESULT,
+    mistakes.ReturnsTheFeedback: RESULT,
+    mistakes.PublishesAListAsFeedback: FEEDBACK,
+    mistakes.PublishesTheResultAsFeedback: FEEDBACK,
+    mistakes.SucceedsTwice: "The goal has ended already: call one of succeed(), abort() and canceled(), once, and "
+    "then return.",
+    mistakes.CancelsWithoutBeingAsked: "canceled() is for a goal that a client wants to cancel: call it only when "
+    "goal_handle.is_cancel_requested is True; abort() is for what went wrong.",
+    mistakes.AsksTheHandleForTheOrder: "What the client asks for is in the request of the goal handle: "
+    "`goal_handle.request.order`.",
+    mistakes.SendsANumber: GOAL,
+    mistakes.SendsTheWholeAction: GOAL,
+    mistakes.ActionServerWithoutCallback: "ActionServer() is missing an argument: write "
+    "ActionServer(self, Type, 'name', self.execute).",
+    mistakes.SendsGoalsOfAnotherType: OTHER_TYPE.format("/count"),
+}
+
+
+def record(student):
+    return run(student, seconds=3, quiet=True)
+
+
+@pytest.mark.parametrize("student", ADVICE, ids=lambda student: student.__name__)
+def test_a_mistake_gets_its_advice(student):
+    assert find_fault(record(student)).hint == ADVICE[student]
+
+
+@pytest.mark.parametrize("student", [mistakes.Asker, mistakes.Runner])
+def test_what_they_are_built_on_is_right(student):
+    recording = record(student)
+    assert find_fault(recording) is None
+    assert [call.response.sum for call in recording.calls] == [3] * len(recording.calls)
+    assert {goal.status for goal in recording.goals} <= {"succeeded"}
+    assert recording.calls or recording.goals
+
+
+def test_every_student_of_the_file_is_judged():
+    of_file = {s for s in vars(mistakes).values() if getattr(s, "__module__", "") == mistakes.__name__}
+    assert of_file == {mistakes.Asker, mistakes.Runner, *ADVICE}
+
+
+def test_no_rule_stands_there_without_a_student_who_earns_it():
+    earned = set()
+    for student in ADVICE:
+        error = record(student).errors[0]
+        matches = (r for r in SERVICE_RULES if r.type == error.type and re.search(r.pattern, error.text))
+        earned.add(next(matches, None))
+    assert [rule for rule in SERVICE_RULES if rule not in earned] == []
+
+
+def test_the_fault_names_the_callback_although_rclpy_raised():
+    fault = find_fault(record(mistakes.ForgetsToReturnTheResponse))
+    assert fault.saw == (
+        "TypeError: Expected <class 'example_interfaces.srv._add_two_ints.AddTwoInts_Response'>, got "
+        "<class 'NoneType'> (in ForgetsToReturnTheResponse.answer, at 1 s)"
+    )
