@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 
 from sim.recording import Pose, Recording
 from sim.view.figure import PATH
-from sim.view.scene import scene
+from sim.view.scene import NO_ROBOT, scene
 from sim.world import RobotModel
 
 SMOOTH = 2  # frames are drawn so many times larger, then scaled down
@@ -55,6 +55,8 @@ class _Stage:
 
     def __init__(self, recording: Recording) -> None:
         figure, axes = scene(recording)
+        if not recording.path:
+            raise ValueError(NO_ROBOT)
         figure.set_dpi(figure.dpi * SMOOTH * 0.75)
         figure.canvas.draw()
         self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")

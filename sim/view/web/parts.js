@@ -46,7 +46,8 @@ function speeds(choices, act) {
   const select = make("select", { title: "Speed: simulated seconds in a second", "aria-label": "Speed" });
   select.put = (speed) => { // a speed set from elsewhere may be none of the choices
     if (![...select.options].some((option) => Number(option.value) === speed)) {
-      select.append(make("option", { value: speed }, `${speed} ×`));
+      const label = speed === Infinity ? "as fast as it goes" : `${speed} ×`;
+      select.append(make("option", { value: speed }, label));
     }
     select.value = speed;
   };

@@ -1,0 +1,105 @@
+"""The live picture of a run in a notebook: frames and facts go to the page, clicks and keys come back."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from array import array
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import anywidget
+import numpy as np
+import traitlets
+from IPython.display import HTML, DisplayHandle, display
+
+from sim.recording import Recording
+from sim.view.geometry import world_data
+from sim.view.replay import replay
+from sim.view.scripts import script
+from sim.world import Scan, World
+
+Command = dict[str, Any]
+SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
+
+
+class LiveView(anywidget.AnyWidget):
+    """Clock, controls and topics of a run that is under way; with a world, its picture and a pad to drive.
+
+    A frame is one binary message: float32 stamp (s), x, y (m), yaw (rad) of each of the world's bodies, and
+    behind them the newest scan, if there is one: pose and ranges. The page draws the newest frame only.
+
+    Attributes:
+        on_command: called with each command of the page that makes sense, such as {"speed": 2.0}, {"pause": True},
+            {"step": True}, {"stop": True} or {"drive": [forward, left]}, each of the two in [-1, 1].
+    """
+
+    _esm = script("live.js")
+    world = traitlets.Dict(allow_none=True).tag(sync=True)
+    status = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, world: World | None) -> None:
+        super().__init__(world=world and world_data(world))
+        self.on_command: Callable[[Command], None] | None = None
+        self._place: DisplayHandle | None = None
+        self.on_msg(self._heard)
+
+    def show(self) -> None:
+        """Display the view in the output of the cell that is running."""
+        self._place = display(self, display_id=True)
+
+    def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
+        """Show all bodies of the world at `stamp` (s); the picture keeps their trails."""
+        floats = array("f", (stamp, *itertools.chain.from_iterable(poses)))
+        if scan is not None:
+            floats.extend(scan.pose)
+            floats.frombytes(np.asarray(scan.ranges, np.float32).tobytes())
+        self.send({}, [floats.tobytes()])
+
+    def state(self, state: dict[str, Any]) -> None:
+        """Show how the run is going: stamp, speed, pace, paused, topics, contacts and ended."""
+        speed = state["speed"]
+        self.status = {**state, "speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
+
+    def finish(self, recording: Recording) -> None:
+        """The run is over: its replay takes the place of the view, which is closed."""
+        try:
+            self._leave(replay(recording))
+        finally:
+            self.close()
+
+    def close(self) -> None:
+        """End the view; nothing takes its place. Closing again does nothing."""
+        self._leave(HTML(""))
+        self.on_command = None
+        super().close()
+
+    def _leave(self, instead: Any) -> None:
+        place, self._place = self._place, None
+        if place is not None:
+            place.update(instead)
+
+    def _heard(self, _: Any, content: Any, buffers: Any) -> None:
+        command = checked(content)
+        if command is not None and self.on_command is not None:
+            self.on_command(command)
+
+
+def checked(content: Any) -> Command | None:
+    """The command that a message from a page is, or None: anybody can send anything from there."""
+    if not isinstance(content, dict) or len(content) != 1:
+        return None
+    ((name, value),) = content.items()
+    if name == "speed" and _between(value, *SPEEDS):
+        return {name: float(value)}
+    if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop") and value is True):
+        return {name: value}
+    if name == "drive" and isinstance(value, list) and len(value) == 2:
+        return (
+            {name: [float(part) for part in value]} if all(_between(part, -1, 1) for part in value) else None
+        )
+    return None
+
+
+def _between(value: Any, least: float, most: float) -> bool:
+    return type(value) in (int, float) and least <= value <= most
