@@ -18,10 +18,12 @@ LEVELS = {"DEBUG": MUTED, "INFO": PATH, "WARN": CAUTION, "ERROR": WARNING, "FATA
 def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
     """One row for each topic with a stroke for each message, then the log lines and the errors.
 
-    topics: names in the order from top to bottom; all topics of the run when left out.
+    topics: names in the order from top to bottom; all topics of the run when left out, then the services with
+    a stroke for each call, and the actions with one for each change of a goal's status.
     """
     names = list(recording.topics if topics is None else topics)
     rows = [(_label(recording, name), stamps(recording.messages(name)), PATH) for name in names]
+    rows += _exchanges(recording) if topics is None else []
     if recording.logs:
         rows.append((f"log lines\n{len(recording.logs)}", [line.stamp for line in recording.logs], SOLID))
     if recording.errors:
@@ -31,6 +33,24 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
         axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
     _along_time(recording, axes, [label for label, _, _ in rows])
     return figure
+
+
+def _exchanges(recording: Recording) -> list[tuple[str, list[float], str]]:
+    """A row for each service that was called and each action that got a goal."""
+    rows = []
+    for service in dict.fromkeys(call.service for call in recording.calls_of()):
+        calls = recording.calls_of(service)
+        moments = [call.taken if call.asked is None else call.asked for call in calls]
+        rows.append((f"{service}\n{_count(calls, 'call')}", moments, PATH))
+    for action in dict.fromkeys(goal.action for goal in recording.goals):
+        goals = recording.goals_of(action)
+        moments = [stamp for goal in goals for stamp, _ in goal.events]
+        rows.append((f"{action}\n{_count(goals, 'goal')}", moments, PATH))
+    return rows
+
+
+def _count(items: Sequence[Any], noun: str) -> str:
+    return f"{len(items)} {noun}{'s' * (len(items) != 1)}"
 
 
 def plot_logs(recording: Recording) -> Plot:

@@ -1,3 +1,4 @@
+import dataclasses
 import io
 import subprocess
 import sys
@@ -12,8 +13,10 @@ from std_msgs.msg import String
 from sim import Recording, World, run
 from sim.recording import CallbackError, Contact, Ended, Pose
 from sim.view import animate, plot_path, plot_signal, plot_topics, png
+from sim.world import MovableBox, OtherRobot
 from tests.grader.recordings import published
 from tests.students import misfits
+from tests.students.engine import actions, goals, services
 
 
 def driven(world="room", **evidence):
@@ -46,6 +49,31 @@ def test_walls_boxes_and_pillars_are_where_they_are():
     assert len(axes.patches) == len(world.boxes) + len(world.circles) + 2  # and the robot at both ends
 
 
+def test_a_machine_is_drawn_at_start_and_end():
+    """The upper arm is 0.5 m long and 0.06 m wide; at last both links point up."""
+    up = [Pose(2.0, 0.0, 0.0, np.pi / 2), Pose(2.0, 0.0, 0.5, np.pi / 2)]
+    tracks = {"upper_arm": [Pose(0.0, 0.0, 0.0, 0.0), up[0]], "forearm": [Pose(0.0, 0.5, 0.0, 0.0), up[1]]}
+    figure = plot_path(Recording(world=World.load("arm"), tracks=tracks))
+    assert (figure.axes[0].get_title(), labels(figure)) == ("arm", ["start", "end, 2 s"])
+    corners = figure.axes[0].patches[2].get_xy()[:4]  # behind the base and the upper arm's start
+    assert corners == pytest.approx(
+        np.array([(0.03, -0.03), (0.03, 0.53), (-0.03, 0.53), (-0.03, -0.03)]), abs=1e-9
+    )
+    assert len(figure.axes[0].patches) == 1 + 2 * 2
+
+
+def test_boxes_and_other_robots_are_drawn_beside_the_robot():
+    world = dataclasses.replace(
+        World.load("yard"),
+        movable=(MovableBox(x=1.0, y=1.0, yaw=0.0, width=0.4, height=0.2),),
+        robots=(OtherRobot(name="leader", start=(1.0, -1.0, 0.0)),),
+    )
+    tracks = {"box_1": [Pose(0.0, 1.0, 1.0, 0.0)], "leader": [Pose(0.0, 1.0, -1.0, 0.0)]}
+    figure = plot_path(dataclasses.replace(driven(), world=world, tracks=tracks))
+    assert len(figure.axes[0].patches) == 2 * 3  # each at both ends
+    assert labels(figure) == ["path", "start", "end, 5 s"]
+
+
 def test_contacts_are_marked():
     figure = plot_path(driven(contacts=[Contact(1.0, None, 3.0, 0.5, "front", "wall")]))
     marks = next(line for line in figure.axes[0].lines if line.get_label() == "contact")
@@ -67,6 +95,11 @@ def test_a_run_without_a_robot_is_refused(draw):
         draw(Recording())
 
 
+def test_a_machine_is_not_a_robot_on_its_way():
+    with pytest.raises(ValueError, match=r"^this run has no robot to draw: "):
+        animate(Recording(world=World.load("joint"), tracks={"link": [Pose(0.0, 0.0, 0.0, 0.0)]}))
+
+
 def test_topics_have_a_row_each_with_count_and_rate():
     recording = run(misfits.Talker, misfits.Listener, seconds=5, quiet=True)
     recording.errors.append(CallbackError(2.5, "/talker", "Talker.tick", "KeyError", "", ""))
@@ -79,6 +112,15 @@ def test_topics_have_a_row_each_with_count_and_rate():
     assert axes.get_xlabel() == "time (s)"
     assert list(axes.lines[0].get_xdata()) == [1.0, 2.0, 3.0, 4.0, 5.0]
     assert list(axes.lines[2].get_xdata()) == [2.5]
+
+
+def test_services_and_actions_have_rows_too():
+    recording = run(services.SlowAdder, services.many_calls, goals.two_servers, actions.Client, seconds=4)
+    axes = plot_topics(recording).axes[0]
+    labels = [tick.get_text() for tick in axes.get_yticklabels()]
+    assert labels[:2] == ["/add\n5 calls", "/fibonacci\n2 goals"]
+    assert list(axes.lines[0].get_xdata()) == [0.0] * 5
+    assert list(axes.lines[1].get_xdata()) == [0.0] * 6
 
 
 def test_topics_can_be_chosen():
