@@ -27,8 +27,8 @@ class Balancer(Node):
     def push(self, joints):
         x, angle = joints.position
         v, w = joints.velocity
-        force = -sum(gain * value for gain, value in zip(self.gains, (x, v, angle, w), strict=True))
-        self.publisher.publish(Float64(data=force))
+        k1, k2, k3, k4 = self.gains  # not sum(): Python 3.12 rounds it in another way than 3.11
+        self.publisher.publish(Float64(data=-(k1 * x + k2 * v + k3 * angle + k4 * w)))
 
 
 class Steadier(Balancer):
