@@ -6,11 +6,14 @@ import contextlib
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from types import SimpleNamespace
 from typing import Any, TextIO
 
-from sim.ros.fibers import engine
+from sim.ros.fibers import engine, outside_student_code
+
+ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
+ECHO_CHARACTERS = 20_000
 
 
 class StudentStream:
@@ -72,20 +75,53 @@ def _hold(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
     return [(stream, "write"), (stream, "flush")]
 
 
-@contextlib.contextmanager
-def file_descriptor_2(on_text: Callable[[str], None]) -> Iterator[None]:
-    """Catch what is written to file descriptor 2 below Python, as ROS's C libraries do."""
-    with contextlib.suppress(Exception):
-        sys.stderr.flush()
-    saved = os.dup(2)
-    with tempfile.TemporaryFile() as sink:
-        os.dup2(sink.fileno(), 2)
+class FileDescriptor2:
+    """Catches what is written to file descriptor 2 below Python, as ROS's C libraries do."""
+
+    def __init__(self) -> None:
+        self._sink = tempfile.TemporaryFile()  # noqa: SIM115  (close() does)
+
+    @contextlib.contextmanager
+    def caught(self) -> Iterator[None]:
+        """Catch for a while."""
+        _flush()
+        users = os.dup(2)
+        os.dup2(self._sink.fileno(), 2)
         try:
             yield
         finally:
-            with contextlib.suppress(Exception):
-                sys.stderr.flush()
-            os.dup2(saved, 2)
-            os.close(saved)
-            sink.seek(0)
-            on_text(sink.read(1_000_000).decode(errors="replace"))
+            _flush()
+            os.dup2(users, 2)
+            os.close(users)
+
+    def close(self) -> str:
+        """All that was caught, or the first megabyte of it."""
+        with self._sink:
+            self._sink.seek(0)
+            return self._sink.read(1_000_000).decode(errors="replace")
+
+
+def _flush() -> None:
+    with contextlib.suppress(Exception):
+        sys.stderr.flush()
+
+
+class Screen:
+    """Shows the first lines of what nodes say, on stdout: nbgrader takes any text on stderr for a failure."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.quiet, self.stream = quiet, sys.stdout
+        self.lines = self.characters = 0
+
+    def __call__(self, text: str) -> None:
+        """Show some more, if there is room."""
+        if not self.quiet and self.lines < ECHO_LINES and self.characters < ECHO_CHARACTERS:
+            with outside_student_code():
+                self.stream.write(text[:ECHO_CHARACTERS])
+        self.lines += text.count("\n")
+        self.characters += len(text)
+
+    def close(self) -> None:
+        """Say how much was not shown."""
+        if not self.quiet and self.lines > ECHO_LINES:
+            self.stream.write(f"... and {self.lines - ECHO_LINES} more lines, all in the recording\n")

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import random
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any
 
-import rclpy
-import rclpy.context
-import rclpy.utilities
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
@@ -20,65 +17,72 @@ from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT, Running
 from sim.ros.endings import conclusion
 from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
 from sim.ros.guard import Guard
+from sim.ros.own import OwnRclpy
 from sim.ros.processes import Process, StudentProcess
 from sim.ros.recorder import Recorder, destroy
 from sim.ros.simtime import SimulatedTime
 
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
 MAX_WORK_PER_SECOND = 200_000  # callbacks and switches in a simulated second
+INTERRUPTED = "The user interrupted the run."
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
 
 
 class Engine(Scheduler):
-    """One run on the real rclpy. Use as a context manager: on leaving, nothing of the run is left."""
+    """One run on the real rclpy. Between open() and close(), it can be awake again and again."""
 
-    def __init__(self, recording: Recording, seed: int) -> None:
+    def __init__(self, recording: Recording, echo: Callable[[str], None]) -> None:
         super().__init__()
         self.recording = recording
         self.recorder = Recorder(self, recording)
         self.guard = Guard(self)
-        self.chance = _Chance(seed)
+        self.chance = _Chance(recording.seed)
         self.context = Context()
+        self.rclpy = OwnRclpy()
         self.executors: list[Any] = []
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
         self.sent: dict[str, int] = {}  # messages published on each topic
         self.processes: list[StudentProcess] = []
-        self.echo: Callable[[str], None] = lambda text: None
+        self.echo = echo
         self._callbacks = self._callbacks_before = 0
         self.suspended: list[Running] = []  # coroutine callbacks that wait for something
-        self._at_end: list[Callable[[], Any]] = []
         self._second = (0, 0)  # when the second under way began, and the work done by then
         self._fault: Ended | None = None
 
     # -- set-up and tear-down ----------------------------------------------------------------------
 
-    def __enter__(self) -> Engine:
-        self._user = (rclpy.utilities.g_default_context, rclpy.__dict__["__executor"])
-        self._log_users = rclpy.context.g_logging_ref_count
+    @contextlib.contextmanager
+    def awake(self) -> Iterator[None]:
+        """Let rclpy be the run's for a while, and its student code be seen by the hooks."""
+        with self.rclpy.lent():
+            activate(self)
+            try:
+                yield
+            finally:
+                activate(None)
+                if StudentProcess.loaded is not None:
+                    StudentProcess.loaded.unload()
+
+    def open(self) -> None:
+        """Begin. Call it, and everything that runs student code, while the engine is awake."""
         self.context.init(args=["run"])
         self.time = SimulatedTime(self)
-        activate(self)
-        return self
 
-    def __exit__(self, *exception: object) -> None:
+    def close(self) -> None:
+        """Leave nothing of the run."""
         self.recorder.close()
         try:
             self._wind_down()
         finally:
-            StudentProcess.loaded = None
-            activate(None)
             for process in self.processes:
                 self._free(process)
             for executor in self.executors:
                 with contextlib.suppress(InvalidHandle):
                     executor.shutdown()
-            for undo in self._at_end:
-                undo()
-            rclpy.utilities.g_default_context, rclpy.__dict__["__executor"] = self._user
+            self.rclpy.forget_contexts(but=1)
             self.context.try_shutdown()
             self.context.destroy()
-            rclpy.context.g_logging_ref_count = self._log_users
             del self.time
             self.executors.clear()
 
@@ -109,32 +113,32 @@ class Engine(Scheduler):
         process.main = self.spawn(process.run, process.name, process)
         return process
 
-    def at_end(self, undo: Callable[[], Any]) -> None:
-        """Have something done when the run is over."""
-        self._at_end.append(undo)
-
     # -- time --------------------------------------------------------------------------------------
 
-    def run_until(
+    def moments(
         self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
-    ) -> Ended:
-        """Settle and advance until `end`, the goal or a fault, or until all watched programs have ended."""
+    ) -> Generator[Nanoseconds, None, Ended]:
+        """Yield each moment before time moves on to it; return why there are no more.
+
+        That is `end`, the goal, a fault, or that all watched programs have ended. Whoever iterates may rest
+        between two moments: nothing in here depends on it.
+        """
         watched, over = list(watched), None
         try:
             self.settle()
             while self.livelock is None and self._fault is None and self.now < end:
-                self.recording.stamp = self.recorder.now
+                self.recording.stamp = now = self.recorder.now
                 if self.guard.interrupted:
-                    return Ended("interrupted", self.recorder.now, "The user interrupted the run.")
+                    return Ended("interrupted", now, INTERRUPTED)
                 if goal is not None and goal(self.recording):
-                    return Ended(
-                        "goal", self.recorder.now, f"The goal was reached at t = {self.recorder.now:g} s."
-                    )
+                    return Ended("goal", now, f"The goal was reached at t = {now:g} s.")
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
                 self._check_pace()
-                self.time.move_to(self.time.next_moment(end))
+                moment = self.time.next_moment(end)
+                yield moment
+                self.time.move_to(moment)
                 self.activity += 1
                 self._callbacks_before = self._callbacks
                 self.settle()

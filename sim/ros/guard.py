@@ -44,24 +44,28 @@ class Guard:
         self._stretch = -1
         self._computing = self._waiting = self._total = 0.0
         self._total_limit = max(TOTAL_LIMIT, engine.recording.seconds)
-        self._seen = thread_time()
+        self._seen = self._left = thread_time()
+        self._next_look = LOOK_EVERY
         self._asked = 0
 
     @contextlib.contextmanager
     def watch(self) -> Iterator[None]:
-        """Install the signal handlers for the time of a run."""
+        """Install the signal handlers for a while. What happens between two whiles doesn't count."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
+        self._seen += thread_time() - self._left
         interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
         alarm = signal.signal(signal.SIGALRM, self._look)
-        signal.setitimer(signal.ITIMER_REAL, LOOK_EVERY, LOOK_EVERY)
+        users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_look, LOOK_EVERY)
         try:
             yield
         finally:
-            signal.setitimer(signal.ITIMER_REAL, 0)
+            self._next_look = signal.setitimer(signal.ITIMER_REAL, 0)[0] or LOOK_EVERY
             signal.signal(signal.SIGALRM, alarm)
             signal.signal(signal.SIGINT, interrupt)
+            signal.setitimer(signal.ITIMER_REAL, *users_timer)
+            self._left = thread_time()
 
     def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True

@@ -61,18 +61,22 @@ def _yaml(value: Any) -> str:
     return repr(value)
 
 
-def as_process(target: Any) -> Process:
-    """Accept what `run` accepts. Raises TypeError with a sentence for the student."""
+def as_process(target: Any, caller: str = "run") -> Process:
+    """Accept what `run` and `play` accept. Raises TypeError with a sentence for the student."""
     process = target if isinstance(target, Process) else Process(target)
     inner = process.target
     if isinstance(inner, Node):
         name = type(inner).__name__
-        raise TypeError(f"run() takes the class, not an object of it: write run({name}), not run({name}()).")
+        raise TypeError(
+            f"{caller}() takes the class, not an object of it: "
+            f"write {caller}({name}), not {caller}({name}())."
+        )
     if isinstance(inner, type) and not issubclass(inner, Node):
         raise TypeError(f"{inner.__name__} is not a ROS node: write `class {inner.__name__}(Node):`.")
     if not callable(inner):
         raise TypeError(
-            f"run() takes Node classes, functions that return a node, or main() functions; this is {inner!r}."
+            f"{caller}() takes Node classes, functions that return a node, or main() functions;"
+            f" this is {inner!r}."
         )
     return process
 

@@ -88,7 +88,7 @@ def set_logger_level(original: Callable) -> Callable:
     def set_level(name: str, level: Any, *more: Any) -> Any:
         run = engine()
         if run is not None:
-            run.at_end(lambda: original(name, 0))
+            run.rclpy.level_is_set(name)
         return original(name, level, *more)
 
     return set_level

@@ -1,0 +1,99 @@
+"""What of the whole process a run needs for itself while it works, and hands back whenever it rests.
+
+Each of these keeps the run's own state meanwhile, so that the run carries on where it was, and the user's.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import gc
+import random
+from collections.abc import Iterator
+
+import numpy as np
+import rclpy
+import rclpy.context
+import rclpy.utilities
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+
+
+class OwnChance:
+    """`random` and numpy's old generator, seeded by the run."""
+
+    def __init__(self, seed: int) -> None:
+        self._own = random.Random(seed).getstate(), np.random.RandomState(seed % 2**32).get_state()
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Let them be the run's for a while."""
+        users = random.getstate(), np.random.get_state()
+        self._set(self._own)
+        try:
+            yield
+        finally:
+            self._own = random.getstate(), np.random.get_state()
+            self._set(users)
+
+    def _set(self, states: tuple) -> None:
+        random.setstate(states[0])
+        np.random.set_state(states[1])
+
+
+class OwnProcess:
+    """Hides from the nodes what a program of their own would not find.
+
+    A notebook's kernel runs an event loop, with which asyncio.run() fails. And its heap is large: one full
+    look of the garbage collector takes 0.2 s. So the collector looks only at what the run makes.
+    """
+
+    def __init__(self) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None  # one that a suspended program runs
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Hide it for a while."""
+        users = asyncio._get_running_loop()
+        asyncio._set_running_loop(self._loop)
+        gc.freeze()
+        try:
+            yield
+        finally:
+            gc.unfreeze()
+            self._loop = asyncio._get_running_loop()
+            asyncio._set_running_loop(users)
+
+
+class OwnRclpy:
+    """rclpy's default context, global executor and levels of loggers."""
+
+    def __init__(self) -> None:
+        # The other side's levels: the user's while rclpy is lent, the run's while it isn't.
+        self.log_levels: dict[str, int] = {}
+        self._own_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Let rclpy's state be the run's for a while; each program of it then has its own."""
+        users = rclpy.utilities.g_default_context, rclpy.__dict__["__executor"]
+        self._users_contexts = rclpy.context.g_logging_ref_count - self._own_contexts
+        self._swap_log_levels()
+        try:
+            yield
+        finally:
+            self._swap_log_levels()
+            self._own_contexts = rclpy.context.g_logging_ref_count - self._users_contexts
+            rclpy.utilities.g_default_context, rclpy.__dict__["__executor"] = users
+
+    def level_is_set(self, logger: str) -> None:
+        """Remember the user's level of a logger that gets another one now."""
+        self.log_levels.setdefault(logger, _rclpy.rclpy_logging_get_logger_level(logger))
+
+    def forget_contexts(self, but: int) -> None:
+        """Let rclpy count only so many of the run's contexts, whatever its programs left open."""
+        rclpy.context.g_logging_ref_count = self._users_contexts + but
+
+    def _swap_log_levels(self) -> None:
+        for logger, level in self.log_levels.items():
+            self.log_levels[logger] = _rclpy.rclpy_logging_get_logger_level(logger)
+            _rclpy.rclpy_logging_set_logger_level(logger, level)

@@ -1,0 +1,144 @@
+"""One run that is advanced bit by bit; while it rests, nothing of it is visible to the user's own code."""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from sim.recording import Ended, Recording
+from sim.ros import hooks
+from sim.ros.capture import FileDescriptor2, Screen, student_streams
+from sim.ros.engine import Engine
+from sim.ros.fibers import SECOND, Nanoseconds, active
+from sim.ros.machines import machines
+from sim.ros.own import OwnChance, OwnProcess
+from sim.ros.processes import Process, as_process
+from sim.world import Scene, World, simulate
+
+FOREVER: Nanoseconds = 2**63
+
+
+def _never() -> bool:
+    return False
+
+
+class Session:
+    """A run under way. How it is cut into stretches of work changes nothing in its recording.
+
+    The arguments are those of `run`; caller: the name of the function that the user called, for messages.
+    Raises TypeError or ValueError for arguments that can't be run, WorldError for a bad world.
+    """
+
+    def __init__(
+        self,
+        nodes: tuple[Any, ...],
+        world: str | World | None,
+        seconds: float,
+        seed: int,
+        until: Callable[[Recording], bool] | None,
+        quiet: bool,
+        caller: str = "run",
+    ) -> None:
+        self._specs = [as_process(node, caller) for node in nodes]
+        if active() is not None:
+            raise RuntimeError(f"{caller}() can't start another run here: this is a node of one under way.")
+        if not 0 < seconds < 1e6:
+            raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
+        if not isinstance(seed, int) or seed < 0:
+            raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
+        world = World.load(world) if isinstance(world, str) else world
+        self.recording = Recording(world=world, seconds=float(seconds), seed=seed)
+        self.scene: Scene | None = None
+        self.engine: Engine | None = None
+        self.over = self.interrupted = False
+        self._until = until
+        self._moments: Iterator[Nanoseconds] | None = None
+        self._due: Nanoseconds = 0  # the moment that time moves to next
+        self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
+        self._screen = Screen(quiet)
+
+    def advance(self, limit: Nanoseconds = FOREVER, enough: Callable[[], bool] = _never) -> None:
+        """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
+
+        Raises what `until` raises; then too, the run is over.
+        """
+        if self.over:
+            return
+        with self._stretch():
+            try:
+                if self._moments is None:
+                    self._open()
+                while self._due <= limit and not enough():
+                    self._due = next(self._moments)
+            except StopIteration as end:
+                self._close(end.value)
+            except BaseException:
+                self._close(self.recording.ended)
+                raise
+
+    def start(self, spec: Process) -> None:
+        """Add a program; it runs from the next moment on."""
+        with self._stretch():
+            self.engine.start(spec)
+
+    def end(self, ended: Ended) -> None:
+        """End the run before its time."""
+        if self.over:
+            return
+        with self._stretch():
+            self._close(ended)
+
+    @contextlib.contextmanager
+    def _stretch(self) -> Iterator[None]:
+        """The run works: the process is the nodes' for a while."""
+        with self._process.lent():
+            # Made in here, for at the end the garbage collector looks only at what was made in here.
+            self.engine = self.engine or Engine(self.recording, self._screen)
+            try:
+                with (
+                    self._chance.lent(),
+                    self._stderr.caught(),
+                    student_streams(),
+                    self.engine.guard.watch(),
+                    self.engine.awake(),
+                ):
+                    yield
+            finally:
+                if self.over:
+                    self._clean_up()
+
+    def _open(self) -> None:
+        """Start all programs: the world's own, then the user's."""
+        for spec in self._specs:
+            hooks.rebind(_names_around(spec.target))
+        if self.recording.world is not None:
+            self.scene = simulate(self.recording.world, self.recording.seed)
+        self.engine.open()
+        for spec in machines(self.scene, self.recording) if self.scene is not None else []:
+            self.engine.start(spec)
+        watched = [self.engine.start(spec) for spec in self._specs]
+        self._moments = self.engine.moments(round(self.recording.seconds * SECOND), self._until, watched)
+
+    def _close(self, ended: Ended) -> None:
+        self.over, self.recording.ended = True, ended
+        if self._moments is not None:
+            self._moments = None
+            self.engine.close()
+
+    def _clean_up(self) -> None:
+        self.engine.recorder.complained(self._stderr.close())
+        self._screen.close()
+        self.interrupted = self.engine.guard.interrupted
+        self.engine = self.scene = None  # they and rclpy's nodes are full of cycles
+        gc.collect()
+
+
+def _names_around(target: Any) -> dict[str, Any]:
+    """The global names that a class or function sees, as far as that can be asked."""
+    try:
+        return getattr(target, "__globals__", None) or vars(sys.modules[target.__module__])
+    except Exception:  # a student's class may answer such questions in any way
+        return {}
