@@ -17,18 +17,18 @@ SEGMENTS, DISCS, POSES, REACH = 50, 10, 200, 30.0
 PHYSICS_SECONDS = 60
 
 
-def clutter() -> tuple[np.ndarray, np.ndarray]:
+def clutter(straight: int = SEGMENTS, round_: int = DISCS) -> tuple[np.ndarray, np.ndarray]:
     """Segments (n, 4) and discs (n, 3) around the origin, none within 1.5 m of it; m."""
     chance = random.Random(1)
     segments, discs = [], []
-    for index in range(SEGMENTS + DISCS):
+    for index in range(straight + round_):
         far, bearing, turn = chance.uniform(2, 8), chance.uniform(0, math.tau), chance.uniform(0, math.tau)
         x, y = far * math.cos(bearing), far * math.sin(bearing)
-        if index < SEGMENTS:
+        if index < straight:
             segments.append((x, y, x + 0.4 * math.cos(turn), y + 0.4 * math.sin(turn)))
         else:
             discs.append((x, y, 0.3))
-    return np.array(segments), np.array(discs)
+    return np.array(segments).reshape(-1, 4), np.array(discs).reshape(-1, 3)
 
 
 def pymunk_scanner(segments: np.ndarray, discs: np.ndarray, rays: int) -> Callable[..., list[float]]:
