@@ -68,9 +68,7 @@ class Servo:
     @property
     def stop(self) -> float:
         """Where (rad) the joint stands still if it brakes from now on."""
-        return self.cut(
-            self.position + self.velocity * abs(self.velocity) / (2 * self.model.max_acceleration)
-        )
+        return self.cut(self._stop(self.position, self.velocity))
 
     def step(self, reference: float, rate: float = 0.0) -> None:
         """Move for one step.
@@ -80,12 +78,7 @@ class Servo:
         """
         model, q, v = self.model, self.position, self.velocity
         most = model.max_acceleration * DT
-        off = reference - q - (v + rate) / 2 * DT
-        if (
-            abs(off) <= most * DT / 2
-            and abs(rate - v) <= most * _ROUNDING
-            and abs(rate) <= model.max_velocity
-        ):
+        if self._can_be(reference, rate):
             self._set(reference, rate)
             return
         gap = reference - rate * DT - q
@@ -95,6 +88,20 @@ class Servo:
         wanted = min(wanted, self._speed_within(model.upper - q, v))
         wanted = max(wanted, -self._speed_within(q - model.lower, -v))
         self._set(q + (v + wanted) / 2 * DT, wanted)
+
+    def _can_be(self, reference: float, rate: float) -> bool:
+        """Whether one step can end with just this, and without a limit too near to brake before."""
+        model, q, v = self.model, self.position, self.velocity
+        most = model.max_acceleration * DT
+        return (
+            abs(reference - q - (v + rate) / 2 * DT) <= most * DT / 2
+            and abs(rate - v) <= most * _ROUNDING
+            and abs(rate) <= model.max_velocity
+            and model.lower <= self._stop(reference, rate) <= model.upper
+        )
+
+    def _stop(self, position: float, velocity: float) -> float:
+        return position + velocity * abs(velocity) / (2 * self.model.max_acceleration)
 
     def _speed_within(self, distance: float, speed: float) -> float:
         """The greatest speed after a step, begun with `speed`, from which it can stop within `distance`."""
