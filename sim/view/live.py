@@ -30,7 +30,7 @@ class LiveView(anywidget.AnyWidget):
     behind them the newest scan, if there is one: pose and ranges. The page draws the newest frame only.
 
     Attributes:
-        on_command: called with each command of the page that makes sense, such as {"speed": 2.0}, {"pause": True},
+        on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
             {"step": True}, {"stop": True} or {"drive": [forward, left]}, each of the two in [-1, 1].
     """
 
@@ -95,9 +95,9 @@ def checked(content: Any) -> Command | None:
     if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop") and value is True):
         return {name: value}
     if name == "drive" and isinstance(value, list) and len(value) == 2:
-        return (
-            {name: [float(part) for part in value]} if all(_between(part, -1, 1) for part in value) else None
-        )
+        forward, left = value
+        if _between(forward, -1, 1) and _between(left, -1, 1):
+            return {name: [float(forward), float(left)]}
     return None
 
 

@@ -186,7 +186,7 @@ class View {
     this.toggle.show(paused ? "play" : "pause", paused ? "Go on" : "Pause");
     this.toggle.disabled = this.halt.disabled = this.select.disabled = Boolean(ended);
     this.step.disabled = !paused || Boolean(ended);
-    this.select.put(speed ?? Infinity);
+    if (speed !== undefined) this.select.put(speed ?? Infinity); // null stands for it: JSON has no infinity
     if (!this.scene || paused || ended) this.clock.textContent = stamp.toFixed(2);
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
     this.said.textContent = ended ? ended[1] : "";
