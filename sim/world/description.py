@@ -65,13 +65,19 @@ class World(Model):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        xmin, ymin, xmax, ymax = self.bounds
         for key in ("start", "goal"):
             place = getattr(self, key)
-            if place and not (xmin <= place[0] <= xmax and ymin <= place[1] <= ymax):
+            if place and not self._holds(place):
                 self.refuse(key)
         if self.machine:
             self._refuse_mobile()
+        self._check_robots()
+
+    def _holds(self, place: tuple[float, ...]) -> bool:
+        xmin, ymin, xmax, ymax = self.bounds
+        return xmin <= place[0] <= xmax and ymin <= place[1] <= ymax
+
+    def _check_robots(self) -> None:
         names = ["robot", *(robot.name for robot in self.robots), *self._box_names()]
         for name, again in itertools.pairwise(sorted(names)):
             if name == again:
@@ -79,6 +85,8 @@ class World(Model):
         for robot in self.robots:
             if robot.speed > self.robot.max_v:
                 self.refuse("robots", f"a speed of {self.robot.max_v:g} m/s or less, the robots' max_v")
+            if not all(map(self._holds, (robot.start, *robot.route))):
+                self.refuse("robots", f"a start and a route for {robot.name} that lie inside the bounds")
 
     def _refuse_mobile(self) -> None:
         """A machine stands alone: silently leaving out a robot that somebody described would puzzle them."""

@@ -38,24 +38,30 @@ class Wanted(NamedTuple):
     fits: Callable[[Any], bool] = lambda value: True
 
 
-def above(least: float, unit: str) -> Wanted:
-    """Any number greater than this one."""
-    return Wanted(f"a finite number above {least:g} ({unit})", lambda value: value > least)
+# Where nothing else bounds a figure: far beyond any robot, and near enough for the physics to stay finite.
+_MOST = 1_000_000
+
+
+def above(least: float, unit: str, most: float = _MOST) -> Wanted:
+    """Any number greater than the one and not greater than the other."""
+    return Wanted(
+        f"a number above {least:g} and up to {most:.7g} ({unit})", lambda value: least < value <= most
+    )
 
 
 def at_least(least: float, unit: str) -> Wanted:
     """This number or any greater one."""
-    return Wanted(f"a finite number, {least:g} or more ({unit})", lambda value: value >= least)
+    return within(least, _MOST, unit)
 
 
 def within(least: float, most: float, unit: str = "") -> Wanted:
     """A number from one limit to the other, both included."""
     unit = unit and f" ({unit})"
-    return Wanted(f"a number from {least:g} to {most:g}{unit}", lambda value: least <= value <= most)
+    return Wanted(f"a number from {least:g} to {most:.7g}{unit}", lambda value: least <= value <= most)
 
 
 Coordinate = Annotated[float, within(-1000, 1000, "metres")]
-Length = Annotated[float, Wanted("a number above 0 and up to 1000 (metres)", lambda value: 0 < value <= 1000)]
+Length = Annotated[float, above(0, "metres", 1000)]
 Angle = Annotated[float, Wanted("a finite number (radians)")]
 
 _SHOWN = 80  # characters of a value, in an error

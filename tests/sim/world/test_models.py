@@ -16,11 +16,11 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     ("model", "figures", "sentence"),
     [
         (RobotModel, {"radius": -1}, "radius is -1; write a number above 0 and up to 1000 (metres)."),
-        (RobotModel, {"mass": 0}, "mass is 0; write a finite number above 0 (kg)."),
-        (RobotModel, {"max_v": math.nan}, "max_v is nan; write a finite number above 0 (m/s)."),
-        (RobotModel, {"max_w": math.inf}, "max_w is inf; write a finite number above 0 (rad/s)."),
-        (RobotModel, {"mass": "1"}, "mass is '1'; write a finite number above 0 (kg)."),
-        (RobotModel, {"mass": True}, "mass is True; write a finite number above 0 (kg)."),
+        (RobotModel, {"mass": 0}, "mass is 0; write a number above 0 and up to 1000000 (kg)."),
+        (RobotModel, {"max_v": math.nan}, "max_v is nan; write a number above 0 and up to 1000000 (m/s)."),
+        (RobotModel, {"max_w": math.inf}, "max_w is inf; write a number above 0 and up to 1000000 (rad/s)."),
+        (RobotModel, {"mass": "1"}, "mass is '1'; write a number above 0 and up to 1000000 (kg)."),
+        (RobotModel, {"mass": True}, "mass is True; write a number above 0 and up to 1000000 (kg)."),
         (
             RobotModel,
             {"command_timeout": 0},
@@ -55,11 +55,13 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
             {"range_min": 3.5},
             "range_min is 3.5; write a number below range_max, 3.5 (metres).",
         ),
-        (LidarModel, {"noise": -1}, "noise is -1; write a finite number, 0 or more (metres)."),
+        (LidarModel, {"noise": -1}, "noise is -1; write a number from 0 to 1000000 (metres)."),
+        (RobotModel, {"mass": 1e300}, "mass is 1e+300; write a number above 0 and up to 1000000 (kg)."),
+        (ImuModel, {"gyro_noise": 1e300}, "gyro_noise is 1e+300; write a number from 0 to 1000000 (rad/s)."),
         (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
         (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
-        (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a finite number, 0 or more (rad/s)."),
-        (ImuModel, {"accel_noise": None}, "accel_noise is None; write a finite number, 0 or more (m/s^2)."),
+        (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a number from 0 to 1000000 (rad/s)."),
+        (ImuModel, {"accel_noise": None}, "accel_noise is None; write a number from 0 to 1000000 (m/s^2)."),
         (
             Box,
             {"x": 1e9, "y": 0, "yaw": 0, "width": 1, "height": 1},
@@ -68,7 +70,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
         (
             MovableBox,
             {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "mass": -1},
-            "mass is -1; write a finite number above 0 (kg).",
+            "mass is -1; write a number above 0 and up to 1000000 (kg).",
         ),
         (
             MovableBox,

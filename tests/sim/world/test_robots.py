@@ -138,6 +138,10 @@ def test_no_room_for_another_robot(start, more, sentence):
             (OtherRobot("a", (1, 0, 0)), OtherRobot("a", (2, 0, 0))),
             "write another name for one of those named 'a'.",
         ),
+        (
+            (OtherRobot("a", (1, 0, 0)), OtherRobot("b", (1, 2, 0), ((1, 2), (1, 9)))),
+            "write a start and a route for b that lie inside the bounds.",
+        ),
         ((OtherRobot("a", (1, 0, 0), speed=0.7),), "write a speed of 0.6 m/s or less, the robots' max_v."),
     ],
 )

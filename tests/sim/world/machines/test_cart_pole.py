@@ -182,10 +182,10 @@ def test_bodies_are_cart_and_pole_where_they_are():
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"cart_mass": 0}, "cart_mass is 0; write a finite number above 0 (kg)."),
-        ({"pole_friction": -1}, "pole_friction is -1; write a finite number, 0 or more (N m per rad/s)."),
+        ({"cart_mass": 0}, "cart_mass is 0; write a number above 0 and up to 1000000 (kg)."),
+        ({"pole_friction": -1}, "pole_friction is -1; write a number from 0 to 1000000 (N m per rad/s)."),
         ({"pole_length": math.inf}, "pole_length is inf; write a number above 0 and up to 1000 (metres)."),
-        ({"max_force": "5"}, "max_force is '5'; write a finite number above 0 (N)."),
+        ({"max_force": "5"}, "max_force is '5'; write a number above 0 and up to 1000000 (N)."),
     ],
 )
 def test_impossible_figures(values, sentence):
