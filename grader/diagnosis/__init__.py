@@ -13,7 +13,7 @@ DIAGNOSES = (
     names.service_slip,
     connections.incompatible_qos,
     services.nobody_offers,
-    services.asked_too_early,
+    services.asked_nobody,
     activity.never_spun,
     services.answer_not_heard,
     actions.no_goal_response,

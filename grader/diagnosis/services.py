@@ -31,16 +31,16 @@ def nobody_offers(recording: Recording) -> str:
     return ""
 
 
-def asked_too_early(recording: Recording) -> str:
-    """A request or goal that was sent before there was a server to take it."""
+def asked_nobody(recording: Recording) -> str:
+    """A request or goal that was sent while there was no server to take it."""
     lost = [(call.service, call.client, call.asked, "service") for call in recording.calls if call.lost]
     lost += [(goal.action, goal.client, goal.asked, "server") for goal in recording.goals if goal.lost]
     for name, client, asked, what in lost:
         servers = [e.node for e in recording.graph.endpoints if e.name == name and "client" not in e.kind]
         if servers:
             return (
-                f"{client} called {name} at {asked:.3g} s, before {servers[0]} offered it: what is sent to "
-                f"nobody is lost. Wait first: `while not client.wait_for_{what}(timeout_sec=1.0)`."
+                f"{client} called {name} at {asked:.3g} s, when {servers[0]} was not there to take it: what "
+                f"is sent to nobody is lost. Wait first: `while not client.wait_for_{what}(timeout_sec=1.0)`."
             )
     return ""
 

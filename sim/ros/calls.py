@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import weakref
 from collections import defaultdict, deque
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from rclpy.exceptions import InvalidHandle
 from rclpy.qos import HistoryPolicy
 
 from sim.exchanges import Call
@@ -30,7 +32,7 @@ class Calls:
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
-        self._inboxes: dict[str, list[deque[Request]]] = defaultdict(list)
+        self._services: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
 
     def client_made(self, client: Any, node: Any, name: str) -> None:
         """A node made a client of the service of this resolved name."""
@@ -43,7 +45,7 @@ class Calls:
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
         service._sim_name = service.service_name
         service._sim_inbox = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
-        self._inboxes[service._sim_name].append(service._sim_inbox)
+        self._services[service._sim_name].append(weakref.ref(service))
 
     def asked(self, client: Any, number: int, raw: bytes) -> None:
         """A client sent a request."""
@@ -53,11 +55,12 @@ class Calls:
         service, type_, node = client._sim_identity
         recorder.count(node, len(raw))
         call = Call(service, type_, node, canonical(f"{type_}_Request", raw), recorder.now)
-        call.lost = not self._inboxes[service]
+        there = [found for known in self._services[service] if (found := known()) and alive(found.handle)]
+        call.lost = not there
         recorder.recording.calls.append(call)
         request = client._sim_requests[number] = number, [call]
-        for inbox in self._inboxes[service]:
-            inbox.append(request)
+        for server in there:
+            server._sim_inbox.append(request)
 
     def taken(self, service: Any, node: Any, number: int, request: Any) -> Call:
         """A service took a request; gives the call that goes on with it."""
@@ -98,6 +101,15 @@ class Calls:
         answered = [call for call in calls if call.answered is not None]
         if answered and self._recorder.open:
             min(answered, key=lambda call: call.answered).received = self._recorder.now
+
+
+def alive(handle: Any) -> bool:
+    """Whether what rclpy has this handle for was not destroyed yet."""
+    try:
+        with handle:
+            return True
+    except InvalidHandle:
+        return False
 
 
 def _take(inbox: deque[Request], number: int, raw: bytes) -> list[Call]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
@@ -9,6 +11,7 @@ from rclpy.action import ActionServer
 
 from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal
 from sim.recording import Heard
+from sim.ros.calls import alive
 from sim.ros.cdr import canonical
 from sim.ros.codec import encode, type_name
 
@@ -35,12 +38,12 @@ class Goals:
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
         self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
-        self._offered: set[str] = set()  # names of actions
+        self._servers: dict[str, list[weakref.ref[ActionServer]]] = defaultdict(list)
 
     def end_made(self, end: Any, node: Any, name: str, type_: type) -> None:
         """A node made an action server or an action client; `name` is the action's resolved name."""
         if isinstance(end, ActionServer):
-            self._offered.add(name)
+            self._servers[name].append(weakref.ref(end))
         end._sim_identity = name, type_name(type_), self._recorder.name_of(node)
         end._sim_goals = {}  # of a server: those it goes on with, by id; of a client: those asked, by number
 
@@ -67,7 +70,9 @@ class Goals:
         if self._recorder.open:
             node = client._sim_identity[2]
             goal = self._new(client, node, goal_id, raw, self._recorder.now)
-            client._sim_goals[number], goal.lost = goal, goal.action not in self._offered
+            client._sim_goals[number] = goal
+            servers = self._servers[goal.action]
+            goal.lost = not any((server := known()) and alive(server._handle) for known in servers)
 
     def cancel_asked(self, client: Any, goal_id: Any) -> None:
         """A client asked for a goal to be canceled."""
@@ -96,7 +101,7 @@ class Goals:
         if not self._recorder.open:
             return None
         known = self._known(server, goal_id)
-        goal = next((goal for goal in known if not goal.server), None)
+        goal = next((goal for goal in known if not goal.server and not goal.lost), None)
         if goal is None:  # another server has it too, or it was sent past rclpy's clients
             client, asked = (known[0].client, known[0].asked) if known else ("", None)
             goal = self._new(server, client, goal_id, encode(request), asked)

@@ -14,7 +14,8 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
 from sim.ros.callbacks import Work
-from sim.ros.codec import encode, expect
+from sim.ros.cdr import canonical
+from sim.ros.codec import encode, expect, type_name
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
@@ -69,7 +70,12 @@ class Questions:
                 (Questions._event, w, node) for w in node.waitables if isinstance(w, EventHandler)
             ]
             self._questions += [
-                *((self._ACTIONS[type(w)], w, node) for w in node.waitables if type(w) in self._ACTIONS),
+                *(
+                    (question, waitable, node)
+                    for waitable in node.waitables
+                    for kind, question in self._ACTIONS.items()
+                    if isinstance(waitable, kind)
+                ),
                 *((Questions._timer, timer, node) for timer in node.timers),
                 *(
                     (Questions._subscription, s, node)
@@ -96,10 +102,13 @@ class Questions:
         if taken is None:
             subscription._sim_seen = sent
             return None
+        message, information = taken
+        if subscription.raw:  # DDS leaves what was in memory in gaps and behind the end
+            message = canonical(type_name(subscription.msg_type), message)
         if subscription._callback_type is MESSAGE_ONLY:
-            arguments = (taken[0],)
+            arguments = (message,)
         else:
-            arguments = taken[0], self.engine.time.in_simulated_time(taken[1])
+            arguments = message, self.engine.time.in_simulated_time(information)
         return Work("subscription", subscription, node, subscription.callback, arguments)
 
     def _guard(self, guard: Any, node: Any) -> Work | None:

@@ -102,13 +102,13 @@ class Recorder:
         self._messages += 1
         if self._messages > MAX_MESSAGES_PER_INSTANT:
             self.scheduler.refuse_to_go_on(
-                f"{sender} published {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
+                f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
                 " without letting time move on"
             )
         self._bytes += size
         if self._bytes > MAX_MESSAGE_BYTES:
             self.scheduler.refuse_to_go_on(
-                f"the nodes published more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
+                f"the nodes sent more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
 
     def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:

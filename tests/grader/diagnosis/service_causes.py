@@ -32,10 +32,10 @@ SERVICE_CAUSES = {
     (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
     (services.Wheel, misfits.asks_another_node): "/asker calls get_parameters of the node /wheels, but there are only "
     "/wheel, /asker.",
-    (services.done_callback, services.late_adder): "/customer called /add at 0 s, before /adder offered it: what is "
-    "sent to nobody is lost. Wait first: `while not client.wait_for_service(timeout_sec=1.0)`.",
-    (goals.asks_nobody, actions.late_server): "/client called /fibonacci at 0 s, before /server offered it: what is "
-    "sent to nobody is lost. Wait first: `while not client.wait_for_server(timeout_sec=1.0)`.",
+    (services.done_callback, services.late_adder): "/customer called /add at 0 s, when /adder was not there to "
+    "take it: what is sent to nobody is lost. Wait first: `while not client.wait_for_service(timeout_sec=1.0)`.",
+    (goals.asks_nobody, actions.late_server): "/client called /fibonacci at 0 s, when /server was not there to "
+    "take it: what is sent to nobody is lost. Wait first: `while not client.wait_for_server(timeout_sec=1.0)`.",
     (misfits.adder_that_nobody_spins, services.done_callback): "/adder has a service with requests waiting, "
     + NEVER_RAN,
     (misfits.server_that_nobody_spins, actions.Client): f"/server has an action with goals waiting, {NEVER_RAN}",

@@ -174,7 +174,7 @@ def test_a_run_that_computes_too_long_in_all_is_stopped(monkeypatch):
 def test_a_flood_of_bytes_is_stopped(monkeypatch):
     monkeypatch.setattr(recorder, "MAX_MESSAGE_BYTES", 10_000_000)
     recording = run(adversaries.Camera, seconds=3, quiet=True)
-    assert why(recording) == ("livelock", 1.0, "the nodes published more than 10 MB by t = 1 s.")
+    assert why(recording) == ("livelock", 1.0, "the nodes sent more than 10 MB by t = 1 s.")
     assert len(recording.messages("/image")) == 9
 
 

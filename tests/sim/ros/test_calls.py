@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import raised, said
+from tests.sim.ros.evidence import raised, said, why
 from tests.students.engine import callers, services
 
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -132,6 +132,37 @@ def test_a_request_sent_past_rclpys_client_has_no_client():
     (call,) = recorded(services.Adder, callers.asks_past_the_client).calls
     assert ways([call]) == [("", "/adder", None, 0.0, 0.0, None)]
     assert sums([call]) == [(2, 3, 5)]
+
+
+@pytest.mark.filterwarnings("ignore:failed to send response")
+def test_calls_without_end_are_stopped():
+    recording = recorded(services.Adder, callers.CallsForEver)
+    assert why(recording) == (
+        "livelock", 1.0, "/customer sent 20000 messages at t = 1 s without letting time move on.",
+    )  # fmt: skip
+    assert len(recording.calls) == 20000
+
+
+def test_a_client_with_a_method_of_the_students_own_is_recorded():
+    assert sums(recorded(services.Adder, callers.OwnCall).calls) == [(1, 1, 2), (2, 2, 4)]
+
+
+def test_a_client_that_forgot_what_it_waits_for_receives_nothing():
+    assert ways(recorded(services.Adder, callers.ForgetsPendingRequests).calls) == [(*AT_ONCE[:5], None)]
+
+
+def test_a_service_that_was_destroyed_takes_no_more():
+    recording = recorded(callers.DestroysItsService, callers.OncePerSecond)
+    assert ways(recording.calls) == [
+        ("/customer", "/adder", 1.0, 1.0, 1.0, 1.0),
+        *(("/customer", "", second, None, None, None) for second in (2.0, 3.0, 4.0)),
+    ]
+    assert [call.lost for call in recording.calls] == [False, True, True, True]
+
+
+def test_a_request_before_there_is_a_server_is_lost():
+    assert recorded(services.done_callback, services.late_adder).calls[0].lost
+    assert not recorded(services.Adder, services.done_callback).calls[0].lost
 
 
 def test_services_of_every_node_are_there_when_asked_for():

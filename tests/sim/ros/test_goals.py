@@ -176,6 +176,21 @@ def test_what_is_no_goal_is_refused_in_words():
     assert recording.goals == []
 
 
+def test_ends_of_the_students_own_classes_work_and_are_recorded():
+    goal = only(goals.ServerOfAnOwnClass, goals.ClientOfAnOwnClass)
+    assert (way(goal), goal.status) == (("/client", "/server", 0.0, 0.0, 1.0), "succeeded")
+
+
+def test_a_server_that_is_destroyed_meanwhile_leaves_what_was_done():
+    recording = recorded(goals.DestroysItsServer, actions.Client)
+    assert (way(recording.goals[0])[3:], recording.goals[0].events) == ((0.0, None), STARTED)
+
+
+def test_a_goal_before_there_is_a_server_is_lost():
+    assert only(goals.asks_nobody, actions.late_server).lost
+    assert not only(actions.Server, actions.Client).lost
+
+
 def test_goals_are_found_by_action_client_and_server():
     recording = recorded(actions.Server, actions.Client)
     assert recording.goals_of() == recording.goals_of("/fibonacci") == recording.goals

@@ -123,7 +123,7 @@ def test_a_program_can_not_swallow_the_end_of_a_ping_pong(usual):
 def test_a_flood_of_messages_is_stopped(usual):
     recording = run(hangs.LoopWithPublish, seconds=3, quiet=True)
     assert why(recording) == (
-        "livelock", 1.0, "/hanging published 20000 messages at t = 1 s without letting time move on.",
+        "livelock", 1.0, "/hanging sent 20000 messages at t = 1 s without letting time move on.",
     )  # fmt: skip
     assert len(recording.messages("/data")) == 20_000
 

@@ -163,3 +163,53 @@ def asks_past_the_client():
     node = Customer()
     node.client.handle.send_request(node.request())
     rclpy.spin(node)
+
+
+class CallsForEver(Customer):
+    def __init__(self):
+        super().__init__()
+        self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        while True:
+            self.client.call_async(self.request())
+
+
+class OwnCall(Customer):
+    """Replaces rclpy's method by its own, which calls it."""
+
+    def __init__(self):
+        super().__init__()
+        call_async, self.client.call_async = self.client.call_async, self.ask
+        call_async(self.request(1, 1))
+        self.client.call_async(self.request(2, 2), call_async)
+
+    def ask(self, request, call_async):
+        return call_async(request)
+
+
+class ForgetsPendingRequests(Customer):
+    """Clears what its client waits for: the answers come to nobody."""
+
+    def __init__(self):
+        super().__init__()
+        self.client.call_async(self.request())
+        self.client._pending_requests.clear()
+
+
+class DestroysItsService(Adder):
+    """Takes one request, and offers the service no more."""
+
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.service = self.create_service(AddTwoInts, "add", self.add)
+
+    def add(self, request, response):
+        self.create_timer(0.5, lambda: self.destroy_service(self.service))
+        return super().add(request, response)
+
+
+class OncePerSecond(Customer):
+    def __init__(self):
+        super().__init__()
+        self.create_timer(1.0, lambda: self.client.call_async(self.request()))

@@ -173,3 +173,34 @@ class AbortsOnCancel(Server):
         time.sleep(2.0)
         goal.abort()
         return Fibonacci.Result()
+
+
+class OwnServer(ActionServer):
+    """A class of the student's own."""
+
+
+class OwnClient(ActionClient):
+    """A class of the student's own."""
+
+
+class ServerOfAnOwnClass(Server):
+    def __init__(self):
+        Node.__init__(self, "server")
+        self.server = OwnServer(self, Fibonacci, "fibonacci", self.execute)
+
+
+class ClientOfAnOwnClass(Client):
+    def __init__(self):
+        Node.__init__(self, "client")
+        self.client = OwnClient(self, Fibonacci, "fibonacci")
+        self.client.send_goal_async(Fibonacci.Goal(order=1)).add_done_callback(self.answered)
+
+
+class DestroysItsServer(Server):
+    """Is destroyed while it executes a goal."""
+
+    def execute(self, goal):
+        self.server.destroy()
+        goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
+        goal.succeed()
+        return Fibonacci.Result(sequence=[1])
