@@ -191,6 +191,12 @@ def test_a_goal_before_there_is_a_server_is_lost():
     assert not only(actions.Server, actions.Client).lost
 
 
+def test_a_lost_goal_stays_lost_when_its_id_is_used_again():
+    lost, taken = recorded(goals.sends_again, actions.late_server).goals
+    assert (lost.request.order, lost.lost, lost.server) == (1, True, "")
+    assert (taken.request.order, taken.lost, taken.status) == (2, False, "succeeded")
+
+
 def test_goals_are_found_by_action_client_and_server():
     recording = recorded(actions.Server, actions.Client)
     assert recording.goals_of() == recording.goals_of("/fibonacci") == recording.goals

@@ -204,3 +204,14 @@ class DestroysItsServer(Server):
         goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
         goal.succeed()
         return Fibonacci.Result(sequence=[1])
+
+
+def sends_again():
+    """Sends a goal to nobody, and after two seconds one with the same id to somebody."""
+    rclpy.init()
+    node = Node("client")
+    client = ActionClient(node, Fibonacci, "fibonacci")
+    for order in (1, 2):
+        client.send_goal_async(Fibonacci.Goal(order=order), goal_uuid=UUID(uuid=list(range(16))))
+        time.sleep(2.0)
+    rclpy.spin(node)
