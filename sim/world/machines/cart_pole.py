@@ -10,7 +10,7 @@ import numpy as np
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, Pose, bar
-from sim.world.model import Angle, Length, Model, above, at_least
+from sim.world.model import Angle, Length, Model, above, at_least, within
 from sim.world.robot import DT, RATE, CommandError
 
 if TYPE_CHECKING:
@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 GRAVITY = 9.81
 """m/s^2, downwards in the picture."""
-# In one second at 0.005 s a free swing loses less than 1e-9 of its energy; at 0.01 s, 1e-8.
+# The default pole, falling freely, keeps its energy to 6e-8 over 20 s at 0.005 s; to 2e-6 at 0.01 s.
 _SUBSTEPS = 2
+_H = DT / _SUBSTEPS
+# What a substep can follow: its part of a swing (rad), and of a decay to 1/e.
+_FASTEST_SWING, _FASTEST_DECAY = 0.1, 0.5
 # To find when the cart meets an end of the track; each step doubles the figures that are right.
 _NEWTON_STEPS = 3
 CART = (0.2, 0.1)
@@ -56,18 +59,31 @@ class CartPoleModel(Model):
         position_noise, angle_noise: standard deviations of what is measured (m, rad).
     """
 
-    cart_mass: Annotated[float, above(0, "kg")] = 0.5
-    pole_mass: Annotated[float, above(0, "kg")] = 0.1
+    cart_mass: Annotated[float, within(0.01, 1000, "kg")] = 0.5
+    pole_mass: Annotated[float, above(0, "kg", 1000)] = 0.1
     pole_length: Length = 0.3
     track_length: Length = 2.0
     cart_friction: Annotated[float, at_least(0, "N per m/s")] = 0.1
     pole_friction: Annotated[float, at_least(0, "N m per rad/s")] = 0.002
     start_angle: Angle = 0.1
     start_spread: Annotated[float, at_least(0, "radians")] = 0.05
-    max_force: Annotated[float, above(0, "N")] = 10.0
-    command_timeout: Annotated[float, above(0, "s")] = 0.2
+    max_force: Annotated[float, above(0, "N", 1000)] = 10.0
+    command_timeout: Annotated[float, above(0, "s", 1000)] = 0.2
     position_noise: Annotated[float, at_least(0, "metres")] = 0.0
     angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        heaviness = 1 + self.pole_mass / self.cart_mass
+        shortest = heaviness * GRAVITY * (_H / _FASTEST_SWING) ** 2
+        if self.pole_length < shortest:
+            self.refuse("pole_length", f"at least {shortest:.2g} (metres) for these masses")
+        most = _FASTEST_DECAY / _H * self.cart_mass
+        if self.cart_friction > most:
+            self.refuse("cart_friction", f"{most:.2g} (N per m/s) or less for this mass")
+        most = _FASTEST_DECAY / _H * self.pole_mass * self.pole_length**2 / heaviness
+        if self.pole_friction > most:
+            self.refuse("pole_friction", f"{most:.2g} (N m per rad/s) or less for this pole")
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -152,7 +168,7 @@ class CartPole(Machine):
         else:
             self._force = 0.0
         for _ in range(_SUBSTEPS):
-            self.state = self._moved(self.state, DT / _SUBSTEPS)
+            self.state = self._moved(self.state, _H)
 
     def _moved(self, state: State, h: float) -> State:
         """The state h seconds later. A cart that meets an end of the track stops dead there."""

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import random
 
 import pytest
 
@@ -132,6 +133,27 @@ def test_a_cart_at_the_end_can_go_back():
     assert cart_pole.state.x < 0.49
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_whatever_it_is_told_the_cart_stays_on_its_track_and_blows_give_no_energy(seed):
+    """Energy rises by no more than the motor's work: force times way, here with twice the greatest speed."""
+    chance = random.Random(seed)
+    model = dataclasses.replace(
+        FREE,
+        pole_mass=chance.uniform(0.01, 2), pole_length=chance.uniform(0.2, 2), track_length=0.5, max_force=20,
+    )  # fmt: skip
+    cart_pole = begun(State(chance.uniform(-0.25, 0.25), chance.uniform(-3, 3), 0.0, 0.0), model)
+    for step in range(2000):
+        before = cart_pole.state
+        if step % 30 == 0:
+            force = chance.uniform(-20, 20)
+        cart_pole.command(force)
+        cart_pole.advance((step + 1) / 100)
+        after = cart_pole.state
+        assert abs(after.x) <= 0.25
+        speed = max(abs(before.v), abs(after.v)) + 0.01 * 20 / M
+        assert model.energy(after) - model.energy(before) <= 20 * 0.01 * 2 * speed
+
+
 def test_a_command_is_cut_and_ends_after_its_timeout():
     model = dataclasses.replace(FREE, cart_mass=1.0, pole_mass=1e-12, max_force=5.0, command_timeout=0.2)
     cart_pole = begun(State(0.0, math.pi, 0.0, 0.0), model)
@@ -182,10 +204,16 @@ def test_bodies_are_cart_and_pole_where_they_are():
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"cart_mass": 0}, "cart_mass is 0; write a number above 0 and up to 1000000 (kg)."),
+        ({"cart_mass": 0}, "cart_mass is 0; write a number from 0.01 to 1000 (kg)."),
         ({"pole_friction": -1}, "pole_friction is -1; write a number from 0 to 1000000 (N m per rad/s)."),
         ({"pole_length": math.inf}, "pole_length is inf; write a number above 0 and up to 1000 (metres)."),
-        ({"max_force": "5"}, "max_force is '5'; write a number above 0 and up to 1000000 (N)."),
+        ({"max_force": "5"}, "max_force is '5'; write a number above 0 and up to 1000 (N)."),
+        ({"pole_length": 0.01}, "pole_length is 0.01; write at least 0.029 (metres) for these masses."),
+        ({"cart_friction": 60}, "cart_friction is 60.0; write 50 (N per m/s) or less for this mass."),
+        (
+            {"pole_friction": 2},
+            "pole_friction is 2.0; write 0.75 (N m per rad/s) or less for this pole.",
+        ),
     ],
 )
 def test_impossible_figures(values, sentence):
