@@ -47,6 +47,7 @@ class Engine(Scheduler):
         self.echo = echo
         self._callbacks = self._callbacks_before = 0
         self.suspended: list[Running] = []  # coroutine callbacks that wait for something
+        self.held = (0.0, 0.0)  # what a user at the keys drives by hand: forward and left, each in [-1, 1]
         self._second = (0, 0)  # when the second under way began, and the work done by then
         self._fault: Ended | None = None
 

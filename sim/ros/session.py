@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import math
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -19,10 +20,6 @@ from sim.ros.processes import Process, as_process
 from sim.world import Scene, World, simulate
 
 FOREVER: Nanoseconds = 2**63
-
-
-def _never() -> bool:
-    return False
 
 
 class Session:
@@ -53,31 +50,44 @@ class Session:
         self.recording = Recording(world=world, seconds=float(seconds), seed=seed)
         self.scene: Scene | None = None
         self.engine: Engine | None = None
-        self.over = self.interrupted = False
+        self.over = self._interrupted = False
         self._until = until
         self._moments: Iterator[Nanoseconds] | None = None
         self._due: Nanoseconds = 0  # the moment that time moves to next
         self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
         self._screen = Screen(quiet)
 
-    def advance(self, limit: Nanoseconds = FOREVER, enough: Callable[[], bool] = _never) -> None:
+    @property
+    def stamp(self) -> float:
+        """Simulated seconds of the last moment at which something was done."""
+        return self.recording.stamp if self.engine is None else self.engine.recorder.now
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user has interrupted the run while it worked."""
+        return self._interrupted or (self.engine is not None and self.engine.guard.interrupted)
+
+    def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
         """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
 
-        Raises what `until` raises; then too, the run is over.
+        Returns up to when all is done, in simulated seconds. Raises what `until` raises; then too, the run is
+        over.
         """
         if self.over:
-            return
+            return self.stamp
+        last = FOREVER if limit == math.inf else round(limit * SECOND)
         with self._stretch():
             try:
                 if self._moments is None:
                     self._open()
-                while self._due <= limit and not enough():
+                while self._due <= last and not (enough and enough()):
                     self._due = next(self._moments)
             except StopIteration as end:
                 self._close(end.value)
             except BaseException:
                 self._close(self.recording.ended)
                 raise
+        return limit if self._due > last and not self.over else self.stamp
 
     def start(self, spec: Process) -> None:
         """Add a program; it runs from the next moment on."""
@@ -124,6 +134,7 @@ class Session:
 
     def _close(self, ended: Ended) -> None:
         self.over, self.recording.ended = True, ended
+        vars(self.recording).pop("digest", None)  # `until` may have asked too early
         if self._moments is not None:
             self._moments = None
             self.engine.close()
@@ -131,7 +142,7 @@ class Session:
     def _clean_up(self) -> None:
         self.engine.recorder.complained(self._stderr.close())
         self._screen.close()
-        self.interrupted = self.engine.guard.interrupted
+        self._interrupted = self.engine.guard.interrupted
         self.engine = self.scene = None  # they and rclpy's nodes are full of cycles
         gc.collect()
 

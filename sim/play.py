@@ -1,0 +1,50 @@
+"""The door to playing: a run to watch and to drive, with its picture where there is a notebook."""
+
+from __future__ import annotations
+
+import builtins
+from collections.abc import Callable
+from typing import Any
+
+from sim.recording import Recording
+from sim.ros.pacing import Pace
+from sim.ros.picture import Picture
+from sim.ros.player import Player
+from sim.ros.session import Session
+from sim.world import World
+
+
+def play(
+    *nodes: Any,
+    world: str | World | None = None,
+    seconds: float = 10.0,
+    seed: int = 0,
+    until: Callable[[Recording], bool] | None = None,
+    quiet: bool = False,
+    speed: float = 1.0,
+) -> Player:
+    """Run ROS 2 nodes as `run` does, but along with the clock on the wall, to watch and drive them.
+
+    speed: simulated seconds per second; math.inf for as fast as it goes. All else is as for `run`, and the
+    recording is the same, unless somebody drives or stops it.
+
+    In a notebook it shows a picture, returns at once, and plays on while other cells run; when it is over,
+    its replay takes the picture's place. Without an event loop it returns when the run is over. What was
+    played before is stopped. Raises what `run` raises, and ValueError for a speed that is none.
+    """
+    pace = Pace(speed)
+    player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play"), pace)
+    player.begin(_picture(player.recording.world))
+    return player
+
+
+def _picture(world: World | None) -> Picture | None:
+    """A picture in the output of the cell that is running; None outside notebooks."""
+    shell = getattr(builtins, "get_ipython", lambda: None)()
+    if getattr(shell, "kernel", None) is None:
+        return None
+    from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
+
+    view = LiveView(world)
+    view.show()
+    return view
