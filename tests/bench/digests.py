@@ -1,4 +1,4 @@
-"""Equal runs give equal recordings: fresh processes, the second half of them on a busy machine.
+"""Equal runs, of every world too, give equal recordings: fresh processes, half of them on a busy machine.
 
 python -m tests.bench.digests --runs 100 --python .venv311/bin/python --python .venv/bin/python
 """
@@ -35,7 +35,7 @@ def main() -> None:
     with busy_machine(2 * (os.cpu_count() or 1)):
         machines["busy"] = count(pythons, range(idle, options.runs))
     rows = [
-        [machine, python, " ".join(one[:8] for one in found.split()), runs]
+        [machine, python, " ".join(one[:4] for one in found.split()), runs]
         for machine, counted in machines.items()
         for (python, found), runs in sorted(counted.items())
     ]

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
 from sim import Recording, run
+from tests.sim.ros import all_worlds
 from tests.students.engine import actions, callers, goals, mains, services, threads, timing
 
 
@@ -38,13 +39,14 @@ class Wanderer(Node):
 
 
 def scenarios() -> list[Recording]:
-    """A robot with chance and services; threads and locks; actions; every clock; calls and goals."""
+    """A robot with chance and services; threads, locks, actions, clocks; calls and goals; every world."""
     return [
         run(Wanderer, services.Adder, world="room", seconds=10, seed=3, quiet=True),
         run(threads.lock_across_sleeps, threads.queues, mains.classic, seconds=10, quiet=True),
         run(actions.parallel_server, actions.Impatient, timing.all_clocks, seconds=5, quiet=True),
         run(services.SlowAdder, callers.First, callers.Second, callers.Flood, seconds=9, quiet=True),
         run(goals.two_servers, actions.Client, goals.SameIdTwice, seconds=5, quiet=True),
+        *(all_worlds.in_use(world, seconds=6) for world in all_worlds.worlds().values()),
     ]
 
 

@@ -1,9 +1,13 @@
 """Equal nodes, world and seed give equal recordings: here, elsewhere, on a busy machine, on other Pythons."""
 
+import functools
 import subprocess
 import sys
 
 import pytest
+from rclpy.node import Node
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Bool
 
 from sim import run
 from tests.sim.ros import determinism, programs
@@ -59,6 +63,29 @@ def test_the_digest_sees_every_kind_of_evidence():
         run(names.Bursts, seconds=3, quiet=True),
     ]
     assert len({recording.digest for recording in runs}) == len(runs)
+
+
+class RawListener(Node):
+    """Keeps the bytes of what it hears; those of a Bool end in the middle of a word."""
+
+    heard = []  # noqa: RUF012
+
+    def __init__(self):
+        super().__init__("raw_listener")
+        for kind, topic in ((Bool, "/bumper"), (LaserScan, "/scan")):
+            hear = functools.partial(self.hear, topic)
+            self.create_subscription(kind, topic, hear, 10, raw=True)
+
+    def hear(self, topic, raw):
+        self.heard.append((topic, raw))
+
+
+def test_a_raw_subscription_hears_the_bytes_that_were_sent_and_nothing_behind_them():
+    RawListener.heard.clear()
+    recording = run(RawListener, world="yard", seconds=1, quiet=True)
+    for topic in ("/bumper", "/scan"):
+        sent = [h.raw for h in recording.messages(topic)][1:]  # the first one came too early to be heard
+        assert [raw for name, raw in RawListener.heard if name == topic] == sent
 
 
 def test_two_processes_at_once_dont_hear_each_other(here):
