@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.world.contacts import Contact, Touches
 from sim.world.description import World
-from sim.world.lidar import LidarModel, Scan
+from sim.world.lidar import Scan
 from sim.world.mobile_robot import MobileRobot
 from sim.world.robot import DT, RATE, Odometry, Pose, Wheels
 from sim.world.solids import add_boxes, add_obstacles, check_start, make_space
@@ -74,11 +74,6 @@ class Simulation:
         radius = self.world.robot.radius
         others = (other for other in self.robots.values() if other is not robot)
         return sides, [(*other.pose[:2], radius) for other in others]
-
-    @property
-    def lidar(self) -> LidarModel:
-        """The figures of the robots' lidars."""
-        return self.world.lidar
 
     @property
     def pose(self) -> Pose:
