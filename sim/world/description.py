@@ -23,6 +23,10 @@ _FOLDER = Path(__file__).parent / "worlds"
 
 _BOUNDS = "[xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax"
 _WALLS = f"a list of walls, each a list of {worldfile.CORNERS}"
+_MACHINES = tuple(worldfile.MACHINES.values())
+_MACHINE = Wanted(
+    f"one of {', '.join(model.__name__ for model in _MACHINES)}", lambda model: type(model) in _MACHINES
+)
 _Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 
 
@@ -61,7 +65,7 @@ class World(Model):
     lidar: LidarModel = field(default_factory=LidarModel)
     imu: ImuModel | None = None
     robots: Annotated[tuple[OtherRobot, ...], Wanted("a list of OtherRobot")] = ()
-    machine: Any | None = None
+    machine: Annotated[Any, _MACHINE] | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
