@@ -1,18 +1,19 @@
-"""A moving picture of the robot, as an animated PNG: it plays wherever a PNG is shown, sanitised or not."""
+"""A moving picture of a run, as an animated PNG: it plays wherever a PNG is shown, sanitised or not."""
 
 from __future__ import annotations
 
-import bisect
 import io
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from PIL import Image, ImageDraw
 
 from sim.recording import Pose, Recording
-from sim.view.figure import PATH
-from sim.view.scene import NO_ROBOT, scene
-from sim.world import RobotModel
+from sim.view.figure import KINDS, PATH
+from sim.view.geometry import body_tracks, index_at, placed
+from sim.view.scene import scene
+from sim.world import Body
 
 SMOOTH = 2  # frames are drawn so many times larger, then scaled down
 COLOURS = 32
@@ -29,15 +30,15 @@ class MovingPicture(bytes):
 
 
 def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int = 8) -> MovingPicture:
-    """The robot's way through its world.
+    """What moved in a run, and the robots' ways.
 
     speed: simulated seconds per second of the picture. frames_per_second: of the picture.
-    Raises ValueError for a run without a robot, and for a speed or rate that isn't above 0.
+    Raises ValueError for a run in which nothing moves, and for a speed or rate that isn't above 0.
     """
     if not (speed > 0 and frames_per_second > 0):
         raise ValueError("speed and frames_per_second must be above 0")
     stage = _Stage(recording)
-    end = recording.path[-1].stamp
+    end = stage.end
     count = max(1, math.ceil(end * frames_per_second / speed))
     frames = [stage.frame(min(end, index * speed / frames_per_second)) for index in range(count + 1)]
     palette = frames[-1].quantize(COLOURS, dither=Image.Dither.NONE)
@@ -51,35 +52,41 @@ def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int 
 
 
 class _Stage:
-    """The world drawn once by matplotlib; only robot, trail and clock are drawn again for each frame."""
+    """The world drawn once by matplotlib; only bodies, trails and clock are drawn again for each frame."""
 
     def __init__(self, recording: Recording) -> None:
-        figure, axes = scene(recording)
-        if not recording.path:
-            raise ValueError(NO_ROBOT)
+        figure, self.axes = scene(recording)
         figure.set_dpi(figure.dpi * SMOOTH * 0.75)
         figure.canvas.draw()
         self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
-        self.poses = recording.path
-        self.stamps = [pose.stamp for pose in self.poses]
-        points = axes.transData.transform([(pose.x, pose.y) for pose in self.poses])
-        self.pixels = [(float(x), self.background.height - float(y)) for x, y in points]
-        edge = axes.transData.transform([(0.0, 0.0), (RobotModel().radius, 0.0)])
-        self.radius = float(edge[1][0] - edge[0][0])
+        self.scale = float(np.ptp(self.axes.transData.transform([(0.0, 0.0), (1.0, 0.0)])[:, 0]))
+        self.bodies = recording.world.bodies
+        self.tracks = body_tracks(recording)
+        self.trails = [self._pixels([pose[1:3] for pose in track]) for track in self.tracks]
+        self.end = max(track[-1].stamp for track in self.tracks)
+
+    def _pixels(self, points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+        height = self.background.height
+        return [(float(x), height - float(y)) for x, y in self.axes.transData.transform(points)]
 
     def frame(self, stamp: float) -> Image.Image:
         """The picture at a moment of simulated time, in seconds."""
-        index = max(0, bisect.bisect_right(self.stamps, stamp + 1e-9) - 1)
         image = self.background.copy()
         draw = ImageDraw.Draw(image)
-        if index:
-            draw.line(self.pixels[: index + 1], fill=PATH, width=2 * SMOOTH)
-        self._robot(draw, self.pixels[index], self.poses[index])
+        for body, track, trail in zip(self.bodies, self.tracks, self.trails, strict=True):
+            index = index_at(track, stamp)
+            if index and body.kind == "robot":
+                draw.line(trail[: index + 1], fill=PATH, width=2 * SMOOTH)
+            self._draw(draw, body, trail[index], track[index])
         draw.text((8 * SMOOTH, 6 * SMOOTH), f"{stamp:.1f} s", fill="black", font_size=12 * SMOOTH)
         return image.resize((image.width // SMOOTH, image.height // SMOOTH), Image.Resampling.BOX)
 
-    def _robot(self, draw: ImageDraw.ImageDraw, centre: tuple[float, float], pose: Pose) -> None:
-        (x, y), r = centre, self.radius
-        draw.ellipse((x - r, y - r, x + r, y + r), fill="#8fb8dc", outline="black", width=SMOOTH)
+    def _draw(self, draw: ImageDraw.ImageDraw, body: Body, centre: tuple[float, float], pose: Pose) -> None:
+        fill = KINDS.get(body.kind, "#8fb8dc")
+        if body.outline:
+            draw.polygon(self._pixels(placed(body, pose)), fill=fill, outline="black", width=SMOOTH)
+            return
+        (x, y), r = centre, body.radius * self.scale
+        draw.ellipse((x - r, y - r, x + r, y + r), fill=fill, outline="black", width=SMOOTH)
         nose = (x + r * math.cos(pose.yaw), y - r * math.sin(pose.yaw))
         draw.line([centre, nose], fill="black", width=2 * SMOOTH)

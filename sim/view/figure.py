@@ -9,6 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
+ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and others
+KINDS = {"box": "#d9b991", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
 DPI = 100
 
 

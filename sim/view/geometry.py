@@ -1,14 +1,21 @@
-"""A world as plain data for the pictures in a page; `checkWorld` in web/scene.js reads it."""
+"""What all pictures draw: a world as plain data, the tracks of its bodies, and bodies at their poses."""
 
 from __future__ import annotations
 
+import bisect
+import math
+from collections.abc import Sequence
 from typing import Any
 
-from sim.world import World
+from sim.recording import Pose, Recording
+from sim.world import Body, World
 
 
 def world_data(world: World) -> dict[str, Any]:
-    """All of a world that a picture shows, ready for JSON: metres and radians, to a tenth of a millimetre."""
+    """All of a world that a page shows, ready for JSON: metres and radians, to a tenth of a millimetre.
+
+    `checkWorld` in web/checks.js reads it.
+    """
     return {
         "name": world.name,
         "bounds": _round(world.bounds),
@@ -22,6 +29,35 @@ def world_data(world: World) -> dict[str, Any]:
         ],
         "lidar": {"start": 0.0, "step": world.lidar.angle_increment, "far": world.lidar.range_max},
     }
+
+
+def body_tracks(recording: Recording) -> list[list[Pose]]:
+    """The poses of each body of the run's world, in the order of its bodies."""
+    bodies = recording.world.bodies if recording.world is not None else ()
+    return [
+        recording.path if body.name == "robot" else recording.tracks.get(body.name, []) for body in bodies
+    ]
+
+
+def index_at(track: Sequence[Pose], stamp: float) -> int:
+    """Where in a track the last pose is that is not later than `stamp`; 0 before that."""
+    return max(bisect.bisect_right(track, stamp + 1e-6, key=lambda pose: pose.stamp) - 1, 0)
+
+
+def pose_at(track: Sequence[Pose], stamp: float) -> Pose:
+    """The last pose that is not later than `stamp`; the first one before that."""
+    return track[index_at(track, stamp)]
+
+
+def placed(body: Body, pose: Pose) -> list[tuple[float, float]]:
+    """The corners of a body that is no disc, in the map frame (m)."""
+    c, s = math.cos(pose.yaw), math.sin(pose.yaw)
+    return [(pose.x + c * u - s * v, pose.y + s * u + c * v) for u, v in body.outline]
+
+
+def reach(body: Body) -> float:
+    """How far the body's farthest point is from its origin (m)."""
+    return max([body.radius, *(math.hypot(u, v) for u, v in body.outline)])
 
 
 def _round(values: Any) -> list[float]:

@@ -26,8 +26,7 @@ SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
 class LiveView(anywidget.AnyWidget):
     """Clock, controls and topics of a run that is under way; with a world, its picture and a pad to drive.
 
-    A frame is one binary message: float32 stamp (s), x, y (m), yaw (rad) of each of the world's bodies, and
-    behind them the newest scan, if there is one: pose and ranges. The page draws the newest frame only.
+    A frame is one binary message; the page draws the newest only.
 
     Attributes:
         on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
@@ -50,11 +49,7 @@ class LiveView(anywidget.AnyWidget):
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
         """Show all bodies of the world at `stamp` (s); the picture keeps their trails."""
-        floats = array("f", (stamp, *itertools.chain.from_iterable(poses)))
-        if scan is not None:
-            floats.extend(scan.pose)
-            floats.frombytes(np.asarray(scan.ranges, np.float32).tobytes())
-        self.send({}, [floats.tobytes()])
+        self.send({}, [packed(stamp, poses, scan)])
 
     def state(self, state: dict[str, Any]) -> None:
         """Show how the run is going: stamp, speed, pace, paused, topics, contacts and ended."""
@@ -83,6 +78,19 @@ class LiveView(anywidget.AnyWidget):
         command = checked(content)
         if command is not None and self.on_command is not None:
             self.on_command(command)
+
+
+def packed(stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> bytes:
+    """A frame as the page reads it, in float32.
+
+    The stamp (s), x, y (m) and yaw (rad) of each of the world's bodies, and behind them the newest scan, if
+    there is one: pose and ranges.
+    """
+    floats = array("f", (stamp, *itertools.chain.from_iterable(poses)))
+    if scan is not None:
+        floats.extend(scan.pose)
+        floats.frombytes(np.asarray(scan.ranges, np.float32).tobytes())
+    return floats.tobytes()
 
 
 def checked(content: Any) -> Command | None:

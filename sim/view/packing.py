@@ -8,7 +8,6 @@ However long a run was, the text stays bounded: there are so many poses, ranges 
 from __future__ import annotations
 
 import base64
-import bisect
 import json
 import math
 import zlib
@@ -16,8 +15,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any, TypeVar
 
-from sim.recording import Pose, Recording, rate, stamps
-from sim.view.geometry import world_data
+from sim.recording import Recording, rate, stamps
+from sim.view.geometry import body_tracks, pose_at, world_data
 
 Item = TypeVar("Item")
 
@@ -49,14 +48,6 @@ def run_end(recording: Recording) -> float:
     return recording.ended.stamp or recording.stamp or recording.seconds or 1.0
 
 
-def body_tracks(recording: Recording) -> list[list[Pose]]:
-    """The poses of each body of the run's world, in the order of its bodies."""
-    bodies = recording.world.bodies if recording.world is not None else ()
-    return [
-        recording.path if body.name == "robot" else recording.tracks.get(body.name, []) for body in bodies
-    ]
-
-
 def _motion(recording: Recording) -> dict[str, Any]:
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
@@ -67,11 +58,6 @@ def _motion(recording: Recording) -> dict[str, Any]:
         poses = [pose_at(track, moment) for moment in moments]
         columns.append([_steps((pose[axis] for pose in poses), 1000) for axis in (1, 2, 3)])
     return {"stamps": _steps(moments, 1000), "tracks": columns}
-
-
-def pose_at(track: Sequence[Pose], stamp: float) -> Pose:
-    """The last pose that is not later than `stamp`; the first one before that."""
-    return track[max(bisect.bisect_right(track, stamp + 1e-6, key=lambda pose: pose.stamp) - 1, 0)]
 
 
 def _scans(recording: Recording) -> Iterator[dict[str, Any]]:

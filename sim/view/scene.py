@@ -1,9 +1,8 @@
-"""The world from above, and the robot's way through it: metres, map frame."""
+"""The world of a run as a figure, and the ways of what moved in it: metres, map frame."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,26 +10,33 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from sim.recording import Pose, Recording
-from sim.view.figure import CAUTION, MUTED, PATH, SOLID, WARNING, Plot, plot
-from sim.world import RobotModel, World
+from sim.view.figure import CAUTION, KINDS, MUTED, ROBOTS, SOLID, WARNING, Plot, plot
+from sim.view.geometry import body_tracks, placed, reach
+from sim.world import Body, World
 
-Point = tuple[float, float]
 MARGIN = 0.2  # metres around what is shown
-NO_ROBOT = 'this run has no robot to draw: give run() a world, such as world="yard"'
 
 
 def plot_path(recording: Recording) -> Plot:
-    """The robot's path over its world, with start, goal and contacts; a machine's bodies at start and end.
+    """The robot's path over its world, with start, goal and contacts.
 
-    Raises ValueError for a run without a robot or machine.
+    Other robots have a path too; boxes and links are drawn where they were at first and at last.
+    Raises ValueError for a run in which nothing moves.
     """
     figure, axes = scene(recording)
-    poses, end = recording.path, f"end, {_moved(recording)[-1].stamp:.3g} s"
-    _bodies(axes, recording, end)
-    if poses:
-        axes.plot([p.x for p in poses], [p.y for p in poses], color=PATH, linewidth=1.8, label="path")
-        _arrow(axes, poses[0], "start", MUTED)
-        _arrow(axes, poses[-1], end, PATH)
+    bodies = recording.world.bodies
+    robots = [body for body in bodies if body.kind == "robot"]
+    for body, track in zip(bodies, body_tracks(recording), strict=True):
+        first = body is bodies[0]
+        if body.kind == "robot":
+            colour = ROBOTS[robots.index(body) % len(ROBOTS)]
+            way = [pose.x for pose in track], [pose.y for pose in track]
+            axes.plot(*way, color=colour, linewidth=1.8, label="path" if first else body.name)
+        else:
+            colour = KINDS.get(body.kind, MUTED)
+        _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)
+        end = f"end, {track[-1].stamp:.3g} s" if first else None
+        _draw(axes, body, track[-1], colour, 0.45 if body.kind == "robot" else 0.9, end)
     if recording.contacts:
         touched = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*touched.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
@@ -39,24 +45,28 @@ def plot_path(recording: Recording) -> Plot:
 
 
 def scene(recording: Recording) -> tuple[Plot, Axes]:
-    """The world of a run without what moves in it; axes that hold the world and the whole path.
+    """The world of a run without what moves in it; axes that hold the world and all ways.
 
-    Raises ValueError for a run without a robot or machine.
+    Raises ValueError for a run in which nothing moves.
     """
-    if recording.world is None or not _moved(recording):
-        raise ValueError(NO_ROBOT)
-    world: World = recording.world
+    world = recording.world
+    tracks = body_tracks(recording)
+    if world is None or not tracks or not all(tracks):
+        raise ValueError('this run has no robot to draw: give run() a world, such as world="yard"')
     figure, axes = plot(6.4, 4.8)
     draw_world(axes, world)
-    xs = [pose.x for pose in recording.path] + [world.bounds[0], world.bounds[2]]
-    ys = [pose.y for pose in recording.path] + [world.bounds[1], world.bounds[3]]
+    left, bottom, right, top = world.bounds
+    for body, track in zip(world.bodies, tracks, strict=True):
+        far = reach(body)
+        left, right = min([left, *(p.x - far for p in track)]), max([right, *(p.x + far for p in track)])
+        bottom, top = min([bottom, *(p.y - far for p in track)]), max([top, *(p.y + far for p in track)])
     axes.set(
-        xlim=(min(xs) - MARGIN, max(xs) + MARGIN),
-        ylim=(min(ys) - MARGIN, max(ys) + MARGIN),
+        xlim=(left - MARGIN, right + MARGIN),
+        ylim=(bottom - MARGIN, top + MARGIN),
         aspect="equal",
         xlabel="x (m)",
         ylabel="y (m)",
-        title=f"{world.name}, seen from above" if recording.path else world.name,
+        title=f"{world.name}, seen from above" if world.machine is None else world.name,
     )
     axes.grid(color="#e6e9ec", linewidth=0.6)
     axes.set_axisbelow(True)
@@ -74,41 +84,13 @@ def draw_world(axes: Axes, world: World) -> None:
         axes.plot(*world.goal, "*", color=CAUTION, markersize=15, label="goal", linestyle="none")
 
 
-def _moved(recording: Recording) -> list[Pose]:
-    """The poses of the robot, or of a machine's first body; none before the run has begun."""
-    return recording.path or next(iter(recording.tracks.values()), [])
-
-
-def _bodies(axes: Axes, recording: Recording, end: str) -> None:
-    """Everything that moves beside the robot, where it was at first and at last."""
-    labels = {0: "start", -1: end} if not recording.path else {}
-    for body in recording.world.bodies:
-        poses = recording.tracks.get(body.name, [])
-        for index, colour in ((0, MUTED), (-1, PATH)) if poses else ():
-            style = {
-                "facecolor": colour,
-                "alpha": 0.45,
-                "edgecolor": colour,
-                "label": labels.pop(index, None),
-            }
-            place = poses[index]
-            if body.radius:
-                axes.add_patch(Circle((place.x, place.y), body.radius, **style))
-            else:
-                axes.add_patch(Polygon(_placed(body.outline, place), **style))
-
-
-def _placed(outline: Sequence[Point], pose: Pose) -> list[Point]:
-    """The corners of a body's outline in the map frame."""
-    c, s = math.cos(pose.yaw), math.sin(pose.yaw)
-    return [(pose.x + c * u - s * v, pose.y + s * u + c * v) for u, v in outline]
-
-
-def _arrow(axes: Axes, pose: Pose, label: str, colour: str) -> None:
-    """The robot's outline, and which way it looks."""
-    radius = RobotModel().radius
-    nose = (pose.x + radius * math.cos(pose.yaw), pose.y + radius * math.sin(pose.yaw))
-    axes.add_patch(
-        Circle((pose.x, pose.y), radius, facecolor=colour, alpha=0.45, edgecolor=colour, label=label)
-    )
-    axes.plot([pose.x, nose[0]], [pose.y, nose[1]], color="black", linewidth=1.5)
+def _draw(axes: Axes, body: Body, pose: Pose, colour: str, alpha: float, label: str | None) -> None:
+    """The body's outline, and which way it looks if it is a robot."""
+    look = {"facecolor": colour, "edgecolor": colour, "alpha": alpha, "label": label}
+    if body.outline:
+        axes.add_patch(Polygon(placed(body, pose), **look))
+    else:
+        axes.add_patch(Circle(pose[1:3], body.radius, **look))
+    if body.kind == "robot":
+        nose = (pose.x + body.radius * math.cos(pose.yaw), pose.y + body.radius * math.sin(pose.yaw))
+        axes.plot([pose.x, nose[0]], [pose.y, nose[1]], color="black", linewidth=1.5)

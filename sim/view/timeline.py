@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 
 from sim.recording import Recording, rate, stamps
 from sim.view.figure import CAUTION, MUTED, PATH, SOLID, WARNING, Plot, plot
+from sim.view.units import unit_of
 
 LEVELS = {"DEBUG": MUTED, "INFO": PATH, "WARN": CAUTION, "ERROR": WARNING, "FATAL": "black"}
 
@@ -82,10 +83,11 @@ def _label(recording: Recording, topic: str) -> str:
     return f"{topic}\n{len(moments)}{pace}"
 
 
-def plot_signal(recording: Recording, topic: str, *fields: str, unit: str = "") -> Plot:
+def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None = None) -> Plot:
     """Numbers from the messages of a topic over time.
 
-    fields: such as "linear.x"; "data" when left out. unit: for the axis, such as "m/s".
+    fields: such as "linear.x", or "position.0" for the first of several; "data" when left out.
+    unit: for the axis, such as "V"; when left out, the one that ROS gives to the fields.
     Raises ValueError when there are no messages, no such field, or no numbers in it.
     """
     heard = recording.messages(topic)
@@ -94,9 +96,12 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str = "") 
         raise ValueError(f"there are no messages on {topic} to draw; this run has {known}")
     messages = [item.message for item in heard]
     figure, axes = plot(7.2, 3.2)
-    for field in fields or ("data",):
+    fields = fields or ("data",)
+    for field in fields:
         values = [_number(message, field, topic) for message in messages]
         axes.plot(stamps(heard), values, ".-", linewidth=1.2, markersize=4, label=field)
+    if unit is None:
+        unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
     axes.grid(color="#e6e9ec")
     axes.legend(frameon=False)
@@ -105,13 +110,18 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str = "") 
 
 def _number(message: Any, field: str, topic: str) -> float:
     try:
-        value = functools.reduce(getattr, field.split("."), message)
-    except AttributeError:
+        value = functools.reduce(_part, field.split("."), message)
+    except (AttributeError, IndexError):
         fields = ", ".join(type(message).get_fields_and_field_types())
         raise ValueError(f"the messages on {topic} have no field {field}; they have {fields}") from None
     if not isinstance(value, numbers.Real):
         raise ValueError(f"{field} on {topic} is no number, but {type(value).__name__}")
     return float(value)
+
+
+def _part(value: Any, name: str) -> Any:
+    """A field of a message, or an item of a list in it."""
+    return value[int(name)] if name.isdecimal() and hasattr(value, "__len__") else getattr(value, name)
 
 
 def _end(recording: Recording) -> float:

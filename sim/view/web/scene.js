@@ -68,7 +68,7 @@ class Scene {
 
   /** Widen the picture, by whole metres, so that a body at this pose is in it. */
   include(body, [x, y]) {
-    const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v))) + MARGIN;
+    const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v)));
     const [left, bottom, right, top] = this.shown;
     if (x - reach >= left && x + reach <= right && y - reach >= bottom && y + reach <= top) return;
     this.shown = [

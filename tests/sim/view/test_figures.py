@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from geometry_msgs.msg import Twist
 from matplotlib.figure import Figure
+from nav_msgs.msg import Odometry
 from PIL import Image
+from sensor_msgs.msg import Imu, JointState, LaserScan, Temperature
 from std_msgs.msg import String
 
 from sim import Recording, World, run
@@ -17,6 +19,8 @@ from sim.world import MovableBox, OtherRobot
 from tests.grader.recordings import published
 from tests.students import misfits
 from tests.students.engine import actions, goals, services
+
+JOINT = ("/joint_states", "position.1")
 
 
 def driven(world="room", **evidence):
@@ -71,7 +75,7 @@ def test_boxes_and_other_robots_are_drawn_beside_the_robot():
     tracks = {"box_1": [Pose(0.0, 1.0, 1.0, 0.0)], "leader": [Pose(0.0, 1.0, -1.0, 0.0)]}
     figure = plot_path(dataclasses.replace(driven(), world=world, tracks=tracks))
     assert len(figure.axes[0].patches) == 2 * 3  # each at both ends
-    assert labels(figure) == ["path", "start", "end, 5 s"]
+    assert labels(figure) == ["path", "start", "end, 5 s", "leader"]
 
 
 def test_contacts_are_marked():
@@ -95,9 +99,13 @@ def test_a_run_without_a_robot_is_refused(draw):
         draw(Recording())
 
 
-def test_a_machine_is_not_a_robot_on_its_way():
-    with pytest.raises(ValueError, match=r"^this run has no robot to draw: "):
-        animate(Recording(world=World.load("joint"), tracks={"link": [Pose(0.0, 0.0, 0.0, 0.0)]}))
+def test_a_moving_picture_shows_a_machine_too():
+    turn = [Pose(stamp, 0.0, 0.0, stamp) for stamp in (0.0, 1.0)]
+    moving = Image.open(io.BytesIO(animate(Recording(world=World.load("joint"), tracks={"link": turn}))))
+    first = np.asarray(moving.convert("RGB"), dtype=int)
+    moving.seek(moving.n_frames - 1)
+    last = np.asarray(moving.convert("RGB"), dtype=int)
+    assert (np.abs(first - last)[40:].sum(axis=2) > 60).sum() > 100  # below the clock
 
 
 def test_topics_have_a_row_each_with_count_and_rate():
@@ -146,6 +154,35 @@ def test_signals_are_drawn_over_time_with_their_unit():
     assert list(axes.lines[0].get_xdata()) == [0.0, 1.0, 2.0, 3.0]
     assert axes.lines[0].get_ydata() == pytest.approx([0.0, 0.1, 0.2, 0.3])
     assert [line.get_label() for line in axes.lines] == ["linear.x", "angular.z"]
+
+
+@pytest.mark.parametrize(
+    "topic, kind, fields, unit",
+    [
+        ("/cmd_vel", Twist, ("linear.x", "angular.z"), "m/s, rad/s"),
+        ("/odom", Odometry, ("pose.pose.position.x",), "m"),
+        ("/odom", Odometry, ("pose.pose.orientation.w",), ""),
+        ("/imu", Imu, ("linear_acceleration.x",), "m/s²"),
+        ("/scan", LaserScan, ("ranges.0",), "m"),
+        ("/temperature", Temperature, ("temperature", "variance"), "°C"),
+        ("/joint_states", JointState, ("position.1",), ""),
+    ],
+)
+def test_units_are_those_that_ros_gives_to_the_fields(topic, kind, fields, unit):
+    message = kind()
+    for name in {"ranges", "position"} & set(kind.get_fields_and_field_types()):
+        setattr(message, name, [1.0, 2.0])
+    assert plot_signal(published(topic, [(1.0, message)]), topic, *fields).axes[0].get_ylabel() == unit
+
+
+def test_an_item_of_a_list_is_a_signal():
+    axes = plot_signal(published("/joint_states", [(1.0, JointState(position=[0.5, 2.0]))]), *JOINT).axes[0]
+    assert list(axes.lines[0].get_ydata()) == [2.0]
+
+
+def test_an_item_that_is_not_there_is_refused():
+    with pytest.raises(ValueError, match=r"^the messages on /joint_states have no field position\.1; "):
+        plot_signal(published("/joint_states", [(1.0, JointState(position=[0.5]))]), *JOINT)
 
 
 @pytest.mark.parametrize(
