@@ -13,6 +13,7 @@ from sensor_msgs.msg import LaserScan
 from sim import Recording, run
 from tests.sim.ros import all_worlds
 from tests.students.engine import actions, callers, goals, mains, services, threads, timing
+from tests.students.machines import arm, cart_pole
 
 
 class Wanderer(Node):
@@ -39,13 +40,18 @@ class Wanderer(Node):
 
 
 def scenarios() -> list[Recording]:
-    """A robot with chance and services; threads, locks, actions, clocks; calls and goals; every world."""
+    """A robot with chance and services; threads, locks, actions, clocks; calls and goals; every world.
+
+    And machines under control: one along a trajectory, one in a loop of 100 Hz.
+    """
     return [
         run(Wanderer, services.Adder, world="room", seconds=10, seed=3, quiet=True),
         run(threads.lock_across_sleeps, threads.queues, mains.classic, seconds=10, quiet=True),
         run(actions.parallel_server, actions.Impatient, timing.all_clocks, seconds=5, quiet=True),
         run(services.SlowAdder, callers.First, callers.Second, callers.Flood, seconds=9, quiet=True),
         run(goals.two_servers, actions.Client, goals.SameIdTwice, seconds=5, quiet=True),
+        run(arm.Reporter, world="arm", seconds=3, quiet=True),
+        run(cart_pole.Balancer, world="cart_pole", seconds=5, seed=3, quiet=True),
         *(all_worlds.in_use(world, seconds=6) for world in all_worlds.worlds().values()),
     ]
 
