@@ -1,0 +1,39 @@
+"""Exceptions around parameters, as `rules` has those around topics."""
+
+from __future__ import annotations
+
+from grader.diagnosis.rules import Rule
+
+PARAMETER_RULES = (
+    Rule(
+        "InvalidParameterTypeException", r"'(.+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'",
+        "The parameter `{0}` got {1}, which is of type {2}, but it is declared as {3}: its default says so. "
+        "`1` and `1.0` are two types; use the same one in both places.",
+    ),
+    Rule(
+        "ParameterAlreadyDeclaredException", r"\['(.+)'\]",
+        "The parameter `{0}` is declared twice: call declare_parameter('{0}', default) once, in __init__.",
+    ),
+    Rule(
+        "TypeError", r"parameter must be instance of type '<class 'rclpy\.parameter\.Parameter'>'",
+        "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with "
+        "`from rclpy.parameter import Parameter`.",
+    ),
+    Rule(
+        "TypeError", r"unsupported operand .*'Parameter'",
+        "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
+    ),
+    Rule(
+        "TypeError", r"Callback must be callable",
+        "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
+    ),
+    Rule(
+        "AttributeError", r"'list' object has no attribute '(name|value)'",
+        "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, "
+        "and then `parameter.{0}`.",
+    ),
+    Rule(
+        "AttributeError", r"'Future' object has no attribute '(\w+)'",
+        "A future is the box in which the answer comes: `future.result().{0}`, in its done callback.",
+    ),
+)  # fmt: skip

@@ -1,0 +1,39 @@
+"""Every usual mistake with parameters, made by a real node, gets its own advice."""
+
+import re
+
+import pytest
+
+from grader.diagnosis import find_fault
+from grader.diagnosis.parameter_rules import PARAMETER_RULES
+from sim import run
+from tests.students import parameter_mistakes as mistakes
+
+ADVICE = {
+    "whole_number_at_the_start": "The parameter `radius` got 1, which is of type INTEGER, but it is declared as DOUBLE: its default says so. `1` and `1.0` are two types; use the same one in both places.",
+    "DeclaresTwice": "The parameter `radius` is declared twice: call declare_parameter('radius', default) once, in __init__.",
+    "SetsPairs": "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with `from rclpy.parameter import Parameter`.",
+    "ComputesWithTheParameter": "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
+    "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
+    "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
+    "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `future.result().sum`, in its done callback.",
+}
+
+
+def record(name):
+    return run(getattr(mistakes, name), seconds=2, quiet=True)
+
+
+@pytest.mark.parametrize("name", ADVICE)
+def test_a_mistake_gets_its_advice(name):
+    assert find_fault(record(name)).hint == ADVICE[name]
+
+
+def test_a_node_without_a_mistake_has_no_fault():
+    assert find_fault(record("Wheel")) is None
+
+
+def test_no_rule_stands_there_without_a_student_who_earns_it():
+    errors = [record(name).errors[0] for name in ADVICE]
+    earned = [any(r.type == e.type and re.search(r.pattern, e.text) for e in errors) for r in PARAMETER_RULES]
+    assert earned == [True] * len(PARAMETER_RULES)

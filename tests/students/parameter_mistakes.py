@@ -1,0 +1,59 @@
+"""Nodes with one mistake each around parameters, named by it."""
+
+from example_interfaces.srv import AddTwoInts
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from sim import Process
+
+
+class Wheel(Node):
+    """Declares a parameter, checks it, and sets it after 1 s; nothing is wrong with it."""
+
+    def __init__(self):
+        super().__init__("wheel")
+        self.declare_parameter("radius", 0.1)
+        self.add_on_set_parameters_callback(self.check)
+        self.create_timer(1.0, self.change)
+
+    def check(self, parameters):
+        return SetParametersResult(successful=all(parameter.value > 0 for parameter in parameters))
+
+    def change(self):
+        self.set_parameters([Parameter("radius", value=0.2)])
+
+
+class DeclaresTwice(Wheel):
+    def __init__(self):
+        super().__init__()
+        self.declare_parameter("radius", 0.2)
+
+
+class SetsPairs(Wheel):
+    def change(self):
+        self.set_parameters([("radius", 0.2)])
+
+
+class ComputesWithTheParameter(Wheel):
+    def change(self):
+        return self.get_parameter("radius") * 2
+
+
+class CallsTheCheck(Wheel):
+    def __init__(self):
+        super().__init__()
+        self.add_on_set_parameters_callback(self.check([]))
+
+
+class ChecksOneParameter(Wheel):
+    def check(self, parameters):
+        return SetParametersResult(successful=parameters.value > 0)
+
+
+class TakesTheFutureForTheAnswer(Wheel):
+    def change(self):
+        return self.create_client(AddTwoInts, "/add").call_async(AddTwoInts.Request()).sum
+
+
+whole_number_at_the_start = Process(Wheel, parameters={"radius": 1})
