@@ -100,7 +100,8 @@ class View {
     const rows = [make("div", {}, make("div", { className: "head" }, "TOPICS"), this.topics)];
     this.root = make("div", { className: "ros2-view live" }, make("style", {}, STYLE));
     this.root.dataset.lmSuppressShortcuts = "true"; // keys are for the robot, not for the notebook
-    if (this.world) {
+    this.drives = this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
+    if (this.drives) {
       this.pad = new Pad(this.root, (command) => this.send(command));
       rows.push(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
     }
@@ -118,8 +119,10 @@ class View {
     if (this.world) {
       this.scene = new Scene(this.stage, this.world);
       this.scene.canvas.addEventListener("pointerdown", () => this.scene.canvas.focus());
-      const hint = make("span", {}, "Click the picture, then drive with the arrow keys");
-      this.stage.append(make("div", { className: "hint" }, hint));
+      if (this.drives) {
+        const hint = make("span", {}, "Click the picture, then drive with the arrow keys");
+        this.stage.append(make("div", { className: "hint" }, hint));
+      }
     }
     this.showStatus();
   }
