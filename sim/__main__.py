@@ -33,7 +33,7 @@ def main(words: list[str] | None = None) -> int:
     options = _options(words)
     try:
         with (
-            RealTimeRun(World.load(options.world), options.seed, options.domain) as run,
+            RealTimeRun(_world(options), options.seed, options.domain) as run,
             nullcontext() if options.headless else _page(run, options.port) as address,
         ):
             print(_offer(run, address), flush=True)
@@ -85,6 +85,9 @@ def _options(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room"
     )
+    parser.add_argument(
+        "--world-seed", type=_whole_number, help="make a new room, maze or clutter from this number"
+    )
     parser.add_argument("--seed", type=_whole_number, default=0, help="for the sensors' noise; default 0")
     parser.add_argument(
         "--domain", type=_domain, default=DOMAIN, help=f"ROS domain, 0 to {DOMAINS[-1]}; default {DOMAIN}"
@@ -108,6 +111,12 @@ def _domain(word: str) -> int:
             f"a ROS domain is a whole number from 0 to {DOMAINS[-1]}; this is {word!r}."
         )
     return int(word)
+
+
+def _world(options: argparse.Namespace) -> World:
+    if options.world_seed is None:
+        return World.load(options.world)
+    return World.generate(options.world, seed=options.world_seed)
 
 
 def _port(word: str) -> int:

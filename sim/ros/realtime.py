@@ -94,13 +94,15 @@ class RealTimeRun:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
         from geometry_msgs.msg import Twist
 
-        node, model = Node("teleop"), self.scene.world.robot
+        from sim.ros.teleop import SPEED, TURN
+
+        node = Node("teleop")
         publisher = node.create_publisher(Twist, "cmd_vel", 10)
         self.add(node)
 
         def drive(forward: float, left: float) -> None:
             command = Twist()
-            command.linear.x, command.angular.z = forward * model.max_v, left * model.max_w
+            command.linear.x, command.angular.z = forward * SPEED, left * TURN
             publisher.publish(command)
 
         return drive

@@ -10,6 +10,7 @@ from rclpy.node import Node
 from sim.ros.fibers import engine
 
 RATE = 20.0  # Hz, while something is held
+SPEED, TURN = 0.4, 1.0  # m/s and rad/s of a key that is held
 
 
 class Teleop(Node):
@@ -21,8 +22,8 @@ class Teleop(Node):
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__("teleop", **keywords)
-        self.declare_parameter("speed", 0.4)
-        self.declare_parameter("turn", 1.0)
+        self.declare_parameter("speed", SPEED)
+        self.declare_parameter("turn", TURN)
         self._publisher = self.create_publisher(Twist, "cmd_vel", 10)
         self._drove = False
         self.create_timer(1 / RATE, self._tick)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
-from array import array
 from typing import Any
 
 from sim.standalone.server import PageServer
 from sim.view.geometry import world_data
+from sim.view.live import packed
 
 FRAME = 1 / 30  # s
 
@@ -34,8 +33,4 @@ class LivePage:
 
     def _show(self) -> None:
         scene = self._scene
-        frame = array("f", (scene.time, *itertools.chain.from_iterable(scene.poses)))
-        if scene.last_scan is not None:
-            frame.extend(scene.last_scan.pose)
-            frame.frombytes(scene.last_scan.ranges.tobytes())
-        self._server.show(frame.tobytes())
+        self._server.show(packed(scene.time, scene.poses, scene.last_scan))

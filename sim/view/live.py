@@ -67,6 +67,7 @@ class LiveView(anywidget.AnyWidget):
         """End the view; nothing takes its place. Closing again does nothing."""
         self._leave(HTML(""))
         self.on_command = None
+        self.layout.close()  # a widget of its own, which ipywidgets would keep
         super().close()
 
     def _leave(self, instead: Any) -> None:

@@ -10,8 +10,8 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import String
+from sensor_msgs.msg import JointState, LaserScan
+from std_msgs.msg import Float64, String
 
 
 def node_of(name):
@@ -50,6 +50,9 @@ def command(seconds, v, w, period):
     publisher = node.create_publisher(Twist, "cmd_vel", 10)
     twist = Twist()
     twist.linear.x, twist.angular.z = v, w
+    end = time.time() + 30
+    while not publisher.get_subscription_count() and time.time() < end:  # until they have found each other
+        time.sleep(0.1)
     sent, end = 0, time.time() + seconds
     while time.time() < end:
         publisher.publish(twist)
@@ -117,6 +120,28 @@ def crowd(seconds):
         node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
     print("here", flush=True)
     time.sleep(seconds)
+
+
+def leader(seconds):
+    """Wait until the leader has driven off."""
+    node, ways = node_of("watcher"), []
+    node.create_subscription(Odometry, "leader/odom", lambda m: ways.append(m.pose.pose.position.x), 10)
+    end = time.time() + seconds
+    while time.time() < end and not (ways and ways[-1] > 0.1):
+        rclpy.spin_once(node, timeout_sec=0.1)
+    print(json.dumps({"way": ways[-1]}))
+
+
+def joint(seconds):
+    """Command an angle until the joint is there."""
+    node, angles = node_of("operator"), []
+    node.create_subscription(JointState, "joint_states", lambda m: angles.append(m.position[0]), 10)
+    publisher = node.create_publisher(Float64, "joint_commands", 10)
+    end = time.time() + seconds
+    while time.time() < end and not (angles and abs(angles[-1] - 0.5) < 0.01):
+        publisher.publish(Float64(data=0.5))
+        rclpy.spin_once(node, timeout_sec=0.1)
+    print(json.dumps({"angle": angles[-1]}))
 
 
 if __name__ == "__main__":

@@ -134,6 +134,17 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
         page.close()
 
 
+@pytest.mark.browser
+def test_a_machine_is_shown_without_a_pad(browser):  # noqa: F811
+    with robot("--world", "arm", "--port", "0") as running:
+        page = browser.new_page()
+        page.goto(re.search(r"at (http://\S+)", running.offer)[1])
+        page.wait_for_function("Number(document.querySelector('.time b').textContent) > 0.1")
+        assert page.get_by_text("/joint_commands").count() == 1
+        assert page.get_by_text("DRIVE").count() == page.get_by_text("drive with the arrow keys").count() == 0
+        page.close()
+
+
 def test_a_frame_holds_stamp_poses_and_scan():
     with robot("--world", "room", "--port", "0") as running:
         port = int(re.search(r"localhost:(\d+)", running.offer)[1])

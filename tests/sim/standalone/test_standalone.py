@@ -1,5 +1,6 @@
 """python -m sim: an ordinary ROS 2 process that other processes see and drive, and that survives them."""
 
+import json
 import signal
 
 import pytest
@@ -104,9 +105,28 @@ def test_commands_that_are_no_numbers_are_told_and_ignored():
     assert len(lines) < 10  # once a second
 
 
+def test_other_robots_and_machines_stand_alone_too():
+    with robot("--world", "convoy", "--headless") as running:
+        assert "  takes /leader/cmd_vel  [geometry_msgs/msg/Twist]\n" in running.offer
+        assert json.loads(finish(running.client("leader", 30)))["way"] > 0.1
+        assert running.stop() == (0, "")
+    with robot("--world", "joint", "--headless") as running:
+        assert "  gives /joint_states  [sensor_msgs/msg/JointState]\n" in running.offer
+        assert json.loads(finish(running.client("joint", 30)))["angle"] == pytest.approx(0.5, abs=0.01)
+        assert running.stop() == (0, "")
+
+
+def test_a_world_may_be_made_from_a_seed():
+    with robot("--world", "maze", "--world-seed", "7", "--headless") as running:
+        assert running.offer.startswith("World 'maze_7' in real time, ROS domain ")
+        assert running.stop() == (0, "")
+
+
 @pytest.mark.parametrize("words, sentence", [
     (["--world", "moon"], "There is no world 'moon'. The worlds are "),
     (["--world", "/no/w.toml"], "Cannot read /no/w.toml (No such file or directory); check the path."),
+    (["--world", "moon", "--world-seed", "7"],
+     "There is no kind of world 'moon' to generate. There are room, maze, clutter."),
     (["--domain", "102"],
      "python -m sim: argument --domain: a ROS domain is a whole number from 0 to 101; this is '102'."),
     (["--domain", "one"],
