@@ -45,7 +45,7 @@ def pack(recording: Recording, speed: float) -> str:
 
 def run_end(recording: Recording) -> float:
     """How long the run lasted, in simulated seconds."""
-    return recording.ended.stamp or recording.stamp or recording.seconds or 1.0
+    return recording.stamp if recording.ended.reason == "running" else recording.ended.stamp
 
 
 def _motion(recording: Recording) -> dict[str, Any]:
@@ -68,6 +68,8 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
     most = min(max(RANGES // wanted, RAYS[0]), RAYS[1])
     for item in thinned(heard, min(wanted, RANGES // most)):
         scan = item.message
+        if not len(scan.ranges) or not math.isfinite(scan.angle_min + scan.angle_increment + scan.range_max):
+            continue
         stride = max(1, math.ceil(len(scan.ranges) / most))
         pose = pose_at(recording.path, item.stamp)
         yield {
@@ -125,7 +127,7 @@ def _topics(recording: Recording) -> list[list[str]]:
     end = run_end(recording)
     rows = []
     for name, when in sorted(moments.items())[:TOPICS]:
-        busy = {min(int(stamp / end * COLUMNS), COLUMNS - 1) for stamp in when}
+        busy = {min(int(stamp / end * COLUMNS), COLUMNS - 1) if end else 0 for stamp in when}
         told = f"{rate(when):.3g} Hz" if rate(when) else f"{len(when)}"
         rows.append([_short(name), told, "".join("01"[column in busy] for column in range(COLUMNS))])
     return rows

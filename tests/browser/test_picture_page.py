@@ -1,0 +1,243 @@
+"""Replays as files of their own, without network: they play, and hostile data stays a picture."""
+
+import base64
+import json
+import re
+import zlib
+
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+from sim import run
+from sim.view import packing, replay
+from tests.browser.pictures import Picture, watch
+from tests.students import misfits
+
+pytestmark = pytest.mark.browser
+PAGE = '<!doctype html><meta charset="utf-8"><meta name="color-scheme" content="light dark"><body>'
+
+
+class Rammer(Node):
+    """Drives into the wall of the room, and fails there."""
+
+    def __init__(self):
+        super().__init__("rammer")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.linear.x = 0.6
+        self.publisher.publish(command)
+        if self.get_clock().now().nanoseconds > 9e9:
+            self.get_logger().warning("the <b>wall</b> wins")
+            raise RuntimeError("stuck")
+
+
+@pytest.fixture(scope="module")
+def rammed():
+    return run(Rammer, world="room", seconds=20, quiet=True)
+
+
+@pytest.fixture
+def page(browser):
+    context = browser.new_context(viewport={"width": 900, "height": 800}, offline=True)
+    page = context.new_page()
+    page.faults = []
+    page.on("pageerror", lambda error: page.faults.append(str(error)))
+    yield page
+    context.close()
+
+
+def load(page, html, folder):
+    """Open the HTML as a file."""
+    path = folder / "replay.html"
+    path.write_text(PAGE + html)
+    page.goto(path.as_uri())
+
+
+def opened(page, recording, folder):
+    load(page, replay(recording).html, folder)
+    page.wait_for_selector(".ros2-view")
+    return Picture(page.locator(".ros2-view"))
+
+
+def said(picture):
+    return picture.root.locator(".say").inner_text()
+
+
+def test_a_replay_plays_and_asks_for_nothing(page, rammed, tmp_path):
+    requests = watch(page)
+    picture = opened(page, rammed, tmp_path)
+    picture.plays()
+    assert [url for url in requests if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert page.faults == []
+    assert page.locator("img").count() == 0
+    picture.screenshot("replay-file")
+
+
+def test_it_begins_at_the_end_and_can_be_stepped(page, rammed, tmp_path):
+    picture = opened(page, rammed, tmp_path)
+    end = rammed.ended.stamp
+    assert picture.time() == pytest.approx(end, abs=0.01)
+    picture.click("One frame back")
+    assert picture.time() == pytest.approx(end - 0.05, abs=0.051)
+    before = picture.time()
+    picture.click("One frame back")
+    assert picture.time() == pytest.approx(before - 0.05, abs=0.011)
+    picture.click("One frame on")
+    assert picture.time() == pytest.approx(before, abs=0.011)
+
+
+def test_marks_lead_to_what_happened_and_say_it(page, rammed, tmp_path):
+    picture = opened(page, rammed, tmp_path)
+    contact = rammed.contacts[0].stamp
+    words = f"t = {contact:.3g} s: touched a wall with its front"
+    picture.scrub(0.0)
+    assert said(picture) == ""
+    picture.click(words)
+    assert (said(picture), picture.time()) == (words, pytest.approx(contact, abs=0.01))
+    picture.click("t = 9.1 s: RuntimeError in Rammer.drive: stuck")
+    assert picture.time() == pytest.approx(9.1)
+    assert said(picture) == "t = 9.1 s: RuntimeError in Rammer.drive: stuck"
+
+
+def test_log_lines_are_text(page, rammed, tmp_path):
+    picture = opened(page, rammed, tmp_path)
+    assert picture.root.locator(".logs").inner_text() == "9.10 rammer: the <b>wall</b> wins"
+    picture.scrub(0.2)
+    assert picture.root.locator(".logs").inner_text() == ""
+
+
+def test_topics_have_their_rates(page, rammed, tmp_path):
+    topics = opened(page, rammed, tmp_path).root.locator(".topic").all_inner_texts()
+    assert "/scan\n20 Hz" in topics
+    assert "/cmd_vel\n10 Hz" in topics
+
+
+def floor(picture):
+    """The colour of the floor in the middle of the picture: red, green, blue."""
+    return picture.canvas.evaluate(
+        "c => [...c.getContext('2d').getImageData(c.width * 0.46, c.height * 0.46, 1, 1).data].slice(0, 3)"
+    )
+
+
+def test_a_dark_page_has_a_dark_picture_and_a_change_of_theme_is_followed(page, rammed, tmp_path):
+    picture = opened(page, rammed, tmp_path)
+    picture.scrub(0.0)
+    picture.pixels()
+    assert min(floor(picture)) > 200
+    page.emulate_media(color_scheme="dark")
+    picture.wait_until(
+        "root => { const c = root.querySelector('.stage canvas');"
+        "return c.getContext('2d').getImageData(c.width * 0.46, c.height * 0.46, 1, 1).data[0] < 90; }"
+    )
+    picture.screenshot("replay-file-dark")
+
+
+def test_the_picture_is_as_wide_as_its_place_and_sharp(browser, rammed, tmp_path):
+    context = browser.new_context(viewport={"width": 380, "height": 800}, device_scale_factor=2)
+    picture = opened(context.new_page(), rammed, tmp_path)
+    width = picture.canvas.bounding_box()["width"]
+    assert 330 < width < 380
+    assert picture.canvas.evaluate("canvas => canvas.width") == pytest.approx(2 * width, abs=2)
+    picture.screenshot("replay-file-narrow")
+    context.close()
+
+
+def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_path):
+    html = replay(rammed).html
+    load(page, html + html, tmp_path)
+    page.wait_for_function("document.querySelectorAll('.ros2-view').length === 2")
+    first, second = (Picture(page.locator(".ros2-view").nth(index)) for index in (0, 1))
+    first.scrub(0.5)
+    assert first.time() < second.time()
+
+
+def test_a_run_without_a_robot_replays_its_topics(page, tmp_path):
+    picture = opened(page, run(misfits.Talker, seconds=5, quiet=True), tmp_path)
+    assert picture.root.locator(".stage").count() == 0
+    assert picture.root.locator(".topic").all_inner_texts() == ["/chatter\n1 Hz"]
+    picture.scrub(0.5)
+    picture.click("One frame on")
+    assert picture.time() == pytest.approx(2.55, abs=0.1)
+
+
+def test_machines_replay_too(page, tmp_path):
+    picture = opened(page, run(world="cart_pole", seconds=2, quiet=True), tmp_path)
+    end = picture.pixels()
+    picture.scrub(0.5)
+    assert picture.pixels() != end
+    assert page.faults == []
+
+
+def test_without_scripts_the_picture_stays(browser, rammed, tmp_path):
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    load(page, replay(rammed).html, tmp_path)
+    assert page.locator("img").bounding_box()["width"] > 600
+    context.close()
+
+
+def packed(data):
+    deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
+    text = data if isinstance(data, bytes) else json.dumps(data).encode()
+    return base64.b64encode(deflate.compress(text) + deflate.flush()).decode()
+
+
+def changed(*keys, to):
+    """Data of a run with one part that a hostile sender replaced."""
+
+    def change(data):
+        *way, last = keys
+        place = data
+        for key in way:
+            place = place[key]
+        place[last] = to
+        return packed(data)
+
+    return change
+
+
+HOSTILE = {
+    "no base64": lambda data: "%%%",
+    "nothing": lambda data: "",
+    "no deflate": lambda data: "QUJD",
+    "no json": lambda data: packed(b"alert(1)"),
+    "a list": lambda data: packed([]),
+    "null": lambda data: packed(None),
+    "another version": changed("version", to=99),
+    "a text for a number": changed("end", to="<img src=x onerror=alert(1)>"),
+    "a negative end": changed("end", to=-1),
+    "words that are none": changed("marks", 0, 2, to={"toString": "x"}),
+    "a strange kind": changed("marks", 0, 1, to="contact evil"),
+    "a mark without stamp": changed("marks", 0, 0, to=None),
+    "no bounds": changed("world", "bounds", to=[0, 0, 0, 0]),
+    "a huge number": changed("world", "bounds", to=[0, 0, 1e300, 1]),
+    "a wall that is none": changed("world", "walls", to=[[1, 2, 3]]),
+    "a negative pillar": changed("world", "circles", to=[[0, 0, -1]]),
+    "too few poses": changed("tracks", 0, 0, to=[0]),
+    "no track": changed("tracks", to=[]),
+    "time that runs back": changed("stamps", 1, to=-5),
+    "a range that is none": changed("scans", 0, "ranges", to=["1"]),
+    "too many topics": changed("topics", to=[["/a", "b", "0"]] * 101),
+    "a strip without end": changed("topics", 0, 2, to="1" * 10_000),
+    "a bomb": lambda data: packed(b" " * 40_000_000),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_data_stays_a_picture(page, rammed, tmp_path, name):
+    data = json.loads(zlib.decompress(base64.b64decode(packing.pack(rammed, 1.0)), -15))
+    hostile = f'data-replay="{HOSTILE[name](data)}"'
+    html = re.sub('data-replay="[^"]*"', lambda _: hostile, replay(rammed).html)
+    warnings = []
+    page.on("console", lambda message: warnings.append(message.text))
+    load(page, html, tmp_path)
+    for _ in range(100):
+        if warnings:
+            break
+        page.wait_for_timeout(50)
+    assert warnings[0].startswith("This replay stays a picture: ")
+    assert (page.locator("img").count(), page.locator(".ros2-view").count(), page.faults) == (1, 0, [])

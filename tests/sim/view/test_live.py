@@ -1,0 +1,182 @@
+import math
+
+import numpy as np
+import pytest
+from IPython.display import HTML
+from ipywidgets.widgets import widget
+
+from sim import Recording, World
+from sim.recording import Pose
+from sim.view import live
+from sim.view.live import LiveView, checked
+from sim.view.replay import Replay
+from sim.world import Scan
+
+STATE = {"stamp": 1.0, "speed": 1.0, "pace": 1.0, "paused": False}
+STATE |= {"topics": [], "contacts": [], "ended": None}
+
+
+class Place:
+    """Where a cell shows something."""
+
+    def __init__(self):
+        self.shown = []
+
+    def update(self, item):
+        self.shown.append(item)
+
+
+@pytest.fixture
+def place(monkeypatch):
+    place = Place()
+
+    def display(item, display_id):
+        assert display_id
+        place.shown.append(item)
+        return place
+
+    monkeypatch.setattr(live, "display", display)
+    return place
+
+
+@pytest.fixture
+def view(place):
+    view = LiveView(World.load("room"))
+    view.show()
+    yield view
+    view.close()
+
+
+def sent(view, monkeypatch):
+    messages = []
+    monkeypatch.setattr(view, "send", lambda content, buffers: messages.append((content, buffers)))
+    return messages
+
+
+def test_a_frame_is_one_message_of_stamp_poses_and_scan(view, monkeypatch):
+    messages = sent(view, monkeypatch)
+    ranges = np.array([1.0, math.inf, math.nan], np.float32)
+    view.frame(2.5, [(1.0, 2.0, 3.0), (4.0, 5.0, 6.0)], Scan(2.45, (0.5, 0.25, 0.125), ranges))
+    view.frame(2.75, [(1.0, 2.0, 3.0)], None)
+    (_, (first,)), (_, (second,)) = messages
+    floats = np.frombuffer(first, np.float32)
+    assert floats[:10].tolist() == [2.5, 1, 2, 3, 4, 5, 6, 0.5, 0.25, 0.125]
+    assert np.array_equal(floats[10:], ranges, equal_nan=True)
+    assert np.frombuffer(second, np.float32).tolist() == [2.75, 1, 2, 3]
+
+
+def test_a_frame_with_360_rays_is_1_5_kib(view, monkeypatch):
+    messages = sent(view, monkeypatch)
+    view.frame(0.0, [(0.0, 0.0, 0.0)], Scan(0.0, (0.0, 0.0, 0.0), np.ones(360, np.float32)))
+    assert len(messages[0][1][0]) == 4 * (1 + 3 + 3 + 360)
+
+
+def test_the_world_goes_to_the_page_once_with_all_its_bodies(view):
+    world = World.load("room")
+    assert view.world["bounds"] == list(world.bounds)
+    assert len(view.world["walls"]) == len(world.walls)
+    assert view.world["bodies"] == [{"name": "robot", "kind": "robot", "radius": 0.1, "outline": []}]
+    assert view.world["lidar"]["far"] == world.lidar.range_max
+
+
+def test_a_run_without_a_world_has_a_view():
+    view = LiveView(None)
+    assert view.world is None
+    view.close()
+
+
+def test_a_state_is_kept_for_pages_that_come_later_and_has_no_infinity(view):
+    view.state(STATE | {"speed": math.inf})
+    assert view.status == STATE | {"speed": None}
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        {"speed": 2.0},
+        {"pause": True},
+        {"pause": False},
+        {"step": True},
+        {"stop": True},
+        {"drive": [1.0, -0.5]},
+    ],
+)
+def test_a_command_of_the_page_is_passed_on(view, command):
+    heard = []
+    view.on_command = heard.append
+    view._handle_custom_msg(command, [])
+    assert heard == [command]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        "stop",
+        [],
+        {},
+        {"speed": 2.0, "stop": True},
+        {"speed": 0},
+        {"speed": -1.0},
+        {"speed": math.nan},
+        {"speed": math.inf},
+        {"speed": 10**400},
+        {"speed": "2"},
+        {"speed": True},
+        {"speed": None},
+        {"pause": 1},
+        {"pause": "false"},
+        {"step": False},
+        {"stop": 1},
+        {"stop": {}},
+        {"drive": [1.0]},
+        {"drive": [0.0, 0.0, 0.0]},
+        {"drive": [1.5, 0.0]},
+        {"drive": [math.nan, 0.0]},
+        {"drive": [0.0, math.inf]},
+        {"drive": [True, False]},
+        {"drive": ["1", "0"]},
+        {"drive": "10"},
+        {"drive": {"0": 1, "1": 1}},
+        {"__class__": 1},
+        {1: 2},
+    ],
+)
+def test_a_hostile_message_is_dropped(view, message):
+    heard = []
+    view.on_command = heard.append
+    view._handle_custom_msg(message, [])
+    assert heard == []
+    assert checked(message) is None
+
+
+def test_messages_that_come_when_nobody_listens_are_dropped(view):
+    view._handle_custom_msg({"stop": True}, [])
+
+
+def test_at_the_end_a_replay_takes_the_place_of_the_view(view, place):
+    view.finish(Recording(world=World.load("room"), path=[Pose(0.0, 0.0, 0.0, 0.0)], stamp=1.0))
+    first, instead = place.shown
+    assert first is view
+    assert isinstance(instead, Replay)
+    assert (view.comm, view.on_command) == (None, None)
+
+
+def test_a_view_that_is_closed_leaves_nothing(view, place):
+    view.close()
+    view.close()
+    assert isinstance(place.shown[1], HTML)
+    assert (place.shown[1].data, len(place.shown), view.comm) == ("", 2, None)
+
+
+def test_a_view_is_closed_even_when_there_is_nothing_to_replay(view, place):
+    with pytest.raises(ValueError, match="this run moved nothing yet"):
+        view.finish(Recording(world=World.load("room")))
+    assert (place.shown[1].data, view.comm) == ("", None)
+
+
+def test_fifty_views_leave_no_widget():
+    before = len(widget._instances)
+    for _ in range(50):
+        LiveView(World.load("room")).close()
+    assert len(widget._instances) == before

@@ -1,0 +1,213 @@
+import base64
+import dataclasses
+import json
+import math
+import re
+import zlib
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from rclpy.node import Node
+from sensor_msgs.msg import LaserScan
+
+from sim import Recording, World, run
+from sim.recording import CallbackError, Contact, Ended, Heard, LogLine, Pose
+from sim.ros.codec import encode
+from sim.view import packing, replay
+from sim.view.replay import PLAYER_SCRIPT
+from sim.world import MovableBox, OtherRobot
+from tests.bench.avoider import Avoider
+from tests.grader.recordings import driven, recording
+from tests.students import misfits
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return run(Avoider, world="room", seconds=20, quiet=True)
+
+
+class Parts(HTMLParser):
+    """The tags of a page, and the text of its scripts."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.tags, self.script = [], ""
+        self.feed(html)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_data(self, data):
+        self.script += data
+
+
+def parts(recording, **options):
+    return Parts(replay(recording, **options).html)
+
+
+def unpacked(recording):
+    """What the page's script finds in the data."""
+    packed = base64.b64decode(packing.pack(recording, 1.0), validate=True)
+    return json.loads(zlib.decompress(packed, -15))
+
+
+def summed(differences):
+    return np.cumsum(differences)
+
+
+def test_a_replay_is_inert_data_with_a_picture_and_a_constant_script(drive):
+    page = parts(drive)
+    (div, data), (img, picture), (script, _) = page.tags
+    assert (div, img, script) == ("div", "img", "script")
+    assert data["class"] == "ros2-replay"
+    assert re.fullmatch(r"[A-Za-z0-9+/]+={0,2}", data["data-replay"])
+    assert base64.b64decode(picture["src"].removeprefix("data:image/png;base64,")).startswith(b"\x89PNG")
+    assert picture["alt"] == "Replay of 20 s"
+    assert page.script == PLAYER_SCRIPT
+
+
+def test_a_page_needs_nothing_from_elsewhere():
+    assert re.findall(r"https?://[^\s\"']*|import\s|fetch\(|innerHTML|eval\(", PLAYER_SCRIPT) == [
+        "http://www.w3.org/2000/svg"  # a name, no address: nothing is loaded
+    ] * PLAYER_SCRIPT.count("http://www.w3.org/2000/svg")
+
+
+def test_twenty_seconds_with_a_lidar_are_less_than_100_kib(drive):
+    assert len(replay(drive).html.encode()) < 100 * 1024
+
+
+def test_ten_minutes_are_hardly_larger(drive):
+    def on(items):
+        return [item._replace(stamp=item.stamp + 20 * turn) for turn in range(30) for item in items]
+
+    ended = Ended("time", 600.0, "")
+    long = dataclasses.replace(drive, path=on(drive.path), heard=on(drive.heard), ended=ended)
+    assert len(replay(long).html.encode()) < 150 * 1024
+
+
+def test_equal_recordings_give_equal_bytes(drive):
+    again = run(Avoider, world="room", seconds=20, quiet=True)
+    assert replay(drive).html == replay(again).html
+
+
+def test_a_recording_has_its_replay_and_a_notebook_shows_it(drive):
+    shown = drive.replay(speed=2.0)
+    assert shown._repr_html_() == replay(drive, speed=2.0).html
+    assert shown._repr_mimebundle_() == {"text/html": shown.html, "text/plain": repr(shown)}
+    assert re.fullmatch(r"<Replay of 20 s: \d+ KiB>", repr(shown))
+
+
+def test_poses_and_scans_are_where_they_were_to_the_millimetre(drive):
+    data = unpacked(drive)
+    ((xs, ys, yaws),) = data["tracks"]
+    assert summed(data["stamps"]) / 1000 == pytest.approx([pose.stamp for pose in drive.path])
+    assert summed(xs) / 1000 == pytest.approx([pose.x for pose in drive.path], abs=5.1e-4)
+    assert summed(ys) / 1000 == pytest.approx([pose.y for pose in drive.path], abs=5.1e-4)
+    assert summed(yaws) / 1000 == pytest.approx([pose.yaw for pose in drive.path], abs=5.1e-4)
+    scan = data["scans"][100]
+    at = next(pose for pose in drive.path if abs(pose.stamp - scan["stamp"] / 1000) < 1e-6)
+    assert scan["pose"] == pytest.approx(at[1:], abs=5.1e-4)
+    heard = next(h for h in drive.messages("/scan") if round(h.stamp * 1000) == scan["stamp"]).message
+    stride = round(scan["step"] / heard.angle_increment)
+    for told, true in zip(summed(scan["ranges"]), heard.ranges[::stride], strict=True):
+        assert told * 0.02 == pytest.approx(true, abs=0.011) if math.isfinite(true) else told == -1
+
+
+def test_a_ray_that_measured_nothing_is_told_from_one_that_met_nothing():
+    ranges = [math.inf, -math.inf, math.nan, 0.5]
+    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=ranges)))
+    (scan,) = unpacked(driven([(0, 0), (1, 0)], heard=[heard]))["scans"]
+    assert list(summed(scan["ranges"])) == [-1, -2, -2, 25]
+
+
+def test_scans_of_a_students_node_are_not_the_robots():
+    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
+    assert unpacked(driven([(0, 0), (1, 0)], heard=[heard]))["scans"] == []
+
+
+def test_a_scan_without_sense_is_left_out():
+    odd = [LaserScan(), LaserScan(ranges=[1.0], angle_min=math.nan)]
+    odd.append(LaserScan(ranges=[1.0], range_max=math.inf))
+    heard = [Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(scan)) for scan in odd]
+    assert unpacked(driven([(0, 0), (1, 0)], heard=heard))["scans"] == []
+
+
+def test_other_robots_boxes_and_machines_have_tracks(drive):
+    world = dataclasses.replace(
+        World.load("yard"),
+        movable=(MovableBox(x=1.0, y=1.0, yaw=0.0, width=0.4, height=0.2),),
+        robots=(OtherRobot(name="leader", start=(1.0, -1.0, 0.0)),),
+    )
+    data = unpacked(run(world=world, seconds=1, quiet=True))
+    assert [body["name"] for body in data["world"]["bodies"]] == ["robot", "leader", "box_1"]
+    assert [[column[0] for column in track] for track in data["tracks"]] == [
+        [0, 0, 0],
+        [1000, -1000, 0],
+        [1000, 1000, 0],
+    ]
+    arm = unpacked(run(world="arm", seconds=1, quiet=True))
+    assert [body["kind"] for body in arm["world"]["bodies"]] == ["link", "link"]
+    assert len(arm["tracks"]) == 2
+
+
+def test_marks_say_what_happened_when_in_words():
+    touch = Contact(3.2, 3.4, 1.0, 2.0, "front", "wall")
+    error = CallbackError(4.0, "/driver", "Driver.tick", "KeyError", "'x'", "")
+    data = unpacked(driven([(0, 0)] * 6, contacts=[touch], errors=[error]))
+    assert data["marks"] == [
+        [3200, "contact", "t = 3.2 s: touched a wall with its front", [1.0, 2.0]],
+        [4000, "error", "t = 4 s: KeyError in Driver.tick: 'x'", None],
+        [5000, "end", "t = 5 s: the run ended. All of it was run.", None],
+    ]
+
+
+def test_log_lines_and_topics_are_there():
+    recording = run(misfits.Talker, misfits.Listener, seconds=4, quiet=True)
+    data = unpacked(recording)
+    assert (data["world"], data["tracks"], data["stamps"]) == (None, [], [])
+    assert data["logs"][0] == [1000, "INFO", f"{recording.logs[0].node}: {recording.logs[0].text}", None]
+    ((name, told, strip),) = data["topics"]
+    assert (name, told, len(strip), strip.count("1")) == ("/chatter", "1 Hz", packing.COLUMNS, 4)
+
+
+def test_marks_lines_and_words_are_bounded():
+    errors = [CallbackError(n / 1000, "/a", "A.tick", "E", "x" * 999, "") for n in range(5000)]
+    logs = [LogLine(n / 1000, "INFO", "a", "y" * 999) for n in range(5000)]
+    data = unpacked(recording(errors=errors, logs=logs))
+    assert (len(data["marks"]), len(data["logs"])) == (packing.MARKS + 1, packing.LOGS)
+    assert max(len(event[2]) for event in data["marks"] + data["logs"]) < packing.CHARACTERS + 20
+
+
+@pytest.mark.parametrize("many, kept", [(3, [0, 1, 2]), (100, [0, 33, 66, 99])])
+def test_thinning_keeps_first_and_last(many, kept):
+    assert packing.thinned(range(many), 4) == kept
+
+
+@pytest.mark.parametrize("speed", [0, -1.0, math.nan, math.inf])
+def test_a_speed_must_be_above_0(speed):
+    with pytest.raises(ValueError) as caught:
+        replay(Recording(), speed=speed)
+    assert str(caught.value) == f"speed must be a number above 0; it is {speed!r}"
+
+
+def test_a_world_in_which_nothing_moved_yet_is_refused():
+    with pytest.raises(ValueError, match=r"^this run moved nothing yet: it has no pose to draw$"):
+        replay(Recording(world=World.load("room")))
+
+
+def test_a_run_that_was_stopped_at_once_has_a_replay():
+    stopped = Recording(
+        world=World.load("room"), path=[Pose(0.0, 0.0, 0.0, 0.0)], ended=Ended("interrupted", 0.0, "Stopped.")
+    )
+    assert unpacked(stopped)["end"] == 0.0
+
+
+class Tricky(Node):
+    def __init__(self):
+        super().__init__("tricky")
+        self.get_logger().info("</script><script>alert(1)</script>")
+
+
+def test_words_of_a_run_never_stand_in_the_page_as_they_are():
+    assert "alert" not in replay(run(Tricky, seconds=1, quiet=True)).html
