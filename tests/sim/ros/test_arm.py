@@ -152,6 +152,30 @@ def test_not_being_at_the_goal_in_time_aborts():
     ]  # fmt: skip
 
 
+def test_an_arm_that_still_moves_at_the_end_has_not_arrived():
+    """After 0.3 s the shoulder does 0.3 * 4 rad/s."""
+    message = goal(*TOO_FAST, end=[("shoulder_joint", 3.0)], patience=0.1)
+    assert dialogue(following((0.0, message)))[-1] == (
+        0.3, "ABORTED -5 0.1 s after the end the arm still moved, at 1.2 rad/s.",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("cancel_after", [1.95, 2.0, 2.05])
+def test_a_cancel_at_the_very_end_is_no_fault(cancel_after):
+    said = dialogue(following((0.0, students.STEADY), cancel_after=cancel_after))
+    end = "CANCELED 0 The goal was canceled; the arm stops and stays."
+    if cancel_after > 1.95:
+        end = "SUCCEEDED 0 The goal was reached."
+    assert said == [(0.0, "accepted"), (min(cancel_after, 2.0), end)]
+
+
+def test_a_goal_that_was_just_replaced_cannot_be_cancelled():
+    assert dialogue(students.ChangesItsMind) == [
+        (0.0, "accepted"), (0.5, "accepted"), (0.5, "cancelling 0"),
+        (0.5, "ABORTED -1 The goal was replaced by a newer one."), (2.5, "SUCCEEDED 0 The goal was reached."),
+    ]  # fmt: skip
+
+
 def test_without_a_time_tolerance_a_late_arm_may_arrive():
     """2 rad at 1.5 rad/s and 4 rad/s^2: 1.71 s."""
     assert dialogue(following((0.0, goal(*TOO_FAST)))) == [

@@ -140,3 +140,22 @@ class ThreePositions(Commander):
 
 class NoNumber(Commander):
     positions = (1.0, math.nan)
+
+
+class ChangesItsMind(Follower):
+    """Half a second on, sends another goal and cancels the first one in the same breath."""
+
+    def __init__(self):
+        super().__init__()
+        self.later(0.5, self.change)
+
+    def on_answer(self, future):
+        if not hasattr(self, "first"):
+            self.first = future.result()
+        super().on_answer(future)
+
+    def change(self):
+        self.send(STEADY)
+        self.first.cancel_goal_async().add_done_callback(
+            lambda future: self.say(f"cancelling {len(future.result().goals_canceling)}")
+        )
