@@ -10,8 +10,8 @@ from std_msgs.msg import Float64MultiArray, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.recording import Recording
-from sim.ros.machine import STAMP, MachineNode
-from sim.ros.template import Template
+from sim.ros.machine import MachineNode
+from sim.ros.template import STAMP, Template
 from sim.ros.trajectory_server import TrajectoryServer
 from sim.world.machines import Arm
 

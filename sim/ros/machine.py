@@ -11,12 +11,9 @@ from sensor_msgs.msg import JointState
 
 from sim.recording import Recording
 from sim.ros.fibers import SECOND
-from sim.ros.machines import track
-from sim.ros.template import Template
+from sim.ros.machines import MOST_COMMANDS, SENSOR_RATE, track
+from sim.ros.template import STAMP, Template
 from sim.world import CommandError
-
-SENSOR_RATE = 20  # Hz
-STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 
 
 class MachineNode(Node):
@@ -43,6 +40,7 @@ class MachineNode(Node):
         self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
         self._ticks, self._ticks_per_sense = 0, rate // SENSOR_RATE
         self._period = 1 / rate
+        self._commands = 0  # in the last 0.05 s
 
     def begin(self) -> None:
         """Begin to publish; the last that a machine does when it is made."""
@@ -65,6 +63,7 @@ class MachineNode(Node):
     def obey(self, command: Callable[..., None], *values: Any) -> bool:
         """Move on to now with the old command, then take the new one; whether it could be taken."""
         self.advance()
+        self._commands += 1
         try:
             command(*values)
         except CommandError as error:
@@ -78,6 +77,16 @@ class MachineNode(Node):
         self.joint_pub.publish(self.joint_message.fill(*stamp, *self.joints()))
         if self._ticks % self._ticks_per_sense == 0:
             track(self.scene, self.recording, now / SECOND)
+            self._count_commands()
             self.clock_pub.publish(self.clock_message.fill(*stamp))
             self.sense(stamp)
         self._ticks += 1
+
+    def _count_commands(self) -> None:
+        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+            self.get_logger().warning(
+                f"More than {MOST_COMMANDS} commands came in a second; 100 are enough: "
+                "check the period of the timer that sends them.",
+                throttle_duration_sec=1.0,
+            )
+        self._commands = 0

@@ -10,6 +10,11 @@ from sim.ros.processes import Process
 from sim.world import MobileRobot, OtherRobot, Scene, Simulation
 from sim.world.machines import ArmModel, CartPoleModel, JointModel
 
+SENSOR_RATE = 20
+"""How often in a second most sensors speak, and everything is tracked."""
+MOST_COMMANDS = 1000
+"""In a second; ten times what the quickest robots take."""
+
 # Named, not imported: with them comes the import of message packages, which takes a while.
 _MACHINES = {
     JointModel: ("sim.ros.joint", "JointNode"),

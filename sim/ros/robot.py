@@ -17,14 +17,11 @@ from sim.recording import Recording
 from sim.ros.codec import encode
 from sim.ros.fibers import SECOND
 from sim.ros.imu import ImuTopic
-from sim.ros.machines import track
-from sim.ros.template import Template
+from sim.ros.machines import MOST_COMMANDS, SENSOR_RATE, track
+from sim.ros.template import STAMP, Template
 from sim.world import CommandError, MobileRobot, Simulation
 
-SENSOR_RATE = 20.0  # Hz
-MOST_COMMANDS = 1000  # in a second; ten times what the quickest robots take
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
-STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
 TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 

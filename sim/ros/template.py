@@ -15,6 +15,9 @@ from sim.ros.cdr import Canonical, canonical
 from sim.ros.codec import encode, type_name
 
 _MARK = b"\x11"  # fills a field, to find where it is
+STAMP = ("header.stamp.sec", "header.stamp.nanosec")
+"""The fields of a message with a header that change each time."""
+
 _FLOAT64, _INT32 = struct.Struct("<d"), struct.Struct("<i")
 
 

@@ -79,7 +79,10 @@ def test_an_effort_that_is_no_number_is_told_once_a_second_and_ignored():
     assert heard(recording) == heard(run(world="cart_pole", seconds=2.5, quiet=True))
 
 
-def test_ten_thousand_efforts_a_second_are_all_heard():
+def test_ten_thousand_efforts_a_second_are_all_heard_and_told_once_a_second():
     recording = run(students.Flood, world="cart_pole", seconds=1, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/cart_effort")) == 10_010
+    words = "More than 1000 commands came in a second; 100 are enough: "
+    words += "check the period of the timer that sends them."
+    assert said(recording) == [(0.05, words)]

@@ -79,8 +79,11 @@ def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored():
     assert (recording.errors, heard(recording)[-1]) == ([], (2.5, 0.0, 0.0))
 
 
-def test_ten_thousand_commands_a_second_are_all_heard():
+def test_ten_thousand_commands_a_second_are_all_heard_and_told_once_a_second():
     recording = run(students.Flood, world="joint", seconds=2, quiet=True)
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert len(recording.messages("/joint_commands")) == 20_001
+    words = "More than 1000 commands came in a second; 100 are enough: "
+    words += "check the period of the timer that sends them."
+    assert said(recording) == [(stamp, words) for stamp in (0.05, 1.05)]
     assert heard(recording)[-1] == (2.0, 1.0, 0.0)
