@@ -8,6 +8,7 @@ import pytest
 from grader.marking.release import release
 from grader.marking.samples import SHARES, submit_samples
 from tests.browser.lab import ROOT, Lab, copy_for_students, server
+from tests.browser.pictures import COUNT_FRAMES
 from tests.marking.tiny import tiny
 
 CHROMIUM = shutil.which("chromium")
@@ -58,11 +59,15 @@ def address(students_folder) -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
-    """Open a notebook in a tab of its own; in the end the tab closes, and the kernel is shut down."""
+    """Open a notebook in a tab of its own; in the end the tab closes, and the kernel is shut down.
+
+    The page counts the frames that its pictures paint, as `framesPainted`.
+    """
 
     @contextmanager
     def opened(notebook: str) -> Iterator[Lab]:
         page = browser.new_page(viewport={"width": 1280, "height": 900})
+        page.add_init_script(COUNT_FRAMES)
         lab = Lab(page, address)
         try:
             lab.open(notebook)

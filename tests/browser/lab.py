@@ -132,6 +132,10 @@ class Lab:
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
         path = f"lab/workspaces/{workspace}/tree/{notebook}" if notebook else ""
         self.page.goto(f"{self.address}/{path}")
+        self.wait_for_kernel()
+
+    def wait_for_kernel(self) -> None:
+        """Wait until the notebook shows and its kernel is idle."""
         self.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
         self.page.evaluate(KERNEL_READY)
         self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
@@ -174,6 +178,11 @@ class Lab:
             return json.loads(said)
         except ValueError:
             raise AssertionError(f"{expression} gave: {said}") from None
+
+    def save(self) -> None:
+        """Save the notebook."""
+        self.command("docmanager:save")
+        self.page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
 
     def command(self, name: str) -> None:
         """Do one of JupyterLab's commands, such as `docmanager:save`."""

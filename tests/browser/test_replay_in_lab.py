@@ -40,8 +40,7 @@ def saved(browser, students_folder, address, open_lab):
     write_notebook(path, *CELLS)
     with open_lab("pictures/replay.ipynb") as lab:
         lab.run_all()
-        lab.command("docmanager:save")
-        lab.page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
+        lab.save()
     return path
 
 

@@ -1,0 +1,261 @@
+"""A robot plays in the notebook: it moves, it is driven, and other cells go on meanwhile."""
+
+import pytest
+
+from tests.browser.lab import write_notebook
+from tests.browser.pictures import Picture
+
+pytestmark = pytest.mark.browser
+IMPORTS = """
+import math
+from rclpy.node import Node
+from geometry_msgs.msg import Twist
+from sim import Process, Teleop, play, run
+
+class Circle(Node):
+    def __init__(self):
+        super().__init__("circle")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        twist = Twist()
+        twist.linear.x, twist.angular.z = 0.4, 0.5
+        self.publisher.publish(twist)
+
+def way(player):
+    "Metres driven so far."
+    path = player.recording.path
+    return sum(math.dist(a[1:3], b[1:3]) for a, b in zip(path, path[1:]))
+
+def sent(player, topic):
+    "What the newest command on a topic was, and how many there were."
+    twists = [heard.message for heard in player.recording.messages(topic)]
+    return [len(twists), twists[-1].linear.x, twists[-1].angular.z] if twists else [0, 0.0, 0.0]
+"""
+DRIVEN = "player = play(Teleop, world='yard', seconds=600)"
+CIRCLE = "player = play(Circle, world='room', seconds=600)"
+ENDED = "list(player.recording.ended)"
+
+
+@pytest.fixture
+def playing(request, students_folder, open_lab):
+    """JupyterLab with a notebook whose second cell, the test's parameter, plays; more cells may follow."""
+    cells = request.param if isinstance(request.param, tuple) else (request.param,)
+    name = f"pictures/{request.node.originalname}.ipynb"
+    write_notebook(students_folder / name, IMPORTS, *cells)
+    with open_lab(name) as lab:
+        lab.run_cell(0)
+        lab.run_cell(1)
+        live(lab).wait_for_time(0.2)
+        yield lab
+
+
+def live(lab) -> Picture:
+    return Picture(lab.page.locator(".ros2-view.live").last)
+
+
+def replay(lab) -> Picture:
+    root = lab.page.locator(".ros2-replay .ros2-view")
+    root.last.wait_for()
+    return Picture(root.last)
+
+
+def eventually(lab, expression: str) -> None:
+    """Wait until a Python expression is true in the kernel."""
+    for _ in range(100):
+        if lab.ask(expression):
+            return
+        lab.page.wait_for_timeout(100)
+    raise AssertionError(f"{expression} did not become true")
+
+
+def stands(lab) -> bool:
+    """Whether the robot, once it has had time to brake, stands still for half a second."""
+    stamp = lab.ask("player.recording.stamp")
+    eventually(lab, f"player.recording.stamp > {stamp} + 0.5")
+    before = lab.ask("way(player)")
+    lab.page.wait_for_timeout(500)
+    return lab.ask("way(player)") - before < 1e-3
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_the_picture_moves(playing):
+    picture = live(playing)
+    first = picture.pixels()
+    before, begin = playing.page.evaluate("[framesPainted, performance.now()]")
+    playing.page.wait_for_timeout(10_000)
+    after, end = playing.page.evaluate("[framesPainted, performance.now()]")
+    rate = (after - before) / (end - begin) * 1000
+    print(f"{rate:.1f} frames a second")
+    assert rate >= 15
+    assert picture.pixels() != first
+    assert "/scan" in picture.root.inner_text()
+    picture.screenshot("play-light")
+
+
+@pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
+def test_keys_drive_the_robot_and_leave_the_notebook_alone(playing):
+    cells = playing.sources()
+    picture = live(playing)
+    picture.canvas.click()
+    keyboard = playing.page.keyboard
+    keyboard.down("ArrowUp")
+    eventually(playing, "way(player) > 0.2")
+    keyboard.up("ArrowUp")
+    eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
+    for key in ("KeyA", "KeyD", "KeyD", "KeyB", "KeyX", "KeyV", "KeyM", "KeyY", "Enter", "Space"):
+        keyboard.press(key, delay=30)
+    keyboard.down("KeyA")
+    eventually(playing, "sent(player, '/cmd_vel')[2] > 0")
+    keyboard.up("KeyA")
+    eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
+    count = playing.ask("sent(player, '/cmd_vel')[0]")
+    assert stands(playing)
+    assert playing.ask("sent(player, '/cmd_vel')[0]") == count  # nothing held, nothing sent
+    assert playing.sources() == cells
+    assert playing.page.evaluate("window.jupyterapp.shell.currentWidget.content.mode") == "command"
+
+
+@pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
+@pytest.mark.parametrize("way_out", ["another cell", "another tab", "the page is closed"])
+def test_a_robot_that_loses_its_driver_stops(playing, way_out):
+    live(playing).canvas.click()
+    playing.page.keyboard.down("ArrowUp")
+    eventually(playing, "sent(player, '/cmd_vel')[1] > 0")
+    if way_out == "another cell":
+        playing.cell(0).locator(".cm-content").click()
+    elif way_out == "another tab":
+        playing.page.evaluate("window.dispatchEvent(new Event('blur'))")
+    else:
+        playing.page.reload()
+        playing.wait_for_kernel()
+    eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
+    assert stands(playing)
+
+
+@pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
+def test_the_pad_on_the_screen_drives(playing):
+    picture = live(playing)
+    button = picture.root.get_by_role("button", name="Forwards")
+    button.scroll_into_view_if_needed()
+    button.hover()
+    playing.page.mouse.down()
+    eventually(playing, "way(player) > 0.2")
+    playing.page.mouse.up()
+    eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
+    assert stands(playing)
+
+
+@pytest.mark.parametrize(
+    "playing",
+    ["player = play(Process(Teleop, remappings=[('cmd_vel', '/joy_vel')]), world='yard', seconds=600)"],
+    indirect=True,
+)
+def test_keys_drive_through_a_remapping(playing):
+    live(playing).canvas.click()
+    playing.page.keyboard.down("ArrowUp")
+    eventually(playing, "sent(player, '/joy_vel')[1] > 0")
+    playing.page.keyboard.up("ArrowUp")
+    eventually(playing, "sent(player, '/joy_vel')[1:] == [0.0, 0.0]")
+    assert playing.ask("[sent(player, '/cmd_vel')[0], way(player)]") == [0, 0.0]
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_the_buttons_pause_step_speed_up_and_end_the_run(playing):
+    picture = live(playing)
+    picture.click("Pause")
+    picture.wait_until("root => root.innerText.includes('paused')")
+    paused = playing.ask("player.recording.stamp")
+    playing.page.wait_for_timeout(500)
+    assert playing.ask("player.recording.stamp") == paused
+    picture.click("One step of 0.05 s")
+    eventually(playing, f"abs(player.recording.stamp - {paused} - 0.05) < 0.011")
+    picture.click("Go on")
+    eventually(playing, f"player.recording.stamp > {paused} + 0.5")
+    picture.root.get_by_role("combobox").select_option("4")
+    eventually(playing, "player.speed == 4")
+    picture.wait_until("root => /runs at [234]/.test(root.innerText)")
+    picture.click("End the run")
+    eventually(playing, f"{ENDED}[0] == 'interrupted'")
+    assert replay(playing).time() == pytest.approx(playing.ask("player.recording.stamp"), abs=0.01)
+    assert playing.page.locator(".ros2-view.live").count() == 0
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_the_stop_button_of_jupyterlab_ends_the_run(playing):
+    live(playing).wait_for_time(1.0)
+    playing.page.locator("[data-command='notebook:interrupt-kernel']").first.click()
+    eventually(playing, f"{ENDED}[0] == 'interrupted'")
+    replay(playing).plays()
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_a_cell_run_again_plays_anew_and_alone(playing):
+    playing.ask("globals().update(old=player)")
+    playing.run_cell(1)
+    eventually(playing, "old is not player and old.recording.ended.reason == 'interrupted'")
+    live(playing).wait_for_time(0.2)
+    assert playing.ask("player.recording.ended.reason") == "running"
+    assert playing.page.locator(".ros2-view").count() == 1
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_a_restarted_kernel_plays_again(playing):
+    playing.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
+    playing.wait_for_kernel()
+    playing.run_cell(0)
+    playing.run_cell(1)
+    live(playing).wait_for_time(0.5)
+    assert playing.page.locator(".ros2-view.live").count() == 1
+
+
+PLOT = """
+import matplotlib.pyplot as plt
+plt.plot([pose.x for pose in player.recording.path], [pose.y for pose in player.recording.path])
+plt.show()
+"""
+
+
+@pytest.mark.parametrize("playing", [(CIRCLE, PLOT, PLOT)], indirect=True)
+def test_plots_appear_in_other_cells_while_it_plays(playing):
+    before = playing.ask("player.recording.stamp")
+    for index in (2, 3):
+        playing.run_cell(index)
+        kinds = [set(output.get("data", {})) for output in playing.outputs(index)]
+        assert kinds == [{"image/png", "text/plain"}]
+    eventually(playing, f"player.recording.stamp > {before} + 0.5")
+    assert playing.ask("player.recording.ended.reason") == "running"
+    playing.cell(2).evaluate("cell => cell.scrollIntoView({block: 'center'})")
+    playing.screenshot("play-and-plot")
+
+
+SHORT = "player = play(Circle, world='room', seconds=3, speed=4)"
+
+
+@pytest.mark.parametrize("playing", [SHORT], indirect=True)
+def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(playing):
+    eventually(playing, f"{ENDED}[0] == 'time'")
+    replay(playing).plays()
+    same = "player.recording.digest == run(Circle, world='room', seconds=3, quiet=True).digest"
+    assert playing.ask(same)
+    playing.save()
+    name = playing.page.evaluate("window.jupyterapp.shell.currentWidget.context.path")
+    playing.shut_down()
+    playing.open(name)
+    replay(playing).plays()
+    (shown,) = [output["data"] for output in playing.outputs(1) if "data" in output]
+    assert set(shown) == {"text/html", "text/plain"}
+    assert len(shown["text/html"]) < 100 * 1024
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_the_live_picture_fits_a_narrow_dark_window(playing):
+    with playing.dark():
+        playing.page.set_viewport_size({"width": 480, "height": 900})
+        playing.command("application:toggle-left-area")
+        picture = live(playing)
+        picture.wait_for_time(picture.time() + 0.5)
+        box = picture.root.bounding_box()
+        assert box["x"] + box["width"] <= 480
+        picture.screenshot("play-narrow-dark")
