@@ -5,7 +5,7 @@ from pathlib import Path
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
 c.ServerApp.root_dir = str(Path(__file__).parents[1])
-c.LabApp.default_url = "/lab/tree/course/01_nodes/lesson.ipynb"
+c.LabApp.default_url = "/lab/tree/course/00_robot/lesson.ipynb"
 # In a container root is the ordinary user; elsewhere nobody starts Jupyter as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0
 # Of nbgrader a student needs the Validate button alone. Its panels are hidden in labconfig/page_config.json.
