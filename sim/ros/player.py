@@ -222,7 +222,8 @@ class Player:
         if self.over and _playing is self:
             _playing = None
             atexit.unregister(self._quit)
-            self._context.run(self._show.finish, self.recording)
+            # In the context of the caller: what executes notebooks unattended hears only the cell that is running.
+            self._show.finish(self.recording)
             gc.collect()  # what earlier stretches left
 
     # -- commands of the picture -----------------------------------------------------------------------
