@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Point, Quaternion, Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
@@ -15,6 +15,7 @@ from sim.world.robot import wrap
 AHEAD = 0.25  # m; it steers for the point of the route this far ahead
 LOOKS = 0.5  # m; what lies on the route up to here stops it
 GAP = 0.05  # m; what is as near as this to the way of its rim is in the way
+FAR = 1e6  # m; farther away than any world reaches
 STEER = 3.0  # rad/s for each rad that the point ahead is off
 
 
@@ -37,6 +38,8 @@ class RouteDriver(Node):
 
     def on_scan(self, scan: LaserScan) -> None:
         """Keep what is near; -inf is nearer than the lidar can measure, inf and nan are nothing (REP-117)."""
+        if not all(map(math.isfinite, (scan.angle_min, scan.angle_increment, scan.range_min))):
+            return
         reach = LOOKS + self.width
         self.near = [
             (scan.angle_min + ray * scan.angle_increment, max(distance, scan.range_min))
@@ -46,7 +49,10 @@ class RouteDriver(Node):
 
     def on_odom(self, odom: Odometry) -> None:
         """Steer for the route from where the robot is."""
-        x, y, yaw = self.in_map(odom)
+        position, turn = odom.pose.pose.position, odom.pose.pose.orientation
+        if not all(abs(number) < FAR for number in (position.x, position.y, turn.z, turn.w)):
+            return  # not a number, or not of this world: anybody may publish here
+        x, y, yaw = self.in_map(position, turn)
         self.place = self.route.nearest(x, y, self.place, AHEAD) % self.route.length
         command = Twist()
         if not self.blocked(x, y, yaw):
@@ -56,10 +62,9 @@ class RouteDriver(Node):
             command.angular.z = STEER * off
         self.publisher.publish(command)
 
-    def in_map(self, odom: Odometry) -> tuple[float, float, float]:
+    def in_map(self, position: Point, turn: Quaternion) -> tuple[float, float, float]:
         """Where the robot is in the map frame: it knows where it started."""
         x0, y0, yaw0 = self.start
-        position, turn = odom.pose.pose.position, odom.pose.pose.orientation
         c, s = math.cos(yaw0), math.sin(yaw0)
         x, y = x0 + c * position.x - s * position.y, y0 + s * position.x + c * position.y
         return x, y, wrap(yaw0 + 2 * math.atan2(turn.z, turn.w))

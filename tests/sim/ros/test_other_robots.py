@@ -1,5 +1,6 @@
 """Further robots of a world: each in a namespace of its own, driven by commands or round a route."""
 
+import array
 import dataclasses
 import itertools
 import math
@@ -8,6 +9,7 @@ import pytest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from sensor_msgs.msg import LaserScan
 
 from sim import Process, Recording, World, run
 from sim.world import Box, ImuModel, MovableBox, OtherRobot, RobotModel, Route
@@ -150,6 +152,37 @@ class LeavesLater(Node):
         command = Twist()
         command.linear.x = 0.5 if self.get_clock().now().nanoseconds > 5e9 else 0.0
         self.publisher.publish(command)
+
+
+class Impostor(Node):
+    """Says impossible things in the leader's name."""
+
+    def __init__(self):
+        super().__init__("impostor")
+        self.odom = self.create_publisher(Odometry, "leader/odom", 10)
+        self.scan = self.create_publisher(LaserScan, "leader/scan", 10)
+        numbers = math.nan, math.inf, -math.inf, 1e308
+        fields = "position.x", "position.y", "orientation.z"
+        self.lies = itertools.cycle(itertools.product(numbers, fields))
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        odom, (number, field) = Odometry(), next(self.lies)
+        part, axis = field.split(".")
+        setattr(getattr(odom.pose.pose, part), axis, number)
+        self.odom.publish(odom)  # one at a time: more would push the true ones out of the queue
+        near = array.array("f", [0.3])
+        self.scan.publish(LaserScan(angle_min=math.inf, ranges=near))
+        self.scan.publish(LaserScan(angle_increment=math.nan, ranges=near))
+        self.scan.publish(LaserScan(range_min=math.inf, ranges=near))
+
+
+def test_a_driver_takes_no_notice_of_impossible_messages():
+    recording = run(Impostor, world=yard(LEADER), seconds=15, quiet=True)
+    assert recording.errors == [] and recording.logs == []
+    assert off_route(recording, LEADER) < 0.06
+    assert max(pose.y for pose in recording.tracks["leader"]) > 0.9
+    assert len(recording.messages("/leader/cmd_vel")) == 300
 
 
 class Follower(Node):
