@@ -8,7 +8,6 @@ from typing import Any
 
 from sim.recording import Recording
 from sim.ros.pacing import Pace
-from sim.ros.picture import Picture
 from sim.ros.player import Player
 from sim.ros.session import Session
 from sim.world import World
@@ -34,17 +33,17 @@ def play(
     """
     pace = Pace(speed)
     player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play"), pace)
-    player.begin(_picture(player.recording.world))
+    if _in_notebook():
+        from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
+
+        view = LiveView(player.recording.world)
+        view.show()
+        player.show(view)
+    player.begin()
     return player
 
 
-def _picture(world: World | None) -> Picture | None:
-    """A picture in the output of the cell that is running; None outside notebooks."""
+def _in_notebook() -> bool:
+    """Whether a notebook's cell is running, which can show a picture."""
     shell = getattr(builtins, "get_ipython", lambda: None)()
-    if getattr(shell, "kernel", None) is None:
-        return None
-    from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
-
-    view = LiveView(world)
-    view.show()
-    return view
+    return getattr(shell, "kernel", None) is not None

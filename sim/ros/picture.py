@@ -70,8 +70,9 @@ class Show:
         self._tell("state", state | urgent)
 
     def finish(self, recording: Recording) -> None:
-        """Show what is left, and be done."""
-        self._tell("finish", recording)
+        """Show what is left, if there is anything, and be done."""
+        moved = recording.world is None or recording.path or recording.tracks
+        self._tell(*(("finish", recording) if moved else ("close",)))
         if self._picture is not None:
             self._picture.on_command = None
         self._picture = None

@@ -58,8 +58,6 @@ class Player:
         _playing = self
         atexit.register(self._quit)
 
-    # -- what the user does --------------------------------------------------------------------------
-
     @property
     def over(self) -> bool:
         """Whether the run has ended; `recording.ended` says why."""
@@ -130,13 +128,13 @@ class Player:
     def _ipython_display_(self) -> None:
         """Nothing: the picture is there already."""
 
-    # -- playing -------------------------------------------------------------------------------------
-
-    def begin(self, picture: Picture | None = None) -> None:
-        """Play on the running event loop; without one, play to the end before returning."""
+    def show(self, picture: Picture) -> None:
+        """Let a picture follow it, and obey its commands."""
         self._show = Show(picture, self._pace.clock)
-        if picture is not None:
-            picture.on_command = self._commands.append
+        picture.on_command = self._commands.append
+
+    def begin(self) -> None:
+        """Play on the running event loop; without one, play to the end before returning."""
         try:
             loop = asyncio.get_running_loop()
         except RuntimeError:
@@ -167,7 +165,7 @@ class Player:
     def turn(self) -> None:
         """Do what a frame has to: obey, go on as far as is due, show it."""
         while self._commands and not self.over:
-            with contextlib.suppress(ValueError, TypeError):  # a picture may send anything
+            with contextlib.suppress(ValueError):  # a picture may send anything
                 self._obey(self._commands.popleft())
         engine, clock = self._session.engine, self._pace.clock
         if engine is not None and clock() - self._held_at > LET_GO:
@@ -217,39 +215,35 @@ class Player:
         global _playing
         ended = list(self.recording.ended[::2]) if self.over else None
         urgent = {"speed": self.speed, "paused": self.paused, "ended": ended}
-        self._context.run(self._show.frame, self._session, self._stamp)
-        self._context.run(self._show.state, self._session, self._stamp, self._pace.measured, **urgent)
+        self._show.frame(self._session, self._stamp)
+        self._show.state(self._session, self._stamp, self._pace.measured, **urgent)
         if self.over and _playing is self:
             _playing = None
             atexit.unregister(self._quit)
-            # In the context of the caller: what executes notebooks unattended hears only the cell that is running.
             self._show.finish(self.recording)
             gc.collect()  # what earlier stretches left
 
-    # -- commands of the picture -----------------------------------------------------------------------
-
     def _obey(self, command: dict[str, Any]) -> None:
-        for name, value in command.items():
-            if name == "speed":
-                self.speed = value
-            elif name == "pause":
-                self.pause() if value else self.resume()
-            elif name == "step":
+        match command:
+            case {"speed": speed}:
+                self.speed = speed
+            case {"pause": on}:
+                self.pause() if on else self.resume()
+            case {"step": True}:
                 self.step()
-            elif name == "stop":
+            case {"stop": True}:
                 self.stop()
-            elif name == "drive":
-                self._drive(*value)
+            case {"drive": [forward, left]}:
+                self._drive(forward, left)
 
     def _drive(self, forward: float, left: float) -> None:
         engine = self._session.engine
         self._held_at, engine.held = self._pace.clock(), (forward, left)
-        nodes = (node for process in engine.processes for node in process.nodes)
-        there = any(isinstance(node, Teleop) for node in nodes) or self._drives
-        if (forward or left) and not there and self._has_robot():
+        begun = engine.switches > 0  # before, nobody's Teleop is there yet
+        nodes = [node for process in engine.processes for node in process.nodes]
+        there = self._drives or any(isinstance(node, Teleop) for node in nodes)
+        bodies = self.recording.world.bodies if self.recording.world is not None else ()
+        robot = any(body.name == "robot" for body in bodies)
+        if (forward or left) and begun and robot and not there:
             self._drives = True
             self._context.run(self._session.start, Process(Teleop))
-
-    def _has_robot(self) -> bool:
-        world = self.recording.world
-        return world is not None and any(body.name == "robot" for body in world.bodies)
