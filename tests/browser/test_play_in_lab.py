@@ -102,6 +102,7 @@ def test_keys_drive_the_robot_and_leave_the_notebook_alone(playing):
     keyboard = playing.page.keyboard
     keyboard.down("ArrowUp")
     eventually(playing, "way(player) > 0.2")
+    picture.screenshot("play-keys")
     keyboard.up("ArrowUp")
     eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
     for key in ("KeyA", "KeyD", "KeyD", "KeyB", "KeyX", "KeyV", "KeyM", "KeyY", "Enter", "Space"):

@@ -31,11 +31,11 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert bench.main(["speed"]) == 2
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
-        "the benchmarks are scenario, startup, world, repeats, digests, grading.\n"
+        "the benchmarks are scenario, startup, world, repeats, digests, grading, view, peers.\n"
     )
 
 
-@pytest.mark.parametrize("name", bench.PARTS)
+@pytest.mark.parametrize("name", bench.PARTS + bench.ON_REQUEST)
 def test_a_benchmark_says_what_it_measures_and_runs_alone(name):
     module = importlib.import_module(f"tests.bench.{name}")
     assert module.__doc__.strip()
