@@ -1,41 +1,8 @@
 // Draws a world from above, or from the side: metres, x to the right, y up. Shared by the live view and the replay.
 
-const LIGHT = {
-  ground: "#f3f5f7", floor: "#ffffff", grid: "rgba(30,50,70,.08)", ink: "#46525f", wall: "#3a4550",
-  solid: "#d3dae1", edge: "#74808d", ray: "rgba(236,140,30,.2)", far: "rgba(236,140,30,.075)", hit: "#e06a10",
-  ahead: "rgba(60,110,170,.28)", goal: "#efb021", rim: "#9a6a00", contact: "#d93a35", nose: "#ffffff",
-  robots: ["#2274c4", "#8a4fc0", "#158a6b", "#c2477f"], box: "#d9b991", link: "#3d9aa1", cart: "#7d8fa3",
-};
-const DARK = {
-  ground: "#15181b", floor: "#1e2328", grid: "rgba(255,255,255,.065)", ink: "#b9c4cf", wall: "#c4ced8",
-  solid: "#3d4853", edge: "#8a97a4", ray: "rgba(255,170,70,.2)", far: "rgba(255,170,70,.075)", hit: "#ffa24d",
-  ahead: "rgba(120,180,240,.3)", goal: "#f5c044", rim: "#ffe2a0", contact: "#ff6b62", nose: "#10161c",
-  robots: ["#5aa9f0", "#b98be6", "#3cc39d", "#ea80b0"], box: "#a5855c", link: "#4fb0b8", cart: "#7f93a8",
-};
 const MARGIN = 0.2; // metres around what is shown
 const TALLEST = 500; // CSS pixels
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
-
-/** Call `act` when the page may have changed its theme, for as long as the element is in it. */
-function onTheme(element, act) {
-  const soon = () => {
-    if (!element.isConnected) { stop(); return; }
-    act();
-    setTimeout(act, 400); // JupyterLab loads the theme's colours a little later
-  };
-  const watch = new MutationObserver(soon);
-  watch.observe(document.documentElement, { attributes: true });
-  watch.observe(document.body, { attributes: true });
-  const scheme = matchMedia("(prefers-color-scheme: dark)");
-  scheme.addEventListener("change", soon);
-  const stop = () => { watch.disconnect(); scheme.removeEventListener("change", soon); };
-}
-
-/** The colours for the place of an element: a page that writes in a light colour is dark. */
-function colours(element) {
-  const [red, green, blue] = (getComputedStyle(element).color.match(/[\d.]+/g) || [0, 0, 0]).map(Number);
-  return 0.3 * red + 0.6 * green + 0.1 * blue > 128 ? DARK : LIGHT;
-}
 
 /**
  * A canvas that shows the world and follows the size of its stage.
