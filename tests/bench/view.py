@@ -69,15 +69,16 @@ async def feed(view) -> float:
     return cpu() - computed
 
 
-def live() -> list[list[object]]:
-    """Shown by a real kernel in a real browser."""
+def in_lab() -> tuple[list[int], list[float]]:
+    """Frames painted while each cell ran, and what the cells measured: idle, fed, played, pace."""
     from playwright.sync_api import sync_playwright
 
     from tests.browser.lab import Lab, server, write_notebook
     from tests.browser.pictures import COUNT_FRAMES
 
+    cells = CELLS.split("===\n")
     folder = Path(tempfile.mkdtemp(prefix="bench-view-"))
-    write_notebook(folder / "view.ipynb", *CELLS.split("===\n"))
+    write_notebook(folder / "view.ipynb", *cells)
     with server(folder, "--allow-root") as address, sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
         page = chromium.new_page(viewport={"width": 1280, "height": 900})
@@ -85,19 +86,24 @@ def live() -> list[list[object]]:
         lab = Lab(page, address)
         lab.open("view.ipynb")
         painted = []
-        for index in range(5):
+        for index in range(len(cells)):
             before = page.evaluate("window.framesPainted")
             lab.run_cell(index)
             painted.append(page.evaluate("window.framesPainted") - before)
             page.wait_for_timeout(500)
-        idle, fed, played, pace = lab.ask("[idle, fed, played, pace]")
+        measured = lab.ask("[idle, fed, played, pace]")
         lab.shut_down()
         chromium.close()
     shutil.rmtree(folder, ignore_errors=True)
-    count = RATE * SECONDS
+    return painted, measured
+
+
+def live() -> list[list[object]]:
+    """Of the picture in a real kernel and a real browser."""
+    painted, (idle, fed, played, pace) = in_lab()
     return [
         ["frames sent / shown in a second", f"{RATE} / {painted[2] / SECONDS:.1f}"],
-        ["kernel, computing for a frame with 360 rays", f"{(fed - idle) / count * 1e3:.2f} ms"],
+        ["kernel, computing for a frame with 360 rays", f"{(fed - idle) / (RATE * SECONDS) * 1e3:.2f} ms"],
         ["play(): frames shown in a second", f"{painted[4] / SECONDS:.1f}"],
         ["play() at 1 x, robot, student's node and picture: of one core", f"{played / SECONDS:.0%}"],
         ["play() at 1 x: measured pace", f"{pace:.3f} x"],
