@@ -7,7 +7,7 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-PARTS = ("scenario", "startup", "world", "repeats", "digests", "grading", "view")
+PARTS = ("scenario", "startup", "world", "machines", "repeats", "digests", "grading", "view")
 ON_REQUEST = ("peers",)  # installs what it compares with
 
 
