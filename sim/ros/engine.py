@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import random
 from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any
 
@@ -17,7 +16,7 @@ from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT, Running
 from sim.ros.endings import conclusion
 from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
 from sim.ros.guard import Guard
-from sim.ros.own import OwnRclpy
+from sim.ros.own import ChanceBytes, OwnRclpy
 from sim.ros.processes import Process, StudentProcess
 from sim.ros.recorder import Recorder, destroy
 from sim.ros.simtime import SimulatedTime
@@ -36,7 +35,7 @@ class Engine(Scheduler):
         self.recording = recording
         self.recorder = Recorder(self, recording)
         self.guard = Guard(self)
-        self.chance = _Chance(recording.seed)
+        self.chance = ChanceBytes(recording.seed)
         self.context = Context()
         self.rclpy = OwnRclpy()
         self.executors: list[Any] = []
@@ -249,13 +248,3 @@ class Engine(Scheduler):
                     daemon.thrown = RunOver()
             if all(f.daemon for f in threads):
                 self._free(process)
-
-
-class _Chance:
-    """The run's own source of chance, so that the student's use of `random` doesn't shift it."""
-
-    def __init__(self, seed: int) -> None:
-        self._random = random.Random(f"chance of run {seed}")
-
-    def bytes(self, size: int) -> bytes:
-        return self._random.randbytes(size)

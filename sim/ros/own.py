@@ -40,6 +40,17 @@ class OwnChance:
         np.random.set_state(states[1])
 
 
+class ChanceBytes:
+    """What the system's source of chance gives in a run; the students' use of `random` doesn't shift it."""
+
+    def __init__(self, seed: int) -> None:
+        self._random = random.Random(f"chance of run {seed}")
+
+    def bytes(self, size: int) -> bytes:
+        """The next `size` of them."""
+        return self._random.randbytes(size)
+
+
 class OwnProcess:
     """Hides from the nodes what a program of their own would not find.
 

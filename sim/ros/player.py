@@ -220,6 +220,7 @@ class Player:
         if self.over and _playing is self:
             _playing = None
             atexit.unregister(self._quit)
+            # In the context of the caller: what executes notebooks unattended hears only the cell under way.
             self._show.finish(self.recording)
             gc.collect()  # what earlier stretches left
 
