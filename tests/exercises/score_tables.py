@@ -46,7 +46,7 @@ def misses(score: Score) -> tuple[Miss, ...]:
 
 
 def _without_numbers(saw: str) -> str:
-    return re.sub(r", line \d+", ", line N", saw)
+    return re.sub(r"(, (?:at )?line) \d+", r"\1 N", saw)
 
 
 def students(assignment: str, exercise: str) -> dict[str, Any]:

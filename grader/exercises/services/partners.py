@@ -1,0 +1,151 @@
+"""Nodes of ours for 03_services that use the student's services. All they do varies with the run's seed."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+from example_interfaces.srv import AddTwoInts
+from rcl_interfaces.srv import GetParameters, SetParameters
+from rclpy.client import Client
+from rclpy.node import Node
+from std_msgs.msg import Bool, Float64
+from std_srvs.srv import SetBool, Trigger
+
+from grader.exercises.services.calls import Caller, parameter
+
+READINGS = 50  # that a calibration takes the mean of
+
+
+class Pupil(Caller):
+    """Asks /add_two_ints (AddTwoInts) once a second, with numbers of every kind."""
+
+    def __init__(self) -> None:
+        super().__init__("pupil")
+        self.client = self.create_client(AddTwoInts, "/add_two_ints")
+        self.pairs = [(random.randint(-99, 99), random.randint(1, 99)) for _ in range(4)]
+        self.pairs.append((random.randint(10**9, 10**12), random.randint(-99, -1)))
+        self.create_timer(1.0, self.next)
+
+    def next(self) -> None:
+        """Ask the next question, as long as there is one."""
+        if self.pairs:
+            a, b = self.pairs.pop()
+            self.ask(self.client, AddTwoInts.Request(a=a, b=b))
+
+
+class RawGyro(Node):
+    """A gyro on a robot that stands still: Float64 in rad/s on /gyro/raw, 50 a second, from 1 s on.
+
+    It should read 0, but reads a small bias and some noise. At 6 s it has warmed up, and has another bias.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("raw_gyro")
+        self.publisher = self.create_publisher(Float64, "/gyro/raw", 10)
+        self.biases = [random.choice((-1, 1)) * random.uniform(0.05, 0.2) for _ in range(2)]
+        self.create_timer(0.02, self.measure)
+
+    def measure(self) -> None:
+        """Send a reading."""
+        now = self.get_clock().now().nanoseconds / 1e9
+        if now > 0.99:
+            self.publisher.publish(Float64(data=self.biases[now >= 6.0] + random.gauss(0.0, 0.004)))
+
+
+class Technician(Caller):
+    """Calls /gyro/calibrate (Trigger): twice too early, then in time, then when the gyro is warm."""
+
+    def __init__(self) -> None:
+        super().__init__("technician")
+        self.client = self.create_client(Trigger, "/gyro/calibrate")
+        for moment in (0.6, 1.5, random.uniform(3.0, 4.0), random.uniform(8.0, 8.5)):
+            at(self, moment, lambda: self.ask(self.client, Trigger.Request()))
+
+
+class Pilot(Caller):
+    """Calls /arm (SetBool): disarms what is not armed, arms, disarms, arms twice, disarms."""
+
+    def __init__(self) -> None:
+        super().__init__("pilot")
+        self.client = self.create_client(SetBool, "/arm")
+        moment = random.uniform(0.5, 0.8)
+        for armed in (False, True, False, True, True, False):
+            at(self, moment, lambda armed=armed: self.ask(self.client, SetBool.Request(data=armed)))
+            moment += random.uniform(1.6, 2.2)
+
+
+class Tuner(Caller):
+    """Reads the parameter `speed` of /cruiser, then sets it: to allowed values, and to others."""
+
+    def __init__(self) -> None:
+        super().__init__("tuner")
+        self.get = self.create_client(GetParameters, "/cruiser/get_parameters")
+        self.set = self.create_client(SetParameters, "/cruiser/set_parameters")
+        at(self, 0.7, lambda: self.ask(self.get, GetParameters.Request(names=["speed"])))
+        speeds = [random.randint(40, 45) / 100, random.randint(55, 90) / 100, -0.1, 0.1, 0.5, 0.51, 0.0]
+        for number, speed in enumerate(speeds):
+            at(self, 2.0 + 1.5 * number, lambda speed=speed: set_parameter(self, self.set, "speed", speed))
+
+
+class Operator(Caller):
+    """Works with the mode manager: /arm (SetBool), /reset (Trigger) and the parameter `mode` of /manager.
+
+    First all that is allowed, and a mode that there isn't; then it drives on until the robot bumps into
+    something. Then it arms once more, resets, and drives away.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("operator")
+        self.arming = self.create_client(SetBool, "/arm")
+        self.resetting = self.create_client(Trigger, "/reset")
+        self.setting = self.create_client(SetParameters, "/manager/set_parameters")
+        self.bumped = False
+        self.create_subscription(Bool, "/bumper", self.on_bumper, 10)
+        turning = random.uniform(2.0, 4.0)
+        wrong = random.choice(("dance", "Circle", "", "aheads"))
+        self.plan(1.0, self.arm, self.mode("circle"), None, lambda: None)
+        self.plan(2.0 + turning, self.mode(wrong), self.disarm, self.mode("ahead"), self.arm)
+
+    def plan(self, begin: float, *steps: Callable[[], None] | None) -> None:
+        """Take the steps one after the other, one a second."""
+        for number, step in enumerate(steps):
+            if step:
+                at(self, begin + number, step)
+
+    def arm(self) -> None:
+        """Switch the motors on."""
+        self.ask(self.arming, SetBool.Request(data=True))
+
+    def disarm(self) -> None:
+        """Switch the motors off."""
+        self.ask(self.arming, SetBool.Request(data=False))
+
+    def reset(self) -> None:
+        """Say that all is well again."""
+        self.ask(self.resetting, Trigger.Request())
+
+    def mode(self, name: str) -> Callable[[], None]:
+        """What sets the mode."""
+        return lambda: set_parameter(self, self.setting, "mode", name)
+
+    def on_bumper(self, msg: Bool) -> None:
+        """After the first bump: try to drive on, reset, drive away."""
+        if msg.data and not self.bumped:
+            self.bumped = True
+            self.plan(1.0, self.arm, self.reset, self.mode("back"), self.arm, None, self.disarm)
+
+
+def at(node: Node, moment: float, action: Callable[[], None]) -> None:
+    """Do something once, so many seconds from now."""
+
+    def once() -> None:
+        timer.cancel()
+        action()
+
+    timer = node.create_timer(moment, once)
+
+
+def set_parameter(caller: Caller, client: Client, name: str, value: float | str) -> None:
+    """Set one parameter of the student's node, over its service."""
+    caller.ask(client, SetParameters.Request(parameters=[parameter(name, value)]))

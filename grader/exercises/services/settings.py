@@ -1,0 +1,101 @@
+"""An exercise on parameters: a speed that can be set from outside, but not to anything."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks import Missed, check, named, publishes, series
+from grader.exercise import Exercise
+from grader.exercises.services.calls import Call, accepted, asked, not_so, refused
+from grader.exercises.services.partners import Tuner
+from grader.exercises.topics.advice import advising
+from sim.recording import Recording
+
+GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
+LOW, HIGH, LAUNCHED = 0.0, 0.5, 0.3  # m/s
+SETTINGS = 7  # that the tuner makes
+
+
+@check(points=3)
+def declares_speed(recording: Recording) -> None:
+    """The node /cruiser has a parameter `speed`, a number with a decimal point."""
+    named(recording, "/cruiser")
+    call = asked(recording, GET)[0]
+    if not isinstance(call.response.get("value"), float):
+        saw = "no such parameter, or one of another kind" if call.response else "no answer"
+        hint = 'In __init__: self.declare_parameter("speed", 0.2). Its kind is that of the default.'
+        with advising(recording, hint):
+            raise Missed("a parameter `speed` of /cruiser with a value such as 0.2", saw)
+
+
+@check(points=3, after=declares_speed)
+def is_launched_with_a_speed(recording: Recording) -> None:
+    """It is started with a speed of 0.3, and begins to drive with that."""
+    value = asked(recording, GET)[0].response["value"]
+    if not math.isclose(value, LAUNCHED):
+        hint = 'In launch: return Process(Cruiser, parameters={"speed": 0.3}).'
+        raise Missed(f"speed {LAUNCHED} from the start", f"{value:g}", hint)
+    _drives_at(recording, LAUNCHED, 0.5, asked(recording, SET)[0].asked)
+
+
+@check(points=4, after=declares_speed)
+def follows_the_setting(recording: Recording) -> None:
+    """A new speed holds at once: on /cmd_vel, linear.x is what the parameter says."""
+    made = asked(recording, SET, SETTINGS)
+    for call in (call for call in made if _is_allowed(call)):
+        if not accepted(call):
+            expected = f"successful=True for {call.question}"
+            hint = (
+                f"A speed from {LOW} to {HIGH}, both ends included, is fine: "
+                "return SetParametersResult(successful=True)."
+            )
+            not_so(recording, expected, call, hint)
+        later = [other.asked for other in made if other.asked > call.asked]
+        _drives_at(recording, call.request["speed"], call.asked + 0.3, min(later, default=math.inf))
+
+
+@check(points=5, after=declares_speed)
+def refuses_other_speeds(recording: Recording) -> None:
+    """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing."""
+    for call in asked(recording, SET, SETTINGS):
+        if _is_allowed(call):
+            continue
+        expected = f"successful=False and a reason for {call.question}"
+        hint = (
+            "Hand a method to self.add_on_set_parameters_callback(...). It looks at p.name and p.value of "
+            'each parameter p, and returns SetParametersResult(successful=False, reason="...") for a bad one.'
+        )
+        if not refused(call):
+            not_so(recording, expected, call, hint)
+        if not call.response["reason"].strip():
+            why = 'Say why: SetParametersResult(successful=False, reason="...").'
+            not_so(recording, expected, call, why, credit=0.6)
+
+
+def _is_allowed(call: Call) -> bool:
+    return LOW <= call.request["speed"] <= HIGH
+
+
+def _drives_at(recording: Recording, speed: float, begin: float, end: float) -> None:
+    """The commands between two moments have this speed."""
+    publishes(recording, "/cmd_vel", "geometry_msgs/msg/Twist")
+    values = [(at, x) for at, x in series(recording, "/cmd_vel", "linear.x") if begin <= at < end]
+    other = [(at, x) for at, x in values if abs(x - speed) > 1e-6]
+    if other or not values:
+        saw = f"{other[0][1]:g} m/s at {other[0][0]:.3g} s" if other else "no command"
+        hint = (
+            "Ask for the value each time you need it, in drive: "
+            'self.get_parameter("speed").value. One that is read in __init__ never changes.'
+        )
+        raise Missed(f"linear.x {speed:g} m/s on /cmd_vel from {begin:.3g} s on", saw, hint, picture="topics")
+
+
+parameters = Exercise(
+    "parameters",
+    "A speed that can be set",
+    [declares_speed, is_launched_with_a_speed, follows_the_setting, refuses_other_speeds],
+    world="yard",
+    seconds=14,
+    companions=[Tuner],
+    seeds=(1, 2),
+)

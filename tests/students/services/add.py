@@ -1,0 +1,185 @@
+"""Servers that add: right ones, and wrong ones named by their defect."""
+
+import time
+from functools import partial
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class Adder(Node):
+    """As in the assignment, with the line filled in."""
+
+    type, service = AddTwoInts, "/add_two_ints"
+
+    def __init__(self):
+        super().__init__("adder")
+        self.create_service(self.type, self.service, self.add)
+
+    def add(self, request, response):
+        response.sum = request.a + request.b
+        return response
+
+
+class MinimalService(Node):
+    """As the tutorials write it."""
+
+    def __init__(self):
+        super().__init__("minimal_service")
+        self.srv = self.create_service(AddTwoInts, "add_two_ints", self.add_two_ints_callback)
+
+    def add_two_ints_callback(self, request, response):
+        response.sum = request.a + request.b
+        self.get_logger().info("Incoming request\na: %d b: %d" % (request.a, request.b))  # noqa: UP031
+        return response
+
+
+def main(args=None):
+    try:
+        rclpy.init(args=args)
+        minimal_service = MinimalService()
+        rclpy.spin(minimal_service)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+
+
+class AsyncAdder(Adder):
+    async def add(self, request, response):
+        response.sum = request.a + request.b
+        return response
+
+
+class AdderWithNewResponse(Adder):
+    """Makes a response of its own."""
+
+    def add(self, request, response):
+        return AddTwoInts.Response(sum=request.a + request.b)
+
+
+def main_with_function_and_threads():
+    rclpy.init()
+    node = rclpy.create_node("adder")
+
+    def add(node, request, response):
+        node.get_logger().info(f"{request.a} + {request.b}")
+        response.sum = request.a + request.b
+        return response
+
+    node.create_service(
+        AddTwoInts, "add_two_ints", partial(add, node), callback_group=ReentrantCallbackGroup()
+    )
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+class SlowAdder(Adder):
+    """Takes its time, and is right."""
+
+    def add(self, request, response):
+        time.sleep(0.4)
+        return super().add(request, response)
+
+
+class MisspeltService(Adder):
+    service = "/add_to_ints"
+
+
+class ServiceInNamespace(Adder):
+    service = "~/add_two_ints"
+
+
+class AnotherType(Adder):
+    type = Trigger
+
+
+class NoService(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+
+
+class ClientInPlaceOfService(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.client = self.create_client(AddTwoInts, "/add_two_ints")
+
+
+class NameBeforeType(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.create_service("/add_two_ints", AddTwoInts, self.add)
+
+
+class CallsTheCallback(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.create_service(AddTwoInts, "/add_two_ints", self.add())
+
+
+class NoCallback(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.create_service(AddTwoInts, "/add_two_ints")
+
+
+class ForgetsReturn(Adder):
+    def add(self, request, response):
+        response.sum = request.a + request.b
+
+
+class ReturnsTheNumber(Adder):
+    def add(self, request, response):
+        return request.a + request.b
+
+
+class SumNeverSet(Adder):
+    def add(self, request, response):
+        return response
+
+
+class Multiplies(Adder):
+    def add(self, request, response):
+        response.sum = request.a * request.b
+        return response
+
+
+class SmallNumbersOnly(Adder):
+    """Right for four of the five questions."""
+
+    def add(self, request, response):
+        response.sum = min(request.a + request.b, 1000)
+        return response
+
+
+class CallbackWithoutResponse(Adder):
+    def add(self, request):
+        return AddTwoInts.Response(sum=request.a + request.b)
+
+
+class DecimalSum(Adder):
+    def add(self, request, response):
+        response.sum = float(request.a + request.b)
+        return response
+
+
+class UnknownField(Adder):
+    def add(self, request, response):
+        response.sum = request.x + request.y
+        return response
+
+
+class NeverComesBack(Adder):
+    """A loop without end in the callback."""
+
+    def add(self, request, response):
+        while True:
+            pass

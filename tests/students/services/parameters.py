@@ -1,0 +1,267 @@
+"""Ways to launch a cruiser: right ones, and wrong ones named by their defect."""
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from sim import Process
+
+PARTS = (
+    "started",
+    "Cruiser", "CruiserWithField", "CruiserWithDescriptor", "AnotherName", "ParameterMisspelt",
+    "NotDeclared", "WholeNumber", "ReadOnceInInit", "NoCallback", "CallbackNotHandedOver", "RefusesSilently",
+    "OnlyUpwards", "ReturnsNothing", "ReturnsABool", "RaisesForBadValues", "CutsToTheLimits",
+    "RefusesTheLimits", "RefusesEverything", "ConstantSpeed", "TakesOneParameter", "TextForSpeed",
+    "NeverComesBack",
+)  # fmt: skip
+
+
+class Cruiser(Node):
+    """As one would write it."""
+
+    name, parameter, default = "cruiser", "speed", 0.2
+
+    def __init__(self):
+        super().__init__(self.name)
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+        self.declare_parameter(self.parameter, self.default)
+        self.add_on_set_parameters_callback(self.check)
+
+    def check(self, parameters):
+        for parameter in parameters:
+            if parameter.name == "speed" and not 0.0 <= parameter.value <= 0.5:
+                return SetParametersResult(successful=False, reason="speed has to be from 0.0 to 0.5 m/s")
+        return SetParametersResult(successful=True)
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = self.get_parameter("speed").value
+        self.publisher.publish(msg)
+
+
+class CruiserWithField(Cruiser):
+    """Keeps the value in a field, and is told when it has changed."""
+
+    def __init__(self):
+        super().__init__()
+        self.speed = self.get_parameter("speed").get_parameter_value().double_value
+        self.add_post_set_parameters_callback(self.keep)
+
+    def check(self, parameters):
+        bad = [p for p in parameters if p.name == "speed" and (p.value < 0.0 or p.value > 0.5)]
+        return SetParametersResult(successful=not bad, reason="out of range" if bad else "")
+
+    def keep(self, parameters):
+        for parameter in parameters:
+            if parameter.name == "speed":
+                self.speed = parameter.value
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = self.speed
+        self.publisher.publish(msg)
+
+
+class CruiserWithDescriptor(Cruiser):
+    """Lets ROS itself refuse: the range stands in the descriptor."""
+
+    def __init__(self):
+        Node.__init__(self, "cruiser")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+        allowed = FloatingPointRange(from_value=0.0, to_value=0.5)
+        descriptor = ParameterDescriptor(description="m/s", floating_point_range=[allowed])
+        self.speed = self.declare_parameter("speed", 0.2, descriptor)
+
+
+def launch():
+    return Process(Cruiser, parameters={"speed": 0.3})
+
+
+def launch_with_list():
+    return Process(CruiserWithField, parameters=[{"speed": 0.3}])
+
+
+def launch_with_words():
+    return Process(CruiserWithDescriptor, arguments=["--ros-args", "-p", "speed:=0.3"])
+
+
+as_process = Process(CruiserWithDescriptor, name="cruiser", parameters={"speed": 0.3})
+
+
+def main():
+    rclpy.init(args=["--ros-args", "-p", "speed:=0.3"])
+    rclpy.spin(Cruiser())
+    rclpy.shutdown()
+
+
+def started(target, **parameters):
+    return Process(target, parameters=parameters or {"speed": 0.3})
+
+
+class AnotherName(Cruiser):
+    name = "driver"
+
+
+class ParameterMisspelt(Cruiser):
+    parameter = "Speed"
+
+    def drive(self):
+        self.publisher.publish(Twist())
+
+
+class NotDeclared(Cruiser):
+    def __init__(self):
+        Node.__init__(self, "cruiser")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+
+class WholeNumber(Cruiser):
+    default = 0
+
+
+class TextForSpeed(Cruiser):
+    default = "0.2"
+
+
+class ReadOnceInInit(Cruiser):
+    def __init__(self):
+        super().__init__()
+        self.speed = self.get_parameter("speed").value
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = self.speed
+        self.publisher.publish(msg)
+
+
+class ConstantSpeed(Cruiser):
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = 0.3
+        self.publisher.publish(msg)
+
+
+class NoCallback(Cruiser):
+    def __init__(self):
+        NotDeclared.__init__(self)
+        self.declare_parameter("speed", 0.2)
+
+
+class CallbackNotHandedOver(Cruiser):
+    """Brackets after the method."""
+
+    def __init__(self):
+        NotDeclared.__init__(self)
+        self.declare_parameter("speed", 0.2)
+        self.add_on_set_parameters_callback(self.check([]))
+
+
+class RefusesSilently(Cruiser):
+    def check(self, parameters):
+        return SetParametersResult(successful=0.0 <= parameters[0].value <= 0.5)
+
+
+class OnlyUpwards(Cruiser):
+    """Forgets that a speed may be negative."""
+
+    def check(self, parameters):
+        if parameters[0].value > 0.5:
+            return SetParametersResult(successful=False, reason="too fast")
+        return SetParametersResult(successful=True)
+
+
+class ReturnsNothing(Cruiser):
+    """Forgets the good case."""
+
+    def check(self, parameters):
+        for parameter in parameters:
+            if not 0.0 <= parameter.value <= 0.5:
+                return SetParametersResult(successful=False, reason="out of range")
+
+
+class ReturnsABool(Cruiser):
+    def check(self, parameters):
+        return 0.0 <= parameters[0].value <= 0.5
+
+
+class RaisesForBadValues(Cruiser):
+    def check(self, parameters):
+        if not 0.0 <= parameters[0].value <= 0.5:
+            raise ValueError("out of range")
+        return SetParametersResult(successful=True)
+
+
+class CutsToTheLimits(Cruiser):
+    """Kind, but then nobody learns of the mistake."""
+
+    def check(self, parameters):
+        return SetParametersResult(successful=True)
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = min(max(self.get_parameter("speed").value, 0.0), 0.5)
+        self.publisher.publish(msg)
+
+
+class RefusesTheLimits(Cruiser):
+    def check(self, parameters):
+        fine = 0.0 < parameters[0].value < 0.5
+        return SetParametersResult(successful=fine, reason="out of range")
+
+
+class RefusesEverything(Cruiser):
+    def check(self, parameters):
+        return SetParametersResult(successful=False, reason="no")
+
+
+class TakesOneParameter(Cruiser):
+    """The callback gets a list."""
+
+    def check(self, parameters):
+        fine = 0.0 <= parameters.value <= 0.5
+        return SetParametersResult(successful=fine, reason="out of range")
+
+
+class NeverComesBack(Cruiser):
+    """A loop without end in the callback."""
+
+    def check(self, parameters):
+        while True:
+            pass
+
+
+def sets_itself():
+    """Sets the speed in the program in place of at the launch."""
+    node = Cruiser()
+    node.set_parameters([Parameter("speed", value=0.45)])
+    return node
+
+
+without_setting = Process(Cruiser)
+another_value = started(Cruiser, speed=0.4)
+misspelt_setting = started(Cruiser, sped=0.3)
+whole_number_setting = started(Cruiser, speed=1)
+another_name = started(AnotherName)
+parameter_misspelt = started(ParameterMisspelt)
+not_declared = started(NotDeclared)
+whole_number_default = started(WholeNumber)
+text_for_speed = started(TextForSpeed)
+read_once_in_init = started(ReadOnceInInit)
+constant_speed = started(ConstantSpeed)
+no_callback = started(NoCallback)
+callback_not_handed_over = started(CallbackNotHandedOver)
+refuses_silently = started(RefusesSilently)
+only_upwards = started(OnlyUpwards)
+returns_nothing = started(ReturnsNothing)
+returns_a_bool = started(ReturnsABool)
+raises_for_bad_values = started(RaisesForBadValues)
+cuts_to_the_limits = started(CutsToTheLimits)
+refuses_the_limits = started(RefusesTheLimits)
+refuses_everything = started(RefusesEverything)
+takes_one_parameter = started(TakesOneParameter)
+never_comes_back = started(NeverComesBack)
