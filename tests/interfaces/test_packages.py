@@ -54,7 +54,15 @@ def test_tools_find_a_package_and_its_definitions_through_the_ament_index(packag
 def test_constants_have_the_values_that_servers_compare_with():
     from control_msgs.action import FollowJointTrajectory
     from control_msgs.msg import JointComponentTolerance
-    from nav2_msgs.action import BackUp, ComputePathToPose, FollowPath, FollowWaypoints, NavigateToPose, Spin
+    from nav2_msgs.action import (
+        BackUp,
+        ComputePathToPose,
+        DriveOnHeading,
+        FollowPath,
+        FollowWaypoints,
+        NavigateToPose,
+        Spin,
+    )
     from nav2_msgs.srv import ManageLifecycleNodes
     from tf2_msgs.msg import TF2Error
 
@@ -64,6 +72,7 @@ def test_constants_have_the_values_that_servers_compare_with():
     assert FollowWaypoints.Result.TASK_EXECUTOR_FAILED == 601
     assert Spin.Result.COLLISION_AHEAD == 703
     assert BackUp.Result.COLLISION_AHEAD == 714
+    assert DriveOnHeading.Result.COLLISION_AHEAD == 723
     assert ManageLifecycleNodes.Request.CLEANUP == 6
     assert FollowJointTrajectory.Result.GOAL_TOLERANCE_VIOLATED == -5
     assert JointComponentTolerance.ROTATION == 5
