@@ -135,8 +135,8 @@ def test_a_robot_that_loses_its_driver_stops(playing, way_out):
     assert stands(playing)
 
 
-@pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
-def test_the_pad_on_the_screen_drives(playing):
+@pytest.mark.parametrize("playing", ["player = play(world='yard', seconds=600)"], indirect=True)
+def test_the_pad_on_the_screen_drives_a_robot_that_no_node_drives(playing):
     picture = live(playing)
     button = picture.root.get_by_role("button", name="Forwards")
     button.scroll_into_view_if_needed()

@@ -103,7 +103,8 @@ class View {
     this.drives = this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
     if (this.drives) {
       this.pad = new Pad(this.root, (command) => this.send(command));
-      rows.push(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
+      // Above the topics: driving adds one, and the pad must not move away from under the pointer.
+      rows.unshift(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
     }
     this.root.append(make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
       make("div", { className: "side" }, ...rows)), this.controls());
