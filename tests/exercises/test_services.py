@@ -4,6 +4,7 @@ import pytest
 
 from grader.exercises import services
 from tests.exercises.score_tables import NOT_STARTED, executed, exercise_of, graded, page, shown, students
+from tests.students.services._client import main as client_main
 
 ASSIGNMENT = "03_services"
 EXERCISES = ["add", "calibrate", "arming", "door", "ticks", "parameters", "modes"]
@@ -49,6 +50,13 @@ def test_other_seeds_change_nothing_for_a_right_node(exercise, monkeypatch):
     )
 
 
+def test_a_client_of_the_students_own_may_ask_beside_ours():
+    score = services.add.grade(students("services", "add")["main"], client_main)
+    assert float(score) == services.add.points
+    texts = [line.text for line in score.recordings[0].logs if line.node == "sum_client"]
+    assert texts[-1] == "Result: 41 + 1 = 42"
+
+
 def test_the_solution_earns_everything():
     cells = graded("solutions", ASSIGNMENT)
     assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
@@ -79,3 +87,23 @@ def test_a_test_cell_offers_the_points_of_its_exercise():
     cells = graded("solutions", ASSIGNMENT).values()
     assert [exercise_of(cell, services) for cell in cells] == [getattr(services, name) for name in EXERCISES]
     assert [exercise_of(cell, services).points for cell in cells] == [cell.most for cell in cells]
+
+
+def test_the_lesson_shows_what_it_speaks_of():
+    cells = executed("course", ASSIGNMENT)
+    assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
+    assert "end it with `return response`" in cells["return-class"].text
+    assert "answered at None, lost: True" in cells["late-server"].text
+    assert cells["late-cure"].text.count("Waiting for /add_two_ints") == 2
+    assert "The boss has logged 0 lines." in cells["raises-run"].text
+    assert cells["careless-run"].text.endswith("the robot is at x = 0.00 m\n")
+    for frozen in ("deadlock-class", "await-wrong"):
+        assert "has waited since t = 1 s and never returned" in cells[frozen].text
+    assert cells["await-right"].text.count("I am well") == 4
+    assert cells["threads-run"].text.count("The sum is 5") == 2
+    assert cells["stream-poor"].text == "300 requests and responses\n"
+    assert cells["stream-good"].text.startswith("50 messages")
+    assert "declared as DOUBLE" in cells["kinds-run"].text
+    assert cells["check-values-run"].text.count("successful=False") == 2
+    assert "ZeroDivisionError" in cells["check-values-without-run"].text
+    assert "power off" in cells["together-run"].text

@@ -25,26 +25,30 @@ class Adder(Node):
         return response
 
 
-class MinimalService(Node):
-    """As the tutorials write it."""
+class SumServer(Node):
+    """A whole program, in the form that tutorials show."""
 
     def __init__(self):
-        super().__init__("minimal_service")
-        self.srv = self.create_service(AddTwoInts, "add_two_ints", self.add_two_ints_callback)
+        super().__init__("sum_server")
+        self.service = self.create_service(AddTwoInts, "add_two_ints", self.handle_sum)
+        self.get_logger().info("Ready to add two ints.")
 
-    def add_two_ints_callback(self, request, response):
+    def handle_sum(self, request, response):
         response.sum = request.a + request.b
-        self.get_logger().info("Incoming request\na: %d b: %d" % (request.a, request.b))  # noqa: UP031
+        self.get_logger().info("%d + %d = %d" % (request.a, request.b, response.sum))  # noqa: UP031
         return response
 
 
 def main(args=None):
+    rclpy.init(args=args)
+    sum_server = SumServer()
     try:
-        rclpy.init(args=args)
-        minimal_service = MinimalService()
-        rclpy.spin(minimal_service)
+        rclpy.spin(sum_server)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        sum_server.destroy_node()
+        rclpy.try_shutdown()
 
 
 class AsyncAdder(Adder):
