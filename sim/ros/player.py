@@ -48,11 +48,9 @@ class Player:
         self._stamp = 0.0  # s of simulated time up to which all that is due has been done
         self._commands: deque[dict[str, Any]] = deque()
         self._held_at = 0.0  # wall time of the last key that was held or let go
-        self._drives = False  # whether there is a Teleop of the player's own
-        self._at_work = False
+        self._drives = self._at_work = self._let_go = False  # it drives if it has a Teleop of its own
         self._wanted: str | None = None  # why it should stop
         self._error: Exception | None = None
-        self._task: asyncio.Task | None = None
         self._context = contextvars.copy_context()  # a notebook's output goes to the cell that this names
         self._context.run(session.advance, -1.0)  # opens it
         _playing = self
@@ -83,19 +81,19 @@ class Player:
         self._pace.start_anew()
 
     def step(self) -> None:
-        """Pause, and go on by 0.05 s: to the next of the robot's scans."""
+        """Pause, and go on by 0.05 s: to the next of the robot's scans. Only in the thread of `play`."""
         self.pause()
         self._work(self._stamp + STEP)
         self._update()
 
     def stop(self, why: str = "The user stopped it.") -> None:
-        """End the run here."""
+        """End the run here; in another thread, ask for its end."""
         self._wanted = why
-        if not self._at_work and not self.over:
+        if not self._at_work and not self.over and not self._session.elsewhere:
             self._end()
 
     def result(self) -> Recording:
-        """Run the rest at once, whatever the speed, and return the recording.
+        """Run the rest at once, whatever the speed, and return the recording. Only in the thread of `play`.
 
         Raises KeyboardInterrupt when the user interrupts that, and whatever `until` raised.
         """
@@ -144,7 +142,7 @@ class Player:
                 raise KeyboardInterrupt("The run was interrupted.") from None
             self.result()
         else:
-            self._task = loop.create_task(self._play())
+            self._task = loop.create_task(self._play())  # kept, for the loop doesn't
 
     async def _play(self) -> None:
         clock = self._pace.clock
@@ -168,7 +166,7 @@ class Player:
             with contextlib.suppress(ValueError):  # a picture may send anything
                 self._obey(self._commands.popleft())
         engine, clock = self._session.engine, self._pace.clock
-        if engine is not None and clock() - self._held_at > LET_GO:
+        if engine and clock() - self._held_at > LET_GO:
             engine.held = (0.0, 0.0)  # the page is gone
         if self._wanted is not None and not self.over:
             self._end()
@@ -183,6 +181,8 @@ class Player:
 
     def _work(self, limit: float, enough: Callable[[], bool] | None = None) -> None:
         """Go on to `limit`; if that ends the run, clean up after it."""
+        if self._session.elsewhere:
+            raise RuntimeError("A player goes on only in the thread that called play(); here, stop it.")
         if self._at_work:
             raise RuntimeError("A player can't be moved on from inside its own run; let `until` return True.")
         self._at_work = True
@@ -217,8 +217,8 @@ class Player:
         urgent = {"speed": self.speed, "paused": self.paused, "ended": ended}
         self._show.frame(self._session, self._stamp)
         self._show.state(self._session, self._stamp, self._pace.measured, **urgent)
-        if self.over and _playing is self:
-            _playing = None
+        if self.over and not self._let_go:
+            self._let_go, _playing = True, None if _playing is self else _playing
             atexit.unregister(self._quit)
             # In the context of the caller: what executes notebooks unattended hears only the cell under way.
             self._show.finish(self.recording)

@@ -6,6 +6,7 @@ import contextlib
 import gc
 import math
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -20,6 +21,7 @@ from sim.ros.processes import Process, as_process
 from sim.world import Scene, World, simulate
 
 FOREVER: Nanoseconds = 2**63
+_turn = threading.RLock()  # a process has one of everything: runs in several threads work in turns
 
 
 class Session:
@@ -40,7 +42,8 @@ class Session:
         caller: str = "run",
     ) -> None:
         self._specs = [as_process(node, caller) for node in nodes]
-        if active() is not None:
+        working = active()
+        if working is not None and working.thread == threading.get_ident():
             raise RuntimeError(f"{caller}() can't start another run here: this is a node of one under way.")
         if not 0 < seconds < 1e6:
             raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
@@ -56,6 +59,7 @@ class Session:
         self._due: Nanoseconds = 0  # the moment that time moves to next
         self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
         self._screen = Screen(quiet)
+        self._thread = threading.get_ident()  # greenlets can't move to another
 
     @property
     def stamp(self) -> float:
@@ -66,6 +70,11 @@ class Session:
     def interrupted(self) -> bool:
         """Whether the user has interrupted the run while it worked."""
         return self._interrupted or (self.engine is not None and self.engine.guard.interrupted)
+
+    @property
+    def elsewhere(self) -> bool:
+        """Whether it is at home in another thread than the one that asks."""
+        return self._thread != threading.get_ident()
 
     def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
         """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
@@ -104,7 +113,7 @@ class Session:
     @contextlib.contextmanager
     def _stretch(self) -> Iterator[None]:
         """The run works: the process is the nodes' for a while."""
-        with self._process.lent():
+        with _turn, self._process.lent():
             # Made in here, for at the end the garbage collector looks only at what was made in here.
             self.engine = self.engine or Engine(self.recording, self._screen)
             try:

@@ -113,6 +113,17 @@ def test_a_run_in_another_thread_works():
     assert results[0].digest == run(mains.Counter, seconds=1, quiet=True).digest
 
 
+def test_runs_in_several_threads_take_turns():
+    from concurrent.futures import ThreadPoolExecutor
+
+    def digest(seconds):
+        return run(mains.classic, world="room", seconds=seconds, quiet=True).digest
+
+    lengths = [1, 2, 3, 4]
+    with ThreadPoolExecutor(3) as threads:
+        assert list(threads.map(digest, lengths)) == [digest(seconds) for seconds in lengths]
+
+
 def test_rclpy_is_as_it_was_before_a_refusal():
     refused(WorldError, mains.Counter, world="moon")
     assert not rclpy.ok()

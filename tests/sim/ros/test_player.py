@@ -221,6 +221,45 @@ def test_buttons_of_the_picture(robot):
     assert robot.recording.ended[::2] == ("interrupted", "The user stopped it.")
 
 
+def in_another_thread(act):
+    """What it gives or raises there."""
+
+    def attempt():
+        try:
+            told.append(act())
+        except RuntimeError as error:
+            told.append(str(error))
+
+    told = []
+    thread = threading.Thread(target=attempt)
+    thread.start()
+    thread.join(20)
+    return told[0]
+
+
+def test_another_thread_can_stop_it_but_not_move_it(robot):
+    words = "A player goes on only in the thread that called play(); here, stop it."
+    robot.turn()
+    assert in_another_thread(robot.step) == in_another_thread(robot.result) == words
+    robot.resume()
+    robot.turn()
+    assert not robot.over
+    in_another_thread(lambda: robot.stop("Time is up."))
+    robot.turn()
+    assert robot.recording.ended[::2] == ("interrupted", "Time is up.")
+    assert len(robot.watcher.finished) == 1
+
+
+def test_a_play_that_another_thread_replaces_lets_go_of_everything(robot):
+    robot.turn()
+    usual = run(mains.classic, world="room", seconds=2, quiet=True)
+    in_another_thread(lambda: playing.player(mains.classic, seconds=2).stop())
+    robot.turn()
+    assert robot.recording.ended[::2] == ("interrupted", "Another play has begun.")
+    assert len(robot.watcher.finished) == 1
+    assert run(mains.classic, world="room", seconds=2, quiet=True).digest == usual.digest
+
+
 @pytest.mark.parametrize("method", ["frame", "state", "finish"])
 def test_a_picture_that_fails_changes_nothing(method, capsys):
     def fails(*arguments):
