@@ -7,6 +7,7 @@ import re
 
 from grader.diagnosis.parameter_rules import PARAMETER_RULES
 from grader.diagnosis.rules import RULES
+from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.recording import CallbackError
 
@@ -43,7 +44,7 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
-    for rule in (*SERVICE_RULES, *PARAMETER_RULES, *RULES):
+    for rule in (*SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES):
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:
             return rule.advice.format(*found.groups())
