@@ -39,14 +39,12 @@ class Wanted(NamedTuple):
 
 
 # Where nothing else bounds a figure: far beyond any robot, and near enough for the physics to stay finite.
-_MOST = 1_000_000
+_LEAST, _MOST = 0.0001, 1_000_000
 
 
-def above(least: float, unit: str, most: float = _MOST) -> Wanted:
-    """Any number greater than the one and not greater than the other."""
-    return Wanted(
-        f"a number above {least:g} and up to {most:.7g} ({unit})", lambda value: least < value <= most
-    )
+def positive(unit: str, most: float = _MOST, least: float = _LEAST) -> Wanted:
+    """A number above 0, but not so small that the physics would divide by nothing."""
+    return within(least, most, unit)
 
 
 def at_least(least: float, unit: str) -> Wanted:
@@ -61,7 +59,7 @@ def within(least: float, most: float, unit: str = "") -> Wanted:
 
 
 Coordinate = Annotated[float, within(-1000, 1000, "metres")]
-Length = Annotated[float, above(0, "metres", 1000)]
+Length = Annotated[float, positive("metres", 1000)]
 Angle = Annotated[float, Wanted("a finite number (radians)")]
 
 _SHOWN = 80  # characters of a value, in an error
@@ -71,7 +69,7 @@ _WORDS = {float: "a finite number", int: "a whole number", str: "a text"}
 class Model:
     """Base of frozen dataclasses whose values are checked when one is made.
 
-    Whole numbers become floats, and lists tuples, where the field says so.
+    Whole numbers become floats, lists tuples, and -0.0 becomes 0.0, where the field says so.
 
     Raises:
         ModelError: a value is of another type, infinite, not a number, or beyond its limits.
@@ -103,7 +101,8 @@ def words(model: type[Model], key: str) -> str:
     if get_origin(hint) in (Union, types.UnionType):
         hint = get_args(hint)[0]
     if get_origin(hint) is Annotated:
-        return get_args(hint)[-1].words
+        kind, *_, wanted = get_args(hint)
+        return wanted.words.replace("a number", _WORDS[int]) if kind is int else wanted.words
     return _WORDS.get(hint) or f"a {hint.__name__}"
 
 
@@ -141,7 +140,7 @@ def fit(hint: Any, value: Any) -> Any:
     if origin is tuple:
         return _fit_tuple(inner, value)
     if hint is float and _is(value, Real) and abs(value) <= sys.float_info.max:
-        return float(value)
+        return float(value) + 0.0  # a zero without a sign, which some libraries would take for less than 0
     if hint is int and _is(value, Integral):
         return int(value)
     if hint is Any or (hint not in (int, float) and isinstance(value, hint)):

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.model import Angle, Coordinate, Length, Model, above, within
+from sim.world.model import Angle, Coordinate, Length, Model, positive, within
 
 Point = tuple[Coordinate, Coordinate]
 Segment = tuple[Point, Point]
@@ -50,7 +50,7 @@ class MovableBox(Box):
     slides.
     """
 
-    mass: Annotated[float, above(0, "kg")] = 0.5
+    mass: Annotated[float, positive("kg")] = 0.5
     friction: Annotated[float, within(0.01, 10)] = 0.3
 
     @property

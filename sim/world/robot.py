@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
-from sim.world.model import Angle, Coordinate, Length, Model, Wanted, above, within
+from sim.world.model import Angle, Coordinate, Length, Model, Wanted, positive, within
 from sim.world.obstacles import Point
 
 Pose = tuple[Coordinate, Coordinate, Angle]
@@ -35,16 +35,16 @@ class RobotModel(Model):
     """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N)."""
 
     radius: Length = 0.1
-    mass: Annotated[float, above(0, "kg")] = 1.0
+    mass: Annotated[float, positive("kg")] = 1.0
     wheel_radius: Length = 0.033
     track_width: Length = 0.16
-    max_v: Annotated[float, above(0, "m/s")] = 0.6
-    max_w: Annotated[float, above(0, "rad/s")] = 2.5
-    max_acceleration: Annotated[float, above(0, "m/s^2")] = 2.0
-    max_angular_acceleration: Annotated[float, above(0, "rad/s^2")] = 8.0
+    max_v: Annotated[float, positive("m/s")] = 0.6
+    max_w: Annotated[float, positive("rad/s")] = 2.5
+    max_acceleration: Annotated[float, positive("m/s^2")] = 2.0
+    max_angular_acceleration: Annotated[float, positive("rad/s^2")] = 8.0
     command_timeout: Annotated[float, within(DT, 1000, "seconds")] = 0.5
-    max_force: Annotated[float, above(0, "N")] = 5.0
-    max_torque: Annotated[float, above(0, "N m")] = 0.25
+    max_force: Annotated[float, positive("N")] = 5.0
+    max_torque: Annotated[float, positive("N m")] = 0.25
     friction: Annotated[float, within(0, 10)] = 0.3
 
     @property
@@ -79,7 +79,7 @@ class OtherRobot(Model):
     name: Annotated[str, Wanted(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
     start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
     route: Annotated[tuple[Point, ...], Wanted(_ROUTE, _is_loop)] = ()
-    speed: Annotated[float, above(0, "m/s")] = 0.2
+    speed: Annotated[float, positive("m/s")] = 0.2
 
 
 class Odometry(NamedTuple):

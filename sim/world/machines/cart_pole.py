@@ -10,7 +10,7 @@ import numpy as np
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, Pose, bar
-from sim.world.model import Angle, Length, Model, above, at_least, within
+from sim.world.model import Angle, Length, Model, at_least, positive, within
 from sim.world.robot import DT, RATE, CommandError
 
 if TYPE_CHECKING:
@@ -60,15 +60,15 @@ class CartPoleModel(Model):
     """
 
     cart_mass: Annotated[float, within(0.01, 1000, "kg")] = 0.5
-    pole_mass: Annotated[float, above(0, "kg", 1000)] = 0.1
+    pole_mass: Annotated[float, positive("kg", 1000, 1e-12)] = 0.1  # next to nothing: a cart alone
     pole_length: Length = 0.3
     track_length: Length = 2.0
     cart_friction: Annotated[float, at_least(0, "N per m/s")] = 0.1
     pole_friction: Annotated[float, at_least(0, "N m per rad/s")] = 0.002
     start_angle: Angle = 0.1
     start_spread: Annotated[float, at_least(0, "radians")] = 0.05
-    max_force: Annotated[float, above(0, "N", 1000)] = 10.0
-    command_timeout: Annotated[float, above(0, "s", 1000)] = 0.2
+    max_force: Annotated[float, positive("N", 1000)] = 10.0
+    command_timeout: Annotated[float, positive("s", 1000)] = 0.2
     position_noise: Annotated[float, at_least(0, "metres")] = 0.0
     angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
 

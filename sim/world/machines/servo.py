@@ -8,7 +8,7 @@ from typing import Annotated
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import bar
-from sim.world.model import Angle, Length, Model, above
+from sim.world.model import Angle, Length, Model, positive
 from sim.world.robot import DT
 
 # A reference that changes speed with just the greatest acceleration can be followed.
@@ -31,8 +31,8 @@ class JointModel(Model):
     lower: Angle = -math.pi / 2
     upper: Angle = math.pi / 2
     start: Angle = 0.0
-    max_velocity: Annotated[float, above(0, "rad/s", 100)] = 1.0
-    max_acceleration: Annotated[float, above(0, "rad/s^2", 10_000)] = 2.0
+    max_velocity: Annotated[float, positive("rad/s", 100)] = 1.0
+    max_acceleration: Annotated[float, positive("rad/s^2", 10_000)] = 2.0
     length: Length = 0.5
 
     def __post_init__(self) -> None:

@@ -34,7 +34,7 @@ def changed(path, **changes):
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"lidar": {"rays": 10**9}}, "lidar.rays is 1000000000; write a number from 1 to 10000."),
+        ({"lidar": {"rays": 10**9}}, "lidar.rays is 1000000000; write a whole number from 1 to 10000."),
         ({"robot": 3}, "robot is 3; write a [robot] table with any of radius, mass, "),
         ({"bounds": [0, 0]}, "bounds is [0, 0]; write [xmin, ymin, xmax, ymax] (metres) with "),
         ({"walls": [[[0, 0]]]}, "walls[0] is [[0, 0]]; write two or more corners [x, y] (metres), "),

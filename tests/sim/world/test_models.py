@@ -6,7 +6,17 @@ import math
 import numpy as np
 import pytest
 
-from sim.world import Box, ImuModel, LidarModel, ModelError, MovableBox, OtherRobot, RobotModel, World
+from sim.world import (
+    Box,
+    ImuModel,
+    LidarModel,
+    ModelError,
+    MovableBox,
+    OtherRobot,
+    RobotModel,
+    Simulation,
+    World,
+)
 
 NAME = "a name of small letters, digits and single underscores that begins with a letter"
 ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
@@ -15,12 +25,13 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
 @pytest.mark.parametrize(
     ("model", "figures", "sentence"),
     [
-        (RobotModel, {"radius": -1}, "radius is -1; write a number above 0 and up to 1000 (metres)."),
-        (RobotModel, {"mass": 0}, "mass is 0; write a number above 0 and up to 1000000 (kg)."),
-        (RobotModel, {"max_v": math.nan}, "max_v is nan; write a number above 0 and up to 1000000 (m/s)."),
-        (RobotModel, {"max_w": math.inf}, "max_w is inf; write a number above 0 and up to 1000000 (rad/s)."),
-        (RobotModel, {"mass": "1"}, "mass is '1'; write a number above 0 and up to 1000000 (kg)."),
-        (RobotModel, {"mass": True}, "mass is True; write a number above 0 and up to 1000000 (kg)."),
+        (RobotModel, {"radius": -1}, "radius is -1; write a number from 0.0001 to 1000 (metres)."),
+        (RobotModel, {"mass": 0}, "mass is 0; write a number from 0.0001 to 1000000 (kg)."),
+        (RobotModel, {"mass": 5e-324}, "mass is 5e-324; write a number from 0.0001 to 1000000 (kg)."),
+        (RobotModel, {"max_v": math.nan}, "max_v is nan; write a number from 0.0001 to 1000000 (m/s)."),
+        (RobotModel, {"max_w": math.inf}, "max_w is inf; write a number from 0.0001 to 1000000 (rad/s)."),
+        (RobotModel, {"mass": "1"}, "mass is '1'; write a number from 0.0001 to 1000000 (kg)."),
+        (RobotModel, {"mass": True}, "mass is True; write a number from 0.0001 to 1000000 (kg)."),
         (
             RobotModel,
             {"command_timeout": 0},
@@ -42,13 +53,13 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
             {"max_torque": 0.04},
             "max_torque is 0.04; write more than 0.04 N m, which the robot's ramps need.",
         ),
-        (LidarModel, {"rays": 0}, "rays is 0; write a number from 1 to 10000."),
-        (LidarModel, {"rays": 10**9}, "rays is 1000000000; write a number from 1 to 10000."),
-        (LidarModel, {"rays": 36.0}, "rays is 36.0; write a number from 1 to 10000."),
+        (LidarModel, {"rays": 0}, "rays is 0; write a whole number from 1 to 10000."),
+        (LidarModel, {"rays": 10**9}, "rays is 1000000000; write a whole number from 1 to 10000."),
+        (LidarModel, {"rays": 36.0}, "rays is 36.0; write a whole number from 1 to 10000."),
         (
             LidarModel,
             {"rays": 10**5000},
-            "rays is a number of thousands of digits; write a number from 1 to 10000.",
+            "rays is a number of thousands of digits; write a whole number from 1 to 10000.",
         ),
         (
             LidarModel,
@@ -56,7 +67,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
             "range_min is 3.5; write a number below range_max, 3.5 (metres).",
         ),
         (LidarModel, {"noise": -1}, "noise is -1; write a number from 0 to 1000000 (metres)."),
-        (RobotModel, {"mass": 1e300}, "mass is 1e+300; write a number above 0 and up to 1000000 (kg)."),
+        (RobotModel, {"mass": 1e300}, "mass is 1e+300; write a number from 0.0001 to 1000000 (kg)."),
         (ImuModel, {"gyro_noise": 1e300}, "gyro_noise is 1e+300; write a number from 0 to 1000000 (rad/s)."),
         (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
         (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
@@ -69,8 +80,13 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
         ),
         (
             MovableBox,
+            {"x": 0, "y": 0, "yaw": 0, "width": 1e-300, "height": 1},
+            "width is 1e-300; write a number from 0.0001 to 1000 (metres).",
+        ),
+        (
+            MovableBox,
             {"x": 0, "y": 0, "yaw": 0, "width": 1, "height": 1, "mass": -1},
-            "mass is -1; write a number above 0 and up to 1000000 (kg).",
+            "mass is -1; write a number from 0.0001 to 1000000 (kg).",
         ),
         (
             MovableBox,
@@ -138,3 +154,10 @@ def test_numbers_of_other_kinds_become_floats_and_lists_tuples():
     assert robot.start == (1.0, 2.0, 3.0)
     assert {type(value) for value in robot.start} == {float}
     assert hash(robot) == hash(OtherRobot("a", (1.0, 2.0, 3.0)))
+
+
+def test_a_zero_with_a_sign_is_a_zero():
+    model = ImuModel(gyro_bias=-0.0, accel_bias=-0.0)
+    assert math.copysign(1, model.gyro_bias) == 1
+    world = dataclasses.replace(World.load("room"), imu=model)
+    assert math.isfinite(Simulation(world).robots["robot"].imu().w)

@@ -261,7 +261,7 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "[card]",
             "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1\n[card]",
-            "boxes[0].width is -1; write a number above 0 and up to 1000 (metres).",
+            "boxes[0].width is -1; write a number from 0.0001 to 1000 (metres).",
         ),
         (
             "[card]",
@@ -271,12 +271,12 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "[card]",
             "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
-            "boxes[0].height is missing; write a number above 0 and up to 1000 (metres).",
+            "boxes[0].height is missing; write a number from 0.0001 to 1000 (metres).",
         ),
         (
             "[card]",
             "[[circles]]\nx = 1\ny = 1\nradius = 0\n[card]",
-            "circles[0].radius is 0; write a number above 0 and up to 1000 (metres).",
+            "circles[0].radius is 0; write a number from 0.0001 to 1000 (metres).",
         ),
         (
             "[card]",
@@ -285,7 +285,7 @@ def test_file_that_is_not_toml(tmp_path):
         ),
         ("[card]", "imu = 3\n[card]", f"imu is 3; write a [imu] table with any of {IMU}."),
         ("[card]", "[[lidar]]\n[card]", f"lidar is [{{}}]; write a [lidar] table with any of {LIDAR}."),
-        ("[card]", "[lidar]\nrays = 0\n[card]", "lidar.rays is 0; write a number from 1 to 10000."),
+        ("[card]", "[lidar]\nrays = 0\n[card]", "lidar.rays is 0; write a whole number from 1 to 10000."),
         (
             "[card]",
             "[lidar]\nrange_min = 4\n[card]",
@@ -300,7 +300,7 @@ def test_file_that_is_not_toml(tmp_path):
         (
             "[card]",
             "[[movable]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
-            "movable[0].height is missing; write a number above 0 and up to 1000 (metres).",
+            "movable[0].height is missing; write a number from 0.0001 to 1000 (metres).",
         ),
         (
             "[card]",
@@ -399,7 +399,7 @@ def test_every_world_comes_back_from_plain_data(name):
             {"start": [9, 0, 0]},
             "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds.",
         ),
-        ({"lidar": {"rays": 1e9}}, "lidar.rays is 1000000000.0; write a number from 1 to 10000."),
+        ({"lidar": {"rays": 1e9}}, "lidar.rays is 1000000000.0; write a whole number from 1 to 10000."),
         (
             {"boxes": [[1]]},
             "boxes is [[1]]; write a [[boxes]] table for each, with x, y, yaw, width and height.",

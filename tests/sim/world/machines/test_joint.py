@@ -114,12 +114,12 @@ def test_how_often_it_is_looked_at_changes_nothing():
             {"start": 3.0},
             "start is 3.0; write an angle (radians) from lower to upper, -1.5708 to 1.5708.",
         ),
-        ({"max_velocity": 0}, "max_velocity is 0; write a number above 0 and up to 100 (rad/s)."),
+        ({"max_velocity": 0}, "max_velocity is 0; write a number from 0.0001 to 100 (rad/s)."),
         (
             {"max_acceleration": math.nan},
-            "max_acceleration is nan; write a number above 0 and up to 10000 (rad/s^2).",
+            "max_acceleration is nan; write a number from 0.0001 to 10000 (rad/s^2).",
         ),
-        ({"length": -1.0}, "length is -1.0; write a number above 0 and up to 1000 (metres)."),
+        ({"length": -1.0}, "length is -1.0; write a number from 0.0001 to 1000 (metres)."),
     ],
 )
 def test_impossible_figures(values, sentence):
