@@ -26,9 +26,11 @@ RANGES = 36_000  # of all scans together
 SCAN_RATE = 10.0  # Hz, as long as there are ranges enough
 RAYS = (60, 180)  # in a scan, at least and at most
 RANGE_UNIT = 0.02  # m
+FAR = 10_000.0  # m; nothing in a world is farther away
 LIDAR = ("sensor_msgs/msg/LaserScan", "/robot")  # type and sender of the scans that are shown
 NOTHING_NEAR, NOT_MEASURED = -1, -2  # in place of a range
 MARKS, LOGS, TOPICS, COLUMNS, CHARACTERS = 100, 200, 20, 240, 200
+WORDS = 9_000  # bytes, packed, of all marks together, and of all log lines; there are no more than fit
 
 
 def pack(recording: Recording, speed: float) -> str:
@@ -67,8 +69,12 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
     wanted = max(1, math.ceil(run_end(recording) * SCAN_RATE))
     most = min(max(RANGES // wanted, RAYS[0]), RAYS[1])
     for item in thinned(heard, min(wanted, RANGES // most)):
-        scan = item.message
-        if not len(scan.ranges) or not math.isfinite(scan.angle_min + scan.angle_increment + scan.range_max):
+        try:
+            scan = item.message
+        except Exception:  # a student's node of the robot's name sent bytes that are no scan
+            continue
+        figures = (scan.angle_min, scan.angle_increment, scan.range_max)
+        if not len(scan.ranges) or not all(abs(figure) < FAR for figure in figures):
             continue
         stride = max(1, math.ceil(len(scan.ranges) / most))
         pose = pose_at(recording.path, item.stamp)
@@ -84,7 +90,7 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
 
 def _range(value: float) -> int:
     if math.isfinite(value):
-        return max(round(value / RANGE_UNIT), 0)
+        return round(min(max(value, 0), FAR) / RANGE_UNIT)
     return NOTHING_NEAR if value == math.inf else NOT_MEASURED
 
 
@@ -98,10 +104,12 @@ def _marks(recording: Recording) -> list[list[Any]]:
         marks.append((error.stamp, "error", f"{error.type} in {error.callback}: {error.text}", None))
     kept = thinned(sorted(marks, key=lambda mark: mark[0]), MARKS)
     kept.append((run_end(recording), "end", f"the run ended. {recording.ended.detail}", None))
-    return [
-        [round(stamp * 1000), kind, f"t = {stamp:.3g} s: {_short(words)}", _place(place)]
-        for stamp, kind, words, place in kept
-    ]
+    return _fitting(
+        [
+            [round(stamp * 1000), kind, f"t = {stamp:.3g} s: {_short(words)}", _place(place)]
+            for stamp, kind, words, place in kept
+        ]
+    )
 
 
 def _place(place: tuple[float, float] | None) -> list[float] | None:
@@ -109,10 +117,19 @@ def _place(place: tuple[float, float] | None) -> list[float] | None:
 
 
 def _logs(recording: Recording) -> list[list[Any]]:
-    return [
-        [round(line.stamp * 1000), line.level, _short(f"{line.node}: {line.text}"), None]
-        for line in thinned(recording.logs, LOGS)
-    ]
+    return _fitting(
+        [
+            [round(line.stamp * 1000), line.level, _short(f"{line.node}: {line.text}"), None]
+            for line in thinned(recording.logs, LOGS)
+        ]
+    )
+
+
+def _fitting(rows: list[list[Any]]) -> list[list[Any]]:
+    """So many of the rows, evenly spread, that they aren't too long together."""
+    while len(zlib.compress(json.dumps(rows).encode())) > WORDS:
+        rows = thinned(rows, len(rows) * 3 // 4)
+    return rows
 
 
 def _short(text: str) -> str:

@@ -133,6 +133,19 @@ def test_a_scan_without_sense_is_left_out():
     assert unpacked(driven([(0, 0), (1, 0)], heard=heard))["scans"] == []
 
 
+def test_scans_that_no_page_could_draw_are_left_out_or_cut():
+    """A student's node may have the robot's name, and send anything."""
+
+    def heard(stamp, raw):
+        return Heard(stamp, "/scan", "sensor_msgs/msg/LaserScan", "/robot", raw)
+
+    far = LaserScan(ranges=[1e30, -1.0], range_max=3.5)
+    lost = LaserScan(ranges=[1.0], angle_min=1e30, range_max=1.0)
+    scans = [heard(0.0, b"no scan"), heard(0.2, encode(lost)), heard(0.4, encode(far))]
+    (kept,) = unpacked(driven([(0, 0), (1, 0)], heard=scans))["scans"]
+    assert list(summed(kept["ranges"])) == [packing.FAR / packing.RANGE_UNIT, 0]
+
+
 def test_other_robots_boxes_and_machines_have_tracks(drive):
     world = dataclasses.replace(
         World.load("yard"),
@@ -177,6 +190,18 @@ def test_marks_lines_and_words_are_bounded():
     data = unpacked(recording(errors=errors, logs=logs))
     assert (len(data["marks"]), len(data["logs"])) == (packing.MARKS + 1, packing.LOGS)
     assert max(len(event[2]) for event in data["marks"] + data["logs"]) < packing.CHARACTERS + 20
+
+
+def test_long_words_leave_room_for_few():
+    """Signs that no packing makes smaller take no more than the picture of the world does."""
+    logs = [
+        LogLine(n / 10, "INFO", "a", "".join(chr(0x3400 + n * k % 9973) for k in range(190)))
+        for n in range(300)
+    ]
+    data = unpacked(recording(logs=logs))
+    assert 10 < len(data["logs"]) < 60
+    assert (data["logs"][0][0], data["logs"][-1][0]) == (0, 29900)
+    assert len(packing.pack(recording(logs=logs), 1.0)) < 20_000
 
 
 @pytest.mark.parametrize("many, kept", [(3, [0, 1, 2]), (100, [0, 33, 66, 99])])
