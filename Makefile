@@ -21,8 +21,8 @@ help:  ## this list
 lab: setup  ## open the course in JupyterLab
 	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter $(BIN)/jupyter-lab
 
-test: setup  ## run every test (make test ARGS="-k notebooks" runs some)
-	$(BIN)/python -m pytest $(ARGS)
+test: setup  ## run every test, on all cores (make test ARGS="-k notebooks" runs some)
+	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)
 
 demo: setup  ## release, mark three sample submissions, give feedback; no browser
 	$(BIN)/python -m grader.marking.demo

@@ -21,8 +21,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(missing)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser():
+    """Chromium. Not for the whole session: as long as playwright lives, an event loop runs in this thread."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
@@ -57,7 +58,7 @@ def address(students_folder) -> Iterator[str]:
         yield url
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
     """Open a notebook in a tab of its own; in the end the tab closes, and the kernel is shut down.
 
