@@ -66,11 +66,11 @@ def student_streams() -> Iterator[None]:
 
 def _hold(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
     """Redirect the stream object itself as far as it lets us: handlers of Python's logging hold on to it."""
-    original = SimpleNamespace(write=stream.write, flush=stream.flush)
-    student = StudentStream(original, channel)
     try:
+        original = SimpleNamespace(write=stream.write, flush=stream.flush)
+        student = StudentStream(original, channel)
         stream.write, stream.flush = student.write, student.flush
-    except AttributeError:  # a stream of Python's own writes to a file descriptor, and waits for nobody
+    except AttributeError:  # None, or a stream of Python's own: that writes to a file, and waits for nobody
         return []
     return [(stream, "write"), (stream, "flush")]
 

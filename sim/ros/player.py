@@ -189,7 +189,7 @@ class Player:
         try:
             self._stamp = max(self._stamp, self._context.run(self._session.advance, limit, enough))
         except Exception as error:
-            self._error = error
+            self._error, self._session.over = error, True
             detail = f"`until` raised {type(error).__name__}: {error}"
             self.recording.ended = Ended("interrupted", self._session.stamp, detail)
         finally:

@@ -118,6 +118,16 @@ def test_other_work_in_between_changes_nothing(nodes, capsys):
         rclpy.shutdown()
 
 
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_it_goes_on_while_the_user_has_no_stream(stream, monkeypatch):
+    usual = run(mains.classic, output.writes_everywhere, seconds=1, quiet=True)
+    made = playing.player(mains.classic, output.writes_everywhere, seconds=1)
+    monkeypatch.setattr(f"sys.{stream}", None)
+    played = playing.to_the_end(made)
+    monkeypatch.undo()
+    assert (played.ended, played.digest) == (usual.ended, usual.digest)
+
+
 def test_the_users_chance_is_not_the_runs():
     made = playing.player(programs.Wanderer, world="room", seconds=2)
     random.seed(1)

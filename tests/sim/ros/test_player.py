@@ -221,6 +221,21 @@ def test_buttons_of_the_picture(robot):
     assert robot.recording.ended[::2] == ("interrupted", "The user stopped it.")
 
 
+def test_what_keeps_it_from_working_ends_it(robot, monkeypatch):
+    from sim.ros import session
+
+    def fails():
+        raise OSError("no streams")
+
+    robot.turn()
+    with monkeypatch.context() as patched:
+        patched.setattr(session, "student_streams", fails)
+        robot.turn()
+    assert robot.over
+    with pytest.raises(OSError, match=r"^no streams$"):
+        robot.result()
+
+
 def in_another_thread(act):
     """What it gives or raises there."""
 
