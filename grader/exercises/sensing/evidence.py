@@ -1,0 +1,100 @@
+"""What a guard knew and what it did, from a recording: the evidence for the checks of the project."""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import itertools
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from grader.checks import series
+from sim.recording import Recording, Seconds
+
+RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
+STEP = 0.1  # seconds between the moments that are looked at
+FRESH = 0.2  # seconds: younger commands and scans are good for sure
+FREE, BLOCKED = 1.0, 0.45  # metres ahead: the limit is 0.5 m
+
+
+class Moment(NamedTuple):
+    """What a guard knew at a moment, and what it let through; a speed and a turn each, m/s and rad/s."""
+
+    stamp: Seconds
+    asked: tuple[float, float] | None  # by the driver; None if that is old, or about to change
+    ahead: float  # the nearest distance ahead, m; nan where the scans are old
+    sent: tuple[float, float] | None  # None if nothing was sent lately
+
+
+def stamps_of(recording: Recording, topic: str) -> list[Seconds]:
+    """When something was sent on a topic."""
+    return [heard.stamp for heard in recording.messages(topic)]
+
+
+def gaps(moments: list[Seconds]) -> list[tuple[Seconds, Seconds]]:
+    """Where nothing came for more than 1.5 s."""
+    return [(a, b) for a, b in itertools.pairwise(moments) if b - a > 1.5]
+
+
+def lateness_of(recording: Recording) -> list[tuple[Seconds, Seconds]]:
+    """Where for more than 1.5 s all scans that came were more than half a second old."""
+    in_time = [stamp for stamp, age, _ in _scans(recording) if age < 0.5]
+    silent = gaps(stamps_of(recording, LIDAR))
+    return [gap for gap in gaps(in_time) if gap not in silent]
+
+
+def _scans(recording: Recording) -> list[tuple[Seconds, Seconds, float]]:
+    """When each scan came, how old it was then, and the nearest distance within 60 degrees of ahead."""
+    found = []
+    for heard in recording.messages(LIDAR):
+        message = heard.message
+        measured = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
+        ranges = np.array(message.ranges)
+        found.append((heard.stamp, heard.stamp - measured, float(np.nanmin([*ranges[:61], *ranges[-60:]]))))
+    return found
+
+
+def moments_of(recording: Recording) -> Iterator[Moment]:
+    """What a guard knew, and what it sent, every tenth of a second."""
+    scans, asked, sent = _scans(recording), _commands(recording, RAW), _commands(recording, OUT)
+    scan_at = _latest(scans)
+    asked_at, sent_at = _latest(asked), _latest(sent)
+    for index in range(10, int(recording.ended.stamp / STEP)):
+        now = index * STEP + 0.01  # beside the moments at which timers fire
+        seen = [scan_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
+        wishes = [asked_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
+        good = all(seen) and all(age < FRESH and now - came < 0.5 for came, age, _ in seen)
+        good = good and now - seen[0][0] < FRESH
+        steady = all(wishes) and len({wish[1:] for wish in wishes}) == 1 and now - wishes[0][0] < FRESH
+        last = sent_at(now)
+        yield Moment(
+            now,
+            wishes[0][1:] if steady else None,
+            _cautious([ahead for _, _, ahead in seen]) if good else float("nan"),
+            last[1:] if last and now - last[0] < 0.3 else None,
+        )
+
+
+def _cautious(ahead: list[float]) -> float:
+    """The distance that counts for both sides: all are free, or all are blocked, or neither."""
+    if min(ahead) > FREE or max(ahead) < BLOCKED:
+        return ahead[0]
+    return float("nan")
+
+
+def _commands(recording: Recording, topic: str) -> list[tuple[Seconds, float, float]]:
+    speeds, turns = (series(recording, topic, field) for field in ("linear.x", "angular.z"))
+    return [(stamp, speed, turn) for (stamp, speed), (_, turn) in zip(speeds, turns, strict=True)]
+
+
+def _latest(items: list[tuple]) -> Callable[[Seconds], tuple | None]:
+    """A function of a moment that gives the last item which is not later."""
+    moments = [item[0] for item in items]
+
+    def at(moment: Seconds) -> tuple | None:
+        index = bisect.bisect_right(moments, moment) - 1
+        return items[index] if index >= 0 else None
+
+    return functools.cache(at)

@@ -1,0 +1,189 @@
+"""An exercise on the lidar: the nearest thing ahead, to the left and to the right."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from grader.checks import Missed, check, publishes, subscribes
+from grader.exercise import Exercise, Scenario
+from grader.exercises.sensing.partners import Circling, StrangeLidar
+from grader.exercises.sensing.places import furnished_room
+from grader.exercises.topics.advice import advising
+from sim.recording import Heard, Recording, Seconds, stamps
+
+SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
+MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
+HALF = 30.0  # degrees to each side
+EDGE = 1.0  # degrees: whether a ray so near to a sector's edge belongs to it is left open
+LAG, PATIENCE = 0.02, 0.3  # seconds
+
+
+class Sector(NamedTuple):
+    """The rays of one direction in a scan."""
+
+    rays: np.ndarray  # with those at its edges
+    inner: np.ndarray  # without them
+    middle: float  # the one ray in the middle
+
+    @property
+    def kind(self) -> str:
+        """What is special in it: near, empty, lost, or plain where nothing is."""
+        if np.isneginf(self.rays).any():
+            return "near"
+        if not np.isfinite(self.rays).any():
+            return "empty"
+        return "lost" if np.isnan(self.rays).any() else "plain"
+
+    @property
+    def nearest(self) -> float:
+        """The distance of the nearest thing, m."""
+        return max(0.0, _least(self.inner))
+
+    def fits(self, said: float | None) -> bool:
+        """Is this what the rays say?"""
+        if said is None:
+            return False
+        return said == self.nearest or max(0.0, _least(self.rays)) - 0.001 <= said <= self.nearest + 0.001
+
+
+class Look(NamedTuple):
+    """What a node said of a direction after a scan, None for nothing, and what there was to see."""
+
+    stamp: Seconds
+    topic: str
+    said: float | None
+    sector: Sector
+    before: Sector | None  # of the scan before, where the node may not have heard this one yet
+
+    @property
+    def right(self) -> bool:
+        """Is it what the rays say?"""
+        return self.sector.fits(self.said) or (self.before is not None and self.before.fits(self.said))
+
+
+def _least(rays: np.ndarray) -> float:
+    known = rays[~np.isnan(rays)]
+    return float(known.min()) if len(known) else math.inf
+
+
+@check(points=3)
+def says_three_distances(recording: Recording) -> None:
+    """The node hears /scan, and publishes Float64 messages on /front, /left and /right."""
+    subscribes(recording, "/scan", SCAN)
+    for topic in MIDDLES:
+        with advising(
+            recording, "A publisher for each of the three, and a message on each after every scan."
+        ):
+            publishes(recording, topic, FLOAT64, at_least=5)
+
+
+@check(points=5, after=says_three_distances)
+def knows_the_directions(recording: Recording) -> None:
+    """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
+    looks = list(_looks(recording))
+    wrong = [look for look in looks if look.sector.kind == "plain" and not look.right]
+    if wrong:
+        _miss(wrong[0], _why_wrong(recording, looks, wrong[0]))
+
+
+@check(points=4, after=knows_the_directions)
+def leaves_out_lost_rays(recording: Recording) -> None:
+    """Rays that got lost (nan) change nothing."""
+    hint = "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False."
+    _all_right(recording, "lost", hint)
+
+
+@check(points=3, after=knows_the_directions)
+def knows_near_and_far(recording: Recording) -> None:
+    """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
+    near = "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is."
+    _all_right(recording, "near", near)
+    far = "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default."
+    _all_right(recording, "empty", far)
+
+
+def _all_right(recording: Recording, kind: str, hint: str) -> None:
+    wrong = next((look for look in _looks(recording) if look.sector.kind == kind and not look.right), None)
+    if wrong:
+        _miss(wrong, hint)
+
+
+def _miss(look: Look, hint: str) -> None:
+    raise Missed(
+        f"{look.sector.nearest:.3g} m on {look.topic} at {look.stamp:.3g} s",
+        "nothing" if look.said is None else f"{look.said:.3g} m",
+        hint,
+    )
+
+
+def _why_wrong(recording: Recording, looks: list[Look], wrong: Look) -> str:
+    """The usual reasons for a wrong distance."""
+    if wrong.said == wrong.sector.middle:
+        return "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it."
+    if recording.world is None:
+        near = [item for item in looks if item.stamp == wrong.stamp and item.topic != wrong.topic]
+        if wrong.said is not None and any(abs(item.sector.nearest - wrong.said) < 0.001 for item in near):
+            return (
+                "That is the distance of another direction. This lidar's first ray looks back (angle_min "
+                "is -180 degrees), and it has 180 rays: the angle of ray i is msg.angle_min + i * "
+                "msg.angle_increment."
+            )
+        return (
+            "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the "
+            "angle of each, msg.angle_min + i * msg.angle_increment."
+        )
+    if wrong.topic == "/front":
+        return (
+            "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at "
+            "-10. Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180."
+        )
+    return "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right."
+
+
+def _looks(recording: Recording) -> Iterator[Look]:
+    """What was said after each scan: the last message on a topic before the next one came."""
+    scans = recording.messages("/scan")
+    messages = {topic: recording.messages(topic) for topic in MIDDLES}
+    times = {topic: stamps(heard) for topic, heard in messages.items()}
+    before: dict[str, Sector] = {}
+    for scan, following in itertools.pairwise(scans):
+        seen = _sectors(scan)
+        for topic, sector in seen.items():
+            if scan.stamp < 0.3:
+                continue  # the node may just have come up
+            last = bisect.bisect_left(times[topic], following.stamp) - 1
+            if last >= 0 and times[topic][last] >= scan.stamp:
+                at_once = times[topic][last] < scan.stamp + LAG
+                said = messages[topic][last].message.data
+                yield Look(scan.stamp, topic, said, sector, before.get(topic) if at_once else None)
+            elif following.stamp > scan.stamp + PATIENCE:
+                yield Look(scan.stamp, topic, None, sector, None)
+        before = seen
+
+
+def _sectors(scan: Heard) -> dict[str, Sector]:
+    message = scan.message
+    ranges = np.array(message.ranges)
+    angles = np.degrees(message.angle_min + np.arange(len(ranges)) * message.angle_increment)
+    off = {topic: np.abs((angles - middle + 180.0) % 360.0 - 180.0) for topic, middle in MIDDLES.items()}
+    return {
+        topic: Sector(ranges[far <= HALF + EDGE], ranges[far <= HALF - EDGE], float(ranges[far.argmin()]))
+        for topic, far in off.items()
+    }
+
+
+sectors = Exercise(
+    "sectors",
+    "Ahead, left and right",
+    [says_three_distances, knows_the_directions, leaves_out_lost_rays, knows_near_and_far],
+    scenarios=[
+        Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
+        Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
+    ],
+)

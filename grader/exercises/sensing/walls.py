@@ -1,0 +1,133 @@
+"""An exercise on control: follow the wall round a room."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import statistics
+
+from grader.checks import Missed, check, keeps_clear, passes, publishes, series, travelled
+from grader.exercise import Exercise
+from grader.exercises.sensing.places import MARGIN, gallery
+from grader.exercises.topics.advice import advising
+from sim.recording import Pose, Recording
+
+NEAR, FAR = 0.3, 0.8  # metres from the wall
+SETTLED = 3.0  # seconds
+SHARE = 0.9  # of the time
+
+
+@check(points=2)
+def leaves_the_start(recording: Recording) -> None:
+    """The robot drives ahead, with commands on /cmd_vel."""
+    publishes(recording, "/cmd_vel", "geometry_msgs/msg/Twist")
+    if travelled(recording) < 0.5:
+        with advising(recording, "While nothing is ahead, linear.x should be 0.2 or more."):
+            raise Missed("a robot that drives", f"a way of {travelled(recording):.2f} m", picture="path")
+
+
+@check(points=8, after=leaves_the_start)
+def goes_round(recording: Recording) -> None:
+    """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
+    left, low, right, top = recording.world.bounds
+    corners = [
+        (right - MARGIN, low + MARGIN),
+        (right - MARGIN, top - MARGIN),
+        (left + MARGIN, top - MARGIN),
+        (left + MARGIN, low + MARGIN),
+    ]
+    try:
+        passes(recording, corners, tolerance=0.6)
+    except Missed as missed:
+        done = round(missed.credit * 4)
+        corner = ("lower right", "upper right", "upper left", "lower left")[done]
+        raise Missed(
+            "the four corners: lower right, upper right, upper left, lower left",
+            f"{done} of them; then it never came within 0.6 m of the {corner} one's inside",
+            _why_not_round(recording),
+            credit=missed.credit,
+            picture="path",
+        ) from None
+
+
+@check(points=4, after=goes_round)
+def keeps_the_distance(recording: Recording) -> None:
+    """It keeps 30 cm to 80 cm from the wall, for nine tenths of the time or more."""
+    gaps = [_gap(recording, pose) for pose in recording.path if pose.stamp >= SETTLED]
+    share = sum(NEAR <= gap <= FAR for gap in gaps) / len(gaps)
+    if share < SHARE:
+        near, far = sum(gap < NEAR for gap in gaps), sum(gap > FAR for gap in gaps)
+        hint = (
+            "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before "
+            "it is 0.3 m."
+            if near > far
+            else "Turn a little to the right when the wall on the right is further than 0.5 m: it must "
+            "not get lost."
+        )
+        raise Missed(
+            f"{SHARE:.0%} of the time at {NEAR:g} m to {FAR:g} m from the nearest wall",
+            f"{share:.0%} of the time; {near / len(gaps):.0%} nearer, {far / len(gaps):.0%} further away",
+            hint,
+            credit=share * 0.8,
+            picture="path",
+        )
+
+
+@check(points=4, after=goes_round)
+def touches_nothing(recording: Recording) -> None:
+    """It touches nothing."""
+    try:
+        keeps_clear(recording)
+    except Missed as missed:
+        raise Missed(
+            missed.expected,
+            missed.saw,
+            "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m.",
+            picture="path",
+        ) from None
+
+
+def _gap(recording: Recording, pose: Pose) -> float:
+    """The distance to the nearest of the room's walls, m."""
+    left, low, right, top = recording.world.bounds
+    return min(pose.x - left, right - pose.x, pose.y - low, top - pose.y)
+
+
+def _why_not_round(recording: Recording) -> str:
+    """The usual reasons for not getting round."""
+    if not all(math.isfinite(turn) for _, turn in series(recording, "/cmd_vel", "angular.z")):
+        return (
+            "It came so near to the wall that a ray said -inf (or nan), the formula made an infinite turn of "
+            "it, and the robot refuses that. Steer so that it stays 0.5 m away."
+        )
+    if recording.contacts:
+        first = recording.contacts[0]
+        return (
+            f"It touched a {first.what} at {first.stamp:.3g} s, with its {first.side} side. When the wall "
+            "ahead is nearer than 0.6 m, stop and turn left until it is free again."
+        )
+    gap = statistics.median(_gap(recording, pose) for pose in recording.path)
+    if not NEAR <= gap <= FAR:
+        return f"Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m."
+    left, low, right, top = recording.world.bounds
+    middle = (left + right) / 2, (low + top) / 2
+    bearings = [math.atan2(pose.y - middle[1], pose.x - middle[0]) for pose in recording.path]
+    around = sum(math.remainder(b - a, math.tau) for a, b in itertools.pairwise(bearings))
+    if around < -math.pi / 2:
+        return "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270]."
+    if travelled(recording) < 10.0:
+        return "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more."
+    return (
+        "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays "
+        "at 0.5 m."
+    )
+
+
+wall = Exercise(
+    "wall",
+    "Round the room",
+    [leaves_the_start, goes_round, keeps_the_distance, touches_nothing],
+    world=gallery,
+    seconds=90,
+    seeds=(1, 2),
+)
