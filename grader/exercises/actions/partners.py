@@ -1,0 +1,141 @@
+"""Clients of ours for 04_actions: they send goals to the student's server, one after the other."""
+
+from __future__ import annotations
+
+import random
+from typing import Any, NamedTuple
+
+from example_interfaces.action import Fibonacci
+from nav2_msgs.action import Spin
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from rclpy.task import Future
+
+STATUS = {4: "succeeded", 5: "canceled", 6: "aborted"}
+PAUSE = 1.0  # seconds between the end of a goal and the next one
+
+
+class Wish(NamedTuple):
+    """A goal to send; after so many seconds its client wants to cancel it."""
+
+    goal: Any
+    patience: float | None = None
+
+
+class GoalSender(Node):
+    """Sends its wishes one after the other: the next one when the one before has ended."""
+
+    name, action, type = "goal_sender", "/fibonacci", Fibonacci
+
+    def __init__(self) -> None:
+        super().__init__(self.name)
+        self.client = ActionClient(self, self.type, self.action)
+        self.wishes = self.plan()
+        self.idle = PAUSE  # seconds since the last goal ended
+        self.create_timer(0.1, self.tick)
+
+    def plan(self) -> list[Wish]:
+        """What to send; from the seed of the run."""
+        raise NotImplementedError
+
+    def tick(self) -> None:
+        """Send the next goal, if it is time."""
+        self.idle += 0.1
+        if self.wishes and self.idle >= PAUSE and self.client.server_is_ready():
+            self.idle = float("-inf")
+            wish = self.wishes.pop(0)
+            future = self.client.send_goal_async(wish.goal)
+            future.add_done_callback(lambda future: self.hear_response(future, wish))
+
+    def hear_response(self, future: Future, wish: Wish) -> None:
+        """The server has accepted or rejected the goal."""
+        handle = future.result()
+        if not handle.accepted:
+            self.finish(wish, "rejected")
+            return
+        handle.get_result_async().add_done_callback(lambda future: self.hear_result(future, wish))
+        if wish.patience is not None:
+            self.cancel_later(handle, wish)
+
+    def cancel_later(self, handle: Any, wish: Wish) -> None:
+        """Ask once for the end of a goal."""
+
+        def cancel() -> None:
+            timer.cancel()
+            self.get_logger().info(f"{words(wish.goal)}: please cancel it")
+            handle.cancel_goal_async()
+
+        timer = self.create_timer(wish.patience, cancel)
+
+    def hear_result(self, future: Future, wish: Wish) -> None:
+        """The goal has ended."""
+        answer = future.result()
+        self.finish(wish, f"{STATUS.get(answer.status, 'unknown')} {words(answer.result)}")
+
+    def finish(self, wish: Wish, how: str) -> None:
+        """Log how a goal ended, and be ready for the next one."""
+        self.get_logger().info(f"{words(wish.goal)}: {how}")
+        self.idle = 0.0
+
+
+def words(message: Any) -> str:
+    """A goal or result in one line."""
+    if hasattr(message, "order"):
+        return f"order {message.order}"
+    if hasattr(message, "sequence"):
+        return str(list(message.sequence))
+    if hasattr(message, "target_yaw"):
+        return f"turn by {message.target_yaw:.2f} rad"
+    return message.error_msg and f"({message.error_msg})"
+
+
+class Mathematician(GoalSender):
+    """Sends two goals with a small order to /fibonacci, which come from the seed of the run."""
+
+    name = "mathematician"
+
+    def plan(self) -> list[Wish]:
+        """Two different orders."""
+        return [Wish(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 8), 2)]
+
+
+class Examiner(GoalSender):
+    """Sends goals with good and bad orders to /fibonacci, some of them just at the limits 1 and 20."""
+
+    name = "examiner"
+
+    def plan(self) -> list[Wish]:
+        """The last one takes the longest."""
+        orders = [random.randint(4, 6), 0, 21, 1, -random.randint(1, 9), random.randint(50, 99), 20]
+        return [Wish(Fibonacci.Goal(order=order)) for order in orders]
+
+
+class Impatient(GoalSender):
+    """Sends a long goal to /fibonacci, cancels it on the way, and then sends a short one."""
+
+    name = "impatient"
+
+    def plan(self) -> list[Wish]:
+        """The moment of the cancel comes from the seed of the run."""
+        return [
+            Wish(Fibonacci.Goal(order=20), patience=random.uniform(1.6, 3.4)),
+            Wish(Fibonacci.Goal(order=random.randint(3, 6))),
+        ]
+
+
+class Captain(GoalSender):
+    """Sends four goals to /spin: to the left, to the right, by more than half a turn, and one it cancels.
+
+    The angles come from the seed of the run.
+    """
+
+    name, action, type = "captain", "/spin", Spin
+
+    def plan(self) -> list[Wish]:
+        """Angles in radians."""
+        return [
+            Wish(Spin.Goal(target_yaw=random.uniform(0.8, 1.5))),
+            Wish(Spin.Goal(target_yaw=-random.uniform(1.0, 2.0))),
+            Wish(Spin.Goal(target_yaw=random.uniform(3.6, 4.6))),
+            Wish(Spin.Goal(target_yaw=9.0), patience=random.uniform(1.5, 2.5)),
+        ]
