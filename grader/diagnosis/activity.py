@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sim.recording import INFRASTRUCTURE_TOPICS, Recording
+from sim.recording import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
 
 
 def slow_callback(recording: Recording) -> str:
@@ -14,7 +14,7 @@ def slow_callback(recording: Recording) -> str:
         of_node = [run for run in recording.callbacks if run.node == timer.node]
         fired = sum(run.kind == "timer" and run.callback == timer.callback for run in of_node)
         slowest = max(of_node, key=lambda run: run.duration, default=None)
-        if slowest and slowest.duration > timer.period and fired < 0.8 * due:
+        if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
             return (
                 f"The timer of {timer.node} fired {_times(fired)} in {recording.ended.stamp:.3g} s; "
                 f"{due} were due. "
@@ -23,6 +23,12 @@ def slow_callback(recording: Recording) -> str:
                 f"returning: it held the node for {slowest.duration:.3g} s. Let the timer do the waiting."
             )
     return ""
+
+
+def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:
+    """Whether a callback keeps the others of its node waiting; one that awaits or has a thread does not."""
+    end = slowest.stamp + slowest.duration
+    return slowest.duration > period and not any(slowest.stamp < run.stamp < end for run in of_node)
 
 
 def never_spun(recording: Recording) -> str:

@@ -60,6 +60,27 @@ SERVICE_RULES = (
         "What the client asks for is in the request of the goal handle: `goal_handle.request.{0}`.",
     ),
     Rule(
+        "AttributeError", r"'\w+_FeedbackMessage' object has no attribute '(\w+)'",
+        "The message of a feedback callback has the feedback inside: `msg.feedback.{0}`.",
+    ),
+    Rule(
+        "AttributeError", r"'\w+_GetResult_Response' object has no attribute '(\w+)'",
+        "What comes in the end has two parts, a status and the result: `future.result().result.{0}`.",
+    ),
+    Rule(
+        "AttributeError", r"'\w+_Result' object has no attribute 'status'",
+        "The status is beside the result, not in it: `future.result().status`.",
+    ),
+    Rule(
+        "AttributeError", r"'ClientGoalHandle' object has no attribute '\w+'",
+        "The first answer only says whether the goal is accepted. The result comes later: "
+        "`goal_handle.get_result_async().add_done_callback(self.hear_result)`.",
+    ),
+    Rule(
+        "AttributeError", r"^(\w+) cannot be modified after node creation",
+        "Every node has a `{0}` of its own: take another name, such as `self.my_{0}`.",
+    ),
+    Rule(
         "RCLError", r"invalid transition from state EXECUTING with event CANCELED",
         "canceled() is for a goal that a client wants to cancel: call it only when "
         "goal_handle.is_cancel_requested is True; abort() is for what went wrong.",

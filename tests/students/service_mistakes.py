@@ -159,6 +159,47 @@ class SendsTheWholeAction(Runner):
         self.client.send_goal_async(Fibonacci)
 
 
+class HearsFeedbackWithoutFeedback(Runner):
+    def tick(self):
+        self.timer.cancel()
+        self.client.send_goal_async(Fibonacci.Goal(order=3), feedback_callback=self.hear)
+
+    def hear(self, msg):
+        self.get_logger().info(f"{msg.sequence}")
+
+    def execute(self, goal_handle):
+        goal_handle.publish_feedback(Fibonacci.Feedback(sequence=[0, 1]))
+        return super().execute(goal_handle)
+
+
+class ReadsTheResultOfTheHandle(Runner):
+    def tick(self):
+        self.timer.cancel()
+        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.accepted)
+
+    def accepted(self, future):
+        self.get_logger().info(f"{future.result().result}")
+
+
+class ReadsTheSequenceOfTheAnswer(ReadsTheResultOfTheHandle):
+    def accepted(self, future):
+        future.result().get_result_async().add_done_callback(self.over)
+
+    def over(self, future):
+        self.get_logger().info(f"{future.result().sequence}")
+
+
+class ReadsTheStatusOfTheResult(ReadsTheSequenceOfTheAnswer):
+    def over(self, future):
+        self.get_logger().info(f"{future.result().result.status}")
+
+
+class KeepsTheGoalAsHandle(Runner):
+    def execute(self, goal_handle):
+        self.handle = goal_handle
+        return super().execute(goal_handle)
+
+
 class ActionServerWithoutCallback(Runner):
     def tick(self):
         ActionServer(self, Fibonacci, "other")

@@ -3,9 +3,11 @@
 import pytest
 
 from grader.diagnosis import DIAGNOSES, explain
+from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits
+from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
 
 SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
@@ -103,6 +105,7 @@ def test_a_cause_is_explained(students, sentence):
         ((actions.Server, actions.Greedy), None),
         ((actions.Aborting, actions.Client), None),
         ((actions.parallel_server, actions.Impatient), None),
+        ((DriveServer, SpinServer, SquareClient), "yard"),  # awaits its goals, and holds nobody up
     ],
 )
 def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):

@@ -56,6 +56,14 @@ ADVICE = {
     "`goal_handle.request.order`.",
     mistakes.SendsANumber: GOAL,
     mistakes.SendsTheWholeAction: GOAL,
+    mistakes.HearsFeedbackWithoutFeedback: "The message of a feedback callback has the feedback inside: "
+    "`msg.feedback.sequence`.",
+    mistakes.ReadsTheResultOfTheHandle: "The first answer only says whether the goal is accepted. The result comes "
+    "later: `goal_handle.get_result_async().add_done_callback(self.hear_result)`.",
+    mistakes.ReadsTheSequenceOfTheAnswer: "What comes in the end has two parts, a status and the result: "
+    "`future.result().result.sequence`.",
+    mistakes.ReadsTheStatusOfTheResult: "The status is beside the result, not in it: `future.result().status`.",
+    mistakes.KeepsTheGoalAsHandle: "Every node has a `handle` of its own: take another name, such as `self.my_handle`.",
     mistakes.ActionServerWithoutCallback: "ActionServer() is missing an argument: write "
     "ActionServer(self, Type, 'name', self.execute).",
     mistakes.SendsGoalsOfAnotherType: OTHER_TYPE.format("/count"),
