@@ -28,7 +28,7 @@ def slow_callback(recording: Recording) -> str:
 def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:
     """Whether a callback keeps the others of its node waiting; one that awaits or has a thread does not."""
     end = slowest.stamp + slowest.duration
-    return slowest.duration > period and not any(slowest.stamp < run.stamp < end for run in of_node)
+    return slowest.duration > period and not any(slowest.stamp < run.stamp < end - 1e-6 for run in of_node)
 
 
 def never_spun(recording: Recording) -> str:
