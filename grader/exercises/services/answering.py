@@ -7,7 +7,7 @@ import re
 
 from grader.checks import Missed, check, series
 from grader.exercise import Exercise
-from grader.exercises.services.calls import Call, accepted, asked, not_so, refused, offers
+from grader.exercises.services.calls import Call, accepted, asked, not_so, offers, refused
 from grader.exercises.services.partners import READINGS, Pupil, RawGyro, Technician
 from sim.recording import Recording
 

@@ -167,8 +167,8 @@ def _told_instead(recording: Recording, heard: Heard) -> tuple[str, str]:
     saw = ", ".join(f"“{line.text}” ({line.level})" for line in lines) or "no line"
     if heard.topic != "/chatter2" and _is_told(recording, heard, "/chatter2"):
         return saw, (
-            "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when it "
-            "is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial."
+            "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
+            "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial."
         )
     return saw, ""
 
