@@ -9,6 +9,7 @@ import socket
 import struct
 
 import pytest
+from playwright.sync_api import expect
 
 from sim.standalone import server
 from tests.browser.conftest import browser  # noqa: F401  (a fixture)
@@ -118,7 +119,7 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
         page.on("console", lambda line: faults.append(line.text))
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(address)
-        page.wait_for_function("Number(document.querySelector('.time b').textContent) > 0.5")
+        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"), timeout=30_000)
         page.locator("canvas").click()
         page.keyboard.down("ArrowUp")
         page.wait_for_timeout(2000)
@@ -139,7 +140,7 @@ def test_a_machine_is_shown_without_a_pad(browser):  # noqa: F811
     with robot("--world", "arm", "--port", "0") as running:
         page = browser.new_page()
         page.goto(re.search(r"at (http://\S+)", running.offer)[1])
-        page.wait_for_function("Number(document.querySelector('.time b').textContent) > 0.1")
+        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[1-9]|[1-9])"), timeout=30_000)
         assert page.get_by_text("/joint_commands").count() == 1
         assert page.get_by_text("DRIVE").count() == page.get_by_text("drive with the arrow keys").count() == 0
         page.close()

@@ -140,7 +140,11 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
             {"cell": 0.1},
             "A generated maze cannot be: cell is 0.1; write a number from 0.4 to 5 (metres).",
         ),
-        ("maze", {"rows": 1000}, "A generated maze cannot be: rows is 1000; write a whole number from 2 to 40."),
+        (
+            "maze",
+            {"rows": 1000},
+            "A generated maze cannot be: rows is 1000; write a whole number from 2 to 40.",
+        ),
         (
             "clutter",
             {"density": 0.5},
