@@ -8,7 +8,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 PARTS = ("scenario", "startup", "world", "machines", "repeats", "digests", "grading", "view")
-ON_REQUEST = ("peers",)  # installs what it compares with
+# peers installs what it compares with; navigator takes minutes
+ON_REQUEST = ("peers", "navigator")
 
 
 def machine() -> str:

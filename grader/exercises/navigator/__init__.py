@@ -1,0 +1,41 @@
+"""The exercises of 06_navigator, from the way to a goal to a navigator that Nav2's clients can use."""
+
+from grader.exercises.navigator.driving import compass, drive
+from grader.exercises.navigator.following import follow
+from grader.exercises.navigator.mapping import costmap
+from grader.exercises.navigator.navigating import navigate
+from grader.exercises.navigator.partners import (
+    CostmapServer,
+    GoalClient,
+    GoalSender,
+    Localization,
+    MapServer,
+    Planner,
+    PointClicker,
+    Wanderer,
+    bringup,
+    made_for,
+)
+from grader.exercises.navigator.planning import plan
+from grader.exercises.navigator.worlds import blocked, world_of
+
+__all__ = [
+    "CostmapServer",
+    "GoalClient",
+    "GoalSender",
+    "Localization",
+    "MapServer",
+    "Planner",
+    "PointClicker",
+    "Wanderer",
+    "blocked",
+    "bringup",
+    "compass",
+    "costmap",
+    "drive",
+    "follow",
+    "made_for",
+    "navigate",
+    "plan",
+    "world_of",
+]

@@ -1,0 +1,139 @@
+"""The floor of a world as a grid: what is solid, how far one has to go, and a way that can be driven."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+
+from sim.world import World
+
+Point = tuple[float, float]
+Cell = tuple[int, int]  # (column, row)
+
+RESOLUTION = 0.05  # metres; a cell's width
+MARGIN = 0.22  # metres around the world's bounds; nobody knows what is there. It is no whole number of cells
+# Straight and diagonal steps, and those of a chess knight: with them a way is at most 3 % too long.
+_STEPS = [(dx, dy) for dx in range(-2, 3) for dy in range(-2, 3) if (dx or dy) and math.gcd(dx, dy) == 1]
+
+
+class Ground:
+    """The cells of a world; arrays have the shape (rows, columns), row 0 is the lowest.
+
+    origin: the map's lower left corner (m). clearance: how far each cell's middle is from everything solid
+    (m), 0 inside of it. known: whether the cell lies within the world's bounds.
+    """
+
+    def __init__(self, world: World) -> None:
+        left, bottom, right, top = world.bounds
+        self.origin = left - MARGIN, bottom - MARGIN
+        self.columns = math.ceil((right - left + 2 * MARGIN) / RESOLUTION)
+        self.rows = math.ceil((top - bottom + 2 * MARGIN) / RESOLUTION)
+        x = self.origin[0] + (np.arange(self.columns) + 0.5) * RESOLUTION
+        y = self.origin[1] + (np.arange(self.rows) + 0.5) * RESOLUTION
+        self.x, self.y = np.meshgrid(x, y)
+        self.clearance = _clearance(world, self.x, self.y)
+        near = RESOLUTION * 0.75
+        self.known = (self.x > left - near) & (self.x < right + near)
+        self.known &= (self.y > bottom - near) & (self.y < top + near)
+        self._goal = world.goal
+
+    @property
+    def occupied(self) -> np.ndarray:
+        """The cells that something solid reaches into."""
+        return self.known & (self.clearance < RESOLUTION * math.sqrt(0.5))
+
+    def cell(self, point: Point) -> Cell:
+        """The cell that holds a point, cut to the map."""
+        column, row = (
+            math.floor((value - low) / RESOLUTION) for value, low in zip(point, self.origin, strict=True)
+        )
+        return min(max(column, 0), self.columns - 1), min(max(row, 0), self.rows - 1)
+
+    def middle(self, cell: Cell) -> Point:
+        """The middle of a cell (m)."""
+        return float(self.x[cell[1], cell[0]]), float(self.y[cell[1], cell[0]])
+
+    def free(self, radius: float) -> np.ndarray:
+        """The cells in whose middle a disc of this radius (m) touches nothing."""
+        return self.known & (self.clearance > radius)
+
+    @functools.cache  # noqa: B019  (grounds are few, and kept)
+    def to_goal(self) -> np.ndarray:
+        """How far it is from each cell to the world's goal for the robot (m); inf where there is no way."""
+        return self.lengths(self.free(0.1), self._goal)
+
+    def lengths(self, free: np.ndarray, goal: Point) -> np.ndarray:
+        """How far it is from each cell to the goal over free cells (m); inf where there is no way."""
+        column, row = self.cell(goal)
+        padded = np.full((self.rows + 4, self.columns + 4), np.inf)
+        inner = padded[2:-2, 2:-2]
+        inner[row, column] = 0.0
+        closed = ~free
+        closed[row, column] = False
+        before = None
+        while before is None or not np.array_equal(inner, before):
+            before = inner.copy()
+            for dx, dy in _STEPS:
+                from_there = padded[2 + dy : 2 + dy + self.rows, 2 + dx : 2 + dx + self.columns]
+                np.minimum(inner, from_there + math.hypot(dx, dy) * RESOLUTION, out=inner)
+                inner[closed] = np.inf
+        return inner.copy()
+
+
+def _clearance(world: World, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    gaps = np.full(x.shape, np.inf)
+    for x0, y0, x1, y1 in world.segments():
+        ex, ey = x1 - x0, y1 - y0
+        along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
+        gaps = np.minimum(gaps, np.hypot(x0 + along * ex - x, y0 + along * ey - y))
+    for disc_x, disc_y, radius in world.discs():
+        gaps = np.minimum(gaps, np.maximum(np.hypot(x - disc_x, y - disc_y) - radius, 0.0))
+    for box in world.boxes:
+        c, s = math.cos(box.yaw), math.sin(box.yaw)
+        u, v = c * (x - box.x) + s * (y - box.y), c * (y - box.y) - s * (x - box.x)
+        gaps[(np.abs(u) < box.width / 2) & (np.abs(v) < box.height / 2)] = 0.0
+    return gaps
+
+
+@functools.lru_cache(maxsize=64)
+def ground(world: World) -> Ground:
+    """The ground of a world; worked out once."""
+    return Ground(world)
+
+
+@functools.lru_cache(maxsize=64)
+def shortest(world: World, radius: float = 0.12) -> float:
+    """The length of the shortest way from the world's start to its goal for a disc (m); inf without one."""
+    floor = ground(world)
+    column, row = floor.cell(world.start[:2])
+    return float(floor.lengths(floor.free(radius), world.goal)[row, column])
+
+
+@functools.lru_cache(maxsize=64)
+def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
+    """A smooth way from start to goal, a point every few centimetres, that keeps `radius` (m) from all.
+
+    Where that is too much to ask, it keeps less. Raises ValueError when there is no way for the robot.
+    """
+    floor = ground(world)
+    for gap in (radius, 0.2, 0.15, 0.12):
+        lengths = floor.lengths(floor.free(gap), world.goal)
+        here = floor.cell(world.start[:2])
+        if np.isfinite(lengths[here[1], here[0]]):
+            break
+    else:
+        raise ValueError(f"world {world.name}: there is no way from start to goal")
+    way = [world.start[:2]]
+    while lengths[here[1], here[0]] > 0:
+        here = min(
+            ((here[0] + dx, here[1] + dy) for dx, dy in _STEPS),
+            key=lambda cell, at=here: lengths[cell[1], cell[0]] + math.dist(cell, at) * RESOLUTION,
+        )
+        way.append(floor.middle(here))
+    way.append(world.goal)
+    smooth = np.array(way)
+    for _ in range(3):
+        smooth[1:-1] = (smooth[:-2] + smooth[1:-1] + smooth[2:]) / 3
+    return tuple((float(x), float(y)) for x, y in smooth)

@@ -1,0 +1,376 @@
+"""Navigators: right ones, and wrong ones named by their defect. Each is a main()."""
+
+import itertools
+import math
+import time
+
+import numpy as np
+import rclpy
+from geometry_msgs.msg import Twist
+from nav2_msgs.action import NavigateToPose, Spin
+from nav_msgs.msg import OccupancyGrid, Path
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.task import Future
+from sensor_msgs.msg import LaserScan
+
+from tests.students.navigator._parts import (
+    LATCHED,
+    Localized,
+    carrot,
+    cells_of,
+    find_path,
+    inflate,
+    path_message,
+    rest_of,
+    stamped,
+    steer,
+    to_cell,
+    to_point,
+)
+
+
+class Mapper(Localized):
+    """The map with what the lidar sees beside it, plans on both, commands."""
+
+    wall, near_wall, looks = 0.15, 0.3, 2.0  # m
+
+    def __init__(self, name="navigator"):
+        super().__init__(name)
+        self.info = self.known = self.marked = None
+        self.recoveries = 0
+        self.command_publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.plan_publisher = self.create_publisher(Path, "/plan", 10)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
+
+    def on_map(self, msg):
+        self.info, self.known = msg.info, cells_of(msg)
+        self.explained = inflate(self.known, 0.2 / msg.info.resolution)
+        self.marked = self.known.copy()
+
+    def on_scan(self, scan):
+        if self.marked is None or self.pose is None:
+            return
+        x, y, yaw = self.pose
+        ranges = np.array(scan.ranges)
+        angles = yaw + scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        hit = (ranges > scan.range_min) & (ranges < self.looks)
+        xs, ys = x + ranges[hit] * np.cos(angles[hit]), y + ranges[hit] * np.sin(angles[hit])
+        for column, row in {to_cell(self.info, *place) for place in zip(xs, ys, strict=True)}:
+            inside = 0 <= column < self.info.width and 0 <= row < self.info.height
+            if inside and self.explained[row, column] == 0:
+                self.marked[row, column] = 100
+
+    def plan(self, goal):
+        reach = 1 / self.info.resolution
+        close, near = inflate(self.marked, self.wall * reach), inflate(self.marked, self.near_wall * reach)
+        costs = np.where(close == 0, near // 2, close).tolist()
+        way = find_path(costs, to_cell(self.info, *self.pose[:2]), to_cell(self.info, *goal))
+        points = [to_point(self.info, *cell) for cell in way]
+        self.plan_publisher.publish(path_message(points))
+        if not points:
+            self.recoveries += 1
+            self.marked = self.known.copy()
+        return points
+
+    def is_blocked(self, path):
+        marks = [to_point(self.info, column, row) for row, column in np.argwhere(self.marked != self.known)]
+        return any(math.dist(mark, point) < 0.14 for mark in marks for point in path)
+
+    def drive(self, speed, turn):
+        command = Twist()
+        command.linear.x, command.angular.z = float(speed), float(turn)
+        self.command_publisher.publish(command)
+
+    def feedback(self, path, began):
+        rest = rest_of(path, self.pose)
+        distance = math.fsum(math.dist(*pair) for pair in itertools.pairwise(rest))
+        return NavigateToPose.Feedback(
+            current_pose=stamped(*self.pose),
+            navigation_time=(self.get_clock().now() - began).to_msg(),
+            number_of_recoveries=self.recoveries,
+            distance_remaining=distance,
+            estimated_time_remaining=Duration(seconds=distance / 0.4).to_msg(),
+        )
+
+
+class Navigator(Mapper):
+    """As the notebook has it; the wrong ones change a part."""
+
+    action, kind, ahead, near = "navigate_to_pose", NavigateToPose, 0.3, 0.1
+
+    def __init__(self):
+        super().__init__()
+        self.server = ActionServer(
+            self,
+            self.kind,
+            self.action,
+            self.execute,
+            callback_group=ReentrantCallbackGroup(),
+            goal_callback=self.on_goal,
+            cancel_callback=self.on_cancel,
+        )
+
+    def on_goal(self, request):
+        return GoalResponse.ACCEPT
+
+    def on_cancel(self, goal_handle):
+        return CancelResponse.ACCEPT
+
+    def goal_of(self, goal_handle):
+        position = goal_handle.request.pose.pose.position
+        return position.x, position.y
+
+    def execute(self, goal_handle):
+        began, goal, path = self.get_clock().now(), self.goal_of(goal_handle), []
+        self.recoveries = 0
+        while self.pose is None or self.info is None or math.dist(self.pose[:2], goal) > self.near:
+            time.sleep(0.1)
+            if self.pose is None or self.info is None:
+                continue
+            if self.is_canceled(goal_handle):
+                return self.canceled(goal_handle)
+            if not path or self.is_blocked(path):
+                path = self.plan(goal)
+            if path:
+                self.drive(*steer(self.pose, carrot(path, self.pose, self.ahead)))
+                self.tell(goal_handle, path, began)
+            else:
+                self.drive(0.0, 0.0)
+        return self.arrived(goal_handle)
+
+    def is_canceled(self, goal_handle):
+        return goal_handle.is_cancel_requested
+
+    def canceled(self, goal_handle):
+        self.drive(0.0, 0.0)
+        goal_handle.canceled()
+        return NavigateToPose.Result()
+
+    def tell(self, goal_handle, path, began):
+        goal_handle.publish_feedback(self.feedback(path, began))
+
+    def arrived(self, goal_handle):
+        self.drive(0.0, 0.0)
+        goal_handle.succeed()
+        return NavigateToPose.Result()
+
+
+def main_of(node, executor=MultiThreadedExecutor):
+    """A main() that spins this node."""
+
+    def main():
+        rclpy.init()
+        spinner = executor()
+        spinner.add_node(node())
+        spinner.spin()
+
+    return main
+
+
+class TimerNavigator(Mapper):
+    """Execute only awaits a future; a timer does all the work, and one thread is enough."""
+
+    def __init__(self):
+        super().__init__("timer_navigator")
+        self.goal_handle = None
+        self.server = ActionServer(
+            self, NavigateToPose, "/navigate_to_pose", self.execute,
+            cancel_callback=lambda goal_handle: CancelResponse.ACCEPT,
+        )  # fmt: skip
+        self.create_timer(0.1, self.work)
+
+    async def execute(self, goal_handle):
+        self.path, self.began, self.done = [], self.get_clock().now(), Future()
+        self.goal_handle = goal_handle
+        await self.done
+        return NavigateToPose.Result()
+
+    def work(self):
+        if self.goal_handle is None or self.pose is None or self.info is None:
+            return
+        position = self.goal_handle.request.pose.pose.position
+        goal = position.x, position.y
+        if self.goal_handle.is_cancel_requested:
+            self.finish(self.goal_handle.canceled)
+        elif math.dist(goal, self.pose[:2]) < 0.15:
+            self.finish(self.goal_handle.succeed)
+        else:
+            if not self.path or self.is_blocked(self.path):
+                self.path = self.plan(goal)
+            if self.path:
+                self.drive(*steer(self.pose, carrot(self.path, self.pose, 0.25), 0.3))
+                self.goal_handle.publish_feedback(self.feedback(self.path, self.began))
+
+    def finish(self, how):
+        self.drive(0.0, 0.0)
+        how()
+        self.goal_handle = None
+        self.done.set_result(None)
+
+
+class ReplansAlways(Navigator):
+    """Makes a new plan twice a second, as Nav2's default tree does once; looks at the lidar only then."""
+
+    looks = 1.2
+    turn = 0
+
+    def is_blocked(self, path):
+        self.turn += 1
+        return self.turn % 5 == 0
+
+
+def main_with_try():
+    """A tutorial's main(), with try, finally and a rate of its own."""
+    rclpy.init()
+    node = Navigator()
+    executor = MultiThreadedExecutor(num_threads=4)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+main = main_of(Navigator)
+timer_main = main_of(TimerNavigator, SingleThreadedExecutor)
+replanning_main = main_of(ReplansAlways)
+
+
+class OtherName(Navigator):
+    action = "navigate"
+
+
+class OtherType(Navigator):
+    kind = Spin
+
+
+class Blind(Navigator):
+    """Never looks at the lidar."""
+
+    def on_scan(self, scan):
+        pass
+
+
+class WithoutInflation(Navigator):
+    wall = near_wall = 0.0
+
+
+class GoalInOdom(Navigator):
+    """Takes the goal as if it were counted from where the robot started."""
+
+    @property
+    def pose(self):
+        return self.frames.get("base_link")
+
+
+class ForgetsToSucceed(Navigator):
+    def arrived(self, goal_handle):
+        self.drive(0.0, 0.0)
+        return NavigateToPose.Result()
+
+
+class ReturnsNothing(Navigator):
+    def arrived(self, goal_handle):
+        self.drive(0.0, 0.0)
+        goal_handle.succeed()
+
+
+class SucceedsAtOnce(Navigator):
+    near = 1e9
+
+
+class IsThereTooEarly(Navigator):
+    near = 0.8
+
+
+class RejectsAll(Navigator):
+    def on_goal(self, request):
+        return GoalResponse.REJECT
+
+
+class RefusesToCancel(Navigator):
+    def on_cancel(self, goal_handle):
+        return CancelResponse.REJECT
+
+
+class IgnoresTheCancel(Navigator):
+    def is_canceled(self, goal_handle):
+        return False
+
+
+class DrivesOnAfterTheCancel(Navigator):
+    """Stops to steer, but the last command was another."""
+
+    def canceled(self, goal_handle):
+        self.drive(0.4, 0.0)
+        goal_handle.canceled()
+        return NavigateToPose.Result()
+
+
+class NoFeedback(Navigator):
+    def tell(self, goal_handle, path, began):
+        pass
+
+
+class FeedbackByOdometry(Navigator):
+    """Where the robot is since its start, and how far it has come."""
+
+    def feedback(self, path, began):
+        feedback = super().feedback(path, began)
+        feedback.current_pose = stamped(*self.frames["base_link"])
+        feedback.distance_remaining = math.hypot(*self.frames["base_link"][:2])
+        return feedback
+
+
+class NoEstimate(Navigator):
+    def feedback(self, path, began):
+        feedback = super().feedback(path, began)
+        feedback.estimated_time_remaining = Duration().to_msg()
+        return feedback
+
+
+class DrivesInCirclesFirst(Navigator):
+    """Takes 50 s to begin."""
+
+    def execute(self, goal_handle):
+        for _ in range(500):
+            self.drive(0.05, 1.0)
+            time.sleep(0.1)
+            if goal_handle.is_cancel_requested:
+                break
+        return super().execute(goal_handle)
+
+
+class NeverDrives(Navigator):
+    def drive(self, speed, turn):
+        pass
+
+
+other_name = main_of(OtherName)
+other_type = main_of(OtherType)
+blind = main_of(Blind)
+without_inflation = main_of(WithoutInflation)
+goal_in_odom = main_of(GoalInOdom)
+forgets_to_succeed = main_of(ForgetsToSucceed)
+returns_nothing = main_of(ReturnsNothing)
+succeeds_at_once = main_of(SucceedsAtOnce)
+is_there_too_early = main_of(IsThereTooEarly)
+rejects_all = main_of(RejectsAll)
+refuses_to_cancel = main_of(RefusesToCancel)
+ignores_the_cancel = main_of(IgnoresTheCancel)
+drives_on_after_the_cancel = main_of(DrivesOnAfterTheCancel)
+no_feedback = main_of(NoFeedback)
+feedback_by_odometry = main_of(FeedbackByOdometry)
+no_estimate = main_of(NoEstimate)
+drives_in_circles_first = main_of(DrivesInCirclesFirst)
+never_drives = main_of(NeverDrives)
+with_one_thread = main_of(Navigator, SingleThreadedExecutor)
+
+PARTS = ("main_of", *(name for name, item in list(vars().items()) if isinstance(item, type)))
