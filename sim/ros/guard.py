@@ -15,6 +15,8 @@ from time import thread_time
 from types import FrameType
 from typing import TYPE_CHECKING
 
+import greenlet
+
 from sim.ros.fibers import Fiber, outside_student_code
 
 if TYPE_CHECKING:
@@ -69,11 +71,15 @@ class Guard:
 
     def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True
-        if self.engine.current is not None:
+        if self._student_code() is not None:
             raise KeyboardInterrupt  # what a program on a robot gets
 
+    def _student_code(self) -> Fiber | None:
+        """The fiber that the signal came into; None in the moment before it goes on: the hub still runs."""
+        return None if greenlet.getcurrent() is self.engine.hub else self.engine.current
+
     def _look(self, number: int, frame: FrameType | None) -> None:
-        fiber, stretch, seen = self.engine.current, self.engine.stretch, self._seen
+        fiber, stretch, seen = self._student_code(), self.engine.stretch, self._seen
         self._seen = thread_time()
         self._total += self._seen - seen
         if fiber is None or stretch != self._stretch:

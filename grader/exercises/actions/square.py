@@ -88,7 +88,7 @@ def _hint(recording: Recording) -> str:
 
 
 square = Exercise(
-    "square",
+    "square_by_actions",
     "A square out of actions",
     [sends_both_kinds, waits_for_the_end, passes_the_corners, comes_back],
     world="yard",
