@@ -2,7 +2,6 @@
 
 from grader.exercises import sensing
 from tests.exercises.assignment import Assignment
-from tests.exercises.score_tables import executed
 
 
 class TestSensing(Assignment):
