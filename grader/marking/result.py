@@ -1,0 +1,111 @@
+"""What marking one submission gives: plain data that crosses processes as JSON and is checked on arrival."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+MAX_BYTES = 60_000_000  # of one submission's result
+
+# marked: all went as usual. repaired: the notebook had to be mended first. stopped: the student's code was
+# stopped, or ended its process, before the last cell. refused: there was nothing that could be run.
+VERDICTS = ("marked", "repaired", "stopped", "refused")
+
+
+class ResultError(ValueError):
+    """Data that is no result; the message says what is wrong with it."""
+
+
+@dataclass(frozen=True)
+class CellResult:
+    """What one test cell earned, as the instructor's process judged it."""
+
+    cell: str  # nbgrader's grade_id
+    exercise: str
+    points: float
+    max: float
+    verdicts: list[dict[str, Any]] = field(default_factory=list)  # as in Score.as_dict()
+    digests: list[str] = field(default_factory=list)  # of the recordings that were judged
+    needs_look: bool = False  # a check of ours broke: the instructor decides
+
+
+@dataclass(frozen=True)
+class NotebookResult:
+    """One notebook after marking: nbformat 4 JSON with outputs, and its test cells in order."""
+
+    name: str  # without .ipynb
+    notebook: dict[str, Any]
+    cells: list[CellResult] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Result:
+    """All that marking one submission gives.
+
+    key: hexadecimal digest of everything that was marked: submission, release, secret, version.
+    repairs: a sentence for each thing that was mended. flags: for each thing that no honest submission does.
+    reason: why it was stopped or refused; "" otherwise.
+    timings: seconds by name ("total", "start", and each cell as "notebook/cell"); peak memory in MB as
+        "memory". They are no part of the grade.
+    """
+
+    student: str
+    assignment: str
+    key: str
+    verdict: str
+    reason: str = ""
+    repairs: list[str] = field(default_factory=list)
+    flags: list[str] = field(default_factory=list)
+    notebooks: list[NotebookResult] = field(default_factory=list)
+    timings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def points(self) -> float:
+        """What the submission earned."""
+        return math.fsum(cell.points for notebook in self.notebooks for cell in notebook.cells)
+
+    def to_json(self) -> str:
+        """As text. The same result gives the same text."""
+        return json.dumps(asdict(self), sort_keys=True, ensure_ascii=False, allow_nan=False)
+
+    def grade_json(self) -> str:
+        """The same without what differs from one marking to the next: the timings."""
+        return replace(self, timings={}).to_json()
+
+    @staticmethod
+    def from_json(text: str | bytes) -> Result:
+        """Read what `to_json` wrote. Raises ResultError with one sentence for anything else."""
+        if len(text) > MAX_BYTES:
+            size = len(text) / 1e6
+            raise ResultError(f"a result has at most {MAX_BYTES / 1e6:g} MB, this one has {size:.0f} MB")
+        try:
+            data = json.loads(text, parse_constant=_refuse)
+            notebooks = [
+                NotebookResult(**{**item, "cells": [CellResult(**cell) for cell in item["cells"]]})
+                for item in data.pop("notebooks")
+            ]
+            result = Result(**data, notebooks=notebooks)
+            _check(result)
+        except (TypeError, KeyError, AttributeError, ValueError, RecursionError) as error:
+            raise ResultError(f"this is no result of marking: {error}") from None
+        return result
+
+
+def _refuse(constant: str) -> float:
+    raise ValueError(f"{constant} is no number of points")
+
+
+def _check(result: Result) -> None:
+    words = (result.student, result.assignment, result.key, result.reason, *result.repairs, *result.flags)
+    if not all(isinstance(word, str) for word in words):
+        raise ValueError("names and sentences are text")
+    if result.verdict not in VERDICTS:
+        raise ValueError(f"the verdict is one of {', '.join(VERDICTS)}, not {result.verdict!r}")
+    for cell in (cell for notebook in result.notebooks for cell in notebook.cells):
+        numbers = (cell.points, cell.max)
+        if not all(isinstance(number, (int, float)) and not isinstance(number, bool) for number in numbers):
+            raise ValueError(f"the points of {cell.cell} are numbers")
+        if not 0 <= cell.points <= cell.max < math.inf:
+            raise ValueError(f"{cell.cell} has {cell.points:g} points of {cell.max:g}")
