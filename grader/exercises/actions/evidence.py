@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from grader.checks import Missed, serves_action
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.exchanges import Goal
 from sim.recording import Recording, Seconds
 

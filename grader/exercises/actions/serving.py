@@ -16,7 +16,7 @@ from grader.exercises.actions.evidence import (
     state,
 )
 from grader.exercises.actions.partners import Examiner, Mathematician
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.exchanges import Goal
 from sim.recording import Recording, stamps
 

@@ -16,7 +16,7 @@ from grader.exercises.actions.evidence import (
 )
 from grader.exercises.actions.partners import Impatient
 from grader.exercises.actions.serving import OFFER, SUCCEED
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.exchanges import CANCEL_REQUESTED, Goal
 from sim.recording import Recording, Seconds
 

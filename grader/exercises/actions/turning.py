@@ -18,7 +18,7 @@ from grader.exercises.actions.evidence import (
     state,
 )
 from grader.exercises.actions.partners import Captain
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.exchanges import CANCEL_REQUESTED, Goal
 from sim.recording import Recording, Seconds, stamps
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 
 from grader.checks import Missed, arrives, check, publishes, series, stands_still, travelled
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.navigator.partners import Wanderer
 from grader.exercises.navigator.progress import tenths
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording, Seconds
 
 GOAL = (5.0, 5.0)

@@ -10,11 +10,11 @@ import numpy as np
 from grader.checks import Missed, check, publishes, series, stands_still
 from grader.checks.motion import distances_to_line
 from grader.exercise import Exercise, Scenario
+from grader.exercises.advice import advising
 from grader.exercises.navigator.ground import drivable
 from grader.exercises.navigator.partners import Localization, Planner, made_for
 from grader.exercises.navigator.progress import is_hopeless, stood_still, tenths
 from grader.exercises.navigator.worlds import world_of
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 TWIST = "geometry_msgs/msg/Twist"

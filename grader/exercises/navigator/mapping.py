@@ -10,11 +10,11 @@ import numpy as np
 
 from grader.checks import Missed, check, publishes, subscribes
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.navigator.ground import Point
 from grader.exercises.navigator.partners import MapServer, PointClicker, made_for
 from grader.exercises.navigator.progress import tenths
 from grader.exercises.navigator.worlds import world_of
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 GRID, POINT = "nav_msgs/msg/OccupancyGrid", "geometry_msgs/msg/PointStamped"

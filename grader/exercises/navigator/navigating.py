@@ -8,6 +8,7 @@ from typing import Any
 
 from grader.checks import Missed, cancels, check, series, serves_action, travelled
 from grader.exercise import Exercise, Scenario
+from grader.exercises.advice import advising
 from grader.exercises.navigator.partners import GoalClient, bringup, made_for
 from grader.exercises.navigator.progress import (
     ACTION,
@@ -25,7 +26,6 @@ from grader.exercises.navigator.progress import (
     wrong_pose,
 )
 from grader.exercises.navigator.worlds import blocked, world_of
-from grader.exercises.topics.advice import advising
 from sim.exchanges import Goal
 from sim.recording import Recording
 from sim.world import World

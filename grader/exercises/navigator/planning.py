@@ -10,11 +10,11 @@ import numpy as np
 
 from grader.checks import Missed, check, publishes
 from grader.exercise import Exercise, Scenario
+from grader.exercises.advice import advising
 from grader.exercises.navigator.ground import Point, ground
 from grader.exercises.navigator.partners import CostmapServer, GoalSender, Localization, made_for
 from grader.exercises.navigator.progress import tenths
 from grader.exercises.navigator.worlds import world_of
-from grader.exercises.topics.advice import advising
 from sim.recording import Heard, Recording
 from sim.world import World
 

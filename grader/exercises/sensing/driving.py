@@ -6,8 +6,8 @@ import math
 
 from grader.checks import Missed, check, keeps_clear, publishes, series, stands_still, travelled
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.sensing.places import furnished_room, hall
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 TWIST = "geometry_msgs/msg/Twist"

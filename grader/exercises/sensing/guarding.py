@@ -7,6 +7,7 @@ import math
 
 from grader.checks import Missed, check, keeps_clear, publishes, subscribes
 from grader.exercise import Exercise, Scenario
+from grader.exercises.advice import advising
 from grader.exercises.sensing.evidence import (
     BLOCKED,
     FREE,
@@ -21,7 +22,6 @@ from grader.exercises.sensing.evidence import (
 )
 from grader.exercises.sensing.partners import BadRadio, CarelessDriver, CrashingDriver, Radio
 from grader.exercises.sensing.places import furnished_room, long_hall
-from grader.exercises.topics.advice import advising
 from sim import Process
 from sim.recording import Pose, Recording, Seconds
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from grader.checks import Missed, check, publishes, subscribes
 from grader.exercise import Exercise, Scenario
+from grader.exercises.advice import advising
 from grader.exercises.sensing.partners import Circling, StrangeLidar
 from grader.exercises.sensing.places import furnished_room
-from grader.exercises.topics.advice import advising
 from sim.recording import Heard, Recording, Seconds, stamps
 
 SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"

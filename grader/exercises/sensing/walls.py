@@ -8,8 +8,8 @@ import statistics
 
 from grader.checks import Missed, check, keeps_clear, passes, publishes, series, travelled
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.sensing.places import MARGIN, gallery
-from grader.exercises.topics.advice import advising
 from sim.recording import Pose, Recording
 
 NEAR, FAR = 0.3, 0.8  # metres from the wall

@@ -7,9 +7,9 @@ import itertools
 from grader.checks import Missed, check, publishes, rate, series
 from grader.diagnosis.activity import slow_callback
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.services.calls import Call, accepted, calls, has_client, refused
 from grader.exercises.services.servers import Door, SlowAdder, Wheels
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 WAITING = (

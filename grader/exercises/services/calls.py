@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 
 from grader.checks import Missed, serves
 from grader.checks.ends import declared
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.recording import Recording, Seconds
 
 OURS = {"/pupil", "/technician", "/pilot", "/tuner", "/operator"}  # nodes that ask the student's

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from grader.checks import Missed, check, named, publishes
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.services.calls import Call, accepted, asked, calls, not_so, offers, refused
 from grader.exercises.services.partners import Operator
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording, Seconds
 
 ARM, RESET, SET = "/arm", "/reset", "/manager/set_parameters"

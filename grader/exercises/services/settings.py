@@ -6,9 +6,9 @@ import math
 
 from grader.checks import Missed, check, named, publishes, series
 from grader.exercise import Exercise
+from grader.exercises.advice import advising
 from grader.exercises.services.calls import Call, accepted, asked, not_so, refused
 from grader.exercises.services.partners import Tuner
-from grader.exercises.topics.advice import advising
 from sim.recording import Recording
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"

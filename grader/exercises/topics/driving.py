@@ -18,7 +18,7 @@ from grader.checks import (
     travelled,
 )
 from grader.exercise import Exercise
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.recording import Recording, stamps
 
 PAIRS = "A remapping is a pair of names: first the one in the node's code, then the one on the robot."

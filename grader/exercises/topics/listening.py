@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from grader.checks import Missed, answers, check, subscribes
 from grader.exercise import Exercise
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from grader.exercises.topics.partners import COMMANDS, Chatterbox, CommandSender
 from sim.recording import Heard, LogLine, Recording
 

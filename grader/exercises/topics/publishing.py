@@ -7,7 +7,7 @@ import math
 
 from grader.checks import Missed, check, publishes, rate, series, within
 from grader.exercise import Exercise
-from grader.exercises.topics.advice import advising
+from grader.exercises.advice import advising
 from sim.recording import Recording
 
 
