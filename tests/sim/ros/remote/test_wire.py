@@ -1,0 +1,134 @@
+"""The wire between two processes: what goes over it, and each way in which it fails."""
+
+import json
+import socket
+import struct
+import threading
+
+import pytest
+
+from sim.ros.remote import Wire, WireBroken, WireClosed, WireTimeout
+
+
+@pytest.fixture
+def ends():
+    near, far = socket.socketpair()
+    with near, far:
+        yield near, far
+
+
+@pytest.fixture
+def wires(ends):
+    return Wire(ends[0]), Wire(ends[1])
+
+
+def framed(body: bytes) -> bytes:
+    return struct.pack(">I", len(body)) + body
+
+
+def test_messages_come_whole_and_in_order(wires):
+    near, far = wires
+    near.send(do="go", now=1)
+    near.send(text="Grüße, \ud800 and \0", numbers=[1, 0.1, None, True], big=2**63)
+    assert far.receive() == {"do": "go", "now": 1}
+    assert far.receive(1) == {
+        "text": "Grüße, \ud800 and \0",
+        "numbers": [1, 0.1, None, True],
+        "big": 2**63,
+    }
+
+
+def test_a_message_may_be_longer_than_any_buffer_between(wires):
+    near, far = wires
+    text = "x" * 5_000_000
+    sender = threading.Thread(target=near.send, kwargs={"text": text})
+    sender.start()
+    assert far.receive(30) == {"text": text}
+    sender.join()
+
+
+def test_who_hung_up_is_gone(wires):
+    near, far = wires
+    near.send(last=1)
+    near.close()
+    assert far.receive() == {"last": 1}
+    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+        far.receive()
+    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+        far.send(anyone=1)
+    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+        near.receive()
+
+
+def test_half_a_message_is_none(ends):
+    ends[0].sendall(framed(b'{"a":1}')[:-1])
+    ends[0].close()
+    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+        Wire(ends[1]).receive()
+
+
+def test_silence_has_its_limit_and_the_rest_may_still_come(ends):
+    far = Wire(ends[1])
+    with pytest.raises(WireTimeout, match=r"^nothing whole came for 0\.05 s$"):
+        far.receive(0.05)
+    ends[0].sendall(framed(b'{"a":1}')[:6])
+    with pytest.raises(WireTimeout, match=r"^nothing whole came for 0\.05 s$"):
+        far.receive(0.05)
+    ends[0].sendall(framed(b'{"a":1}')[6:])
+    assert far.receive(0.05) == {"a": 1}
+
+
+def test_who_takes_no_message_is_not_waited_for_for_ever(ends):
+    with pytest.raises(WireTimeout, match=r"^the other side took no message for 0\.05 s$"):
+        Wire(ends[0], patience=0.05).send(text="x" * 5_000_000)
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        (b"", "what came is no JSON"),
+        (b"{", "what came is no JSON"),
+        (b'{"a":NaN}', "what came is no JSON"),
+        (b'{"a":-Infinity}', "what came is no JSON"),
+        (b'"\xff"', "what came is no JSON"),
+        (b"[" * 100_000, "what came is no JSON"),
+        (b'{"a":' + b"9" * 5000 + b"}", "what came is no JSON"),
+        (b"[1]", "what came is no JSON object but a list"),
+        (b"null", "what came is no JSON object but a NoneType"),
+    ],
+)
+def test_what_is_no_json_object_is_refused(ends, body, words):
+    ends[0].sendall(framed(body))
+    with pytest.raises(WireBroken, match=f"^{words}$"):
+        Wire(ends[1]).receive(1)
+
+
+def test_a_message_that_is_too_long_is_refused_before_it_comes(ends):
+    ends[0].sendall(struct.pack(">I", 2**32 - 1))
+    with pytest.raises(WireBroken, match=r"^a message of 4294967295 bytes is too long: 100 are allowed$"):
+        Wire(ends[1], limit=100).receive(1)
+
+
+def test_a_message_that_is_too_long_is_not_sent(wires, ends):
+    with pytest.raises(WireBroken, match=r"^a message of 108 bytes is too long: 100 are allowed$"):
+        Wire(ends[0], limit=100).send(text="x" * 97)
+    wires[0].send(all="well")
+    assert wires[1].receive(1) == {"all": "well"}
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (b"raw", "this can't be sent: Object of type bytes is not JSON serializable"),
+        (float("nan"), "this can't be sent: Out of range float values are not JSON compliant"),
+    ],
+)
+def test_what_json_has_no_words_for_is_not_sent(wires, value, words):
+    with pytest.raises(WireBroken, match=f"^{words}"):
+        wires[0].send(value=value)
+
+
+def test_what_is_sent_is_plain_json_with_its_length_before(ends):
+    Wire(ends[0]).send(a="ä")
+    size = struct.unpack(">I", ends[1].recv(4))[0]
+    assert json.loads(ends[1].recv(size)) == {"a": "ä"}
