@@ -62,5 +62,5 @@ class ImuTopic:
 
 
 def variance_of(bias: float) -> float:
-    """The variance of a bias that is drawn evenly between minus and plus this figure."""
-    return bias**2 / 3
+    """The variance of a bias that is drawn evenly from half to all of this figure, to either side."""
+    return 7 / 12 * bias**2

@@ -17,7 +17,7 @@ class ImuModel(Model):
     """An IMU in the middle of the robot: readings per second, noise and bias of gyro and accelerometer.
 
     Noise is a standard deviation, for each reading anew. A bias is constant: each axis has its own, drawn
-    from the run's seed between minus and plus the figure given here.
+    from the run's seed: half to all of the figure given here, to either side. So there always is one.
     """
 
     rate: Annotated[float, within(1, 100, "Hz")] = 100.0
@@ -52,8 +52,8 @@ class Imu:
 
     def __init__(self, model: ImuModel, body: pymunk.Body, rng: np.random.Generator) -> None:
         self._model, self._body, self._rng = model, body, rng
-        self._gyro_bias = rng.uniform(-model.gyro_bias, model.gyro_bias)
-        self._accel_bias = [rng.uniform(-model.accel_bias, model.accel_bias) for _ in "xyz"]
+        self._gyro_bias = _drawn(rng, model.gyro_bias)
+        self._accel_bias = [_drawn(rng, model.accel_bias) for _ in "xyz"]
         self._velocity = body.velocity
         self._angle = body.angle
         self._forward = self._left = 0.0  # sums of velocity changes, m/s
@@ -89,3 +89,9 @@ class Imu:
         self._steps = 0
         self._reading = ImuReading(stamp, wrap(yaw + w * elapsed), w, ax, ay, az)
         return self._reading
+
+
+def _drawn(rng: np.random.Generator, most: float) -> float:
+    """A bias from half to all of `most`, to either side."""
+    drawn = rng.uniform(-most, most)
+    return math.copysign((most + abs(drawn)) / 2, drawn)

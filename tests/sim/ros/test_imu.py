@@ -55,10 +55,10 @@ def test_on_a_circle_it_feels_the_turn_and_the_push_inwards():
 
 
 def test_variances_are_those_of_the_model():
-    """A bias that is drawn evenly from -b to b has the variance b^2 / 3."""
+    """A bias that is drawn evenly from b / 2 to b, to either side, has the variance 7/12 b^2."""
     stamp, message = imu_of(ROUGH)[-1]
-    gyro, accel = 0.01**2 + 0.03**2 / 3, 0.2**2 + 0.3**2 / 3
-    yaw = 0.03**2 / 3 * stamp**2 + 0.01**2 * stamp / 100
+    gyro, accel = 0.01**2 + 7 / 12 * 0.03**2, 0.2**2 + 7 / 12 * 0.3**2
+    yaw = 7 / 12 * 0.03**2 * stamp**2 + 0.01**2 * stamp / 100
     assert list(message.angular_velocity_covariance) == pytest.approx([0] * 8 + [gyro])
     assert list(message.linear_acceleration_covariance) == pytest.approx(
         [accel, 0, 0, 0, accel, 0, 0, 0, accel]
