@@ -1,0 +1,130 @@
+"""Finds the cells of an assignment in what a student handed in, even where their names were lost.
+
+By name (nbgrader's grade_id), then by cell id, then by text and place between cells that are known. Where
+two cells could be meant, neither is taken.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from grader.marking.sheet import Cell
+
+ALIKE = 0.5  # share of the lines that were handed out
+CLEARLY = 0.2  # how much more alike than the next
+
+Pairs = list[tuple[int, int]]  # index in the release, index in the sheet
+
+
+@dataclass
+class Match:
+    """Which cells of a sheet are which of a release's, all by index.
+
+    copies: for each cell of the release its copies in the sheet, in order; empty where it is missing.
+    by_id, by_look: cells of the release whose name was lost. swapped: those that bore another one's name.
+    """
+
+    copies: list[list[int]]
+    by_id: list[int] = field(default_factory=list)
+    by_look: list[int] = field(default_factory=list)
+    swapped: list[int] = field(default_factory=list)
+
+    def taken(self) -> set[int]:
+        """The cells of the sheet that are the release's."""
+        return {index for copies in self.copies for index in copies}
+
+
+def match(release: Sequence[Cell], sheet: Sequence[Cell]) -> Match:
+    """Find the cells of `release` in `sheet`."""
+    found = Match([[] for _ in release])
+    _by_name(release, sheet, found)
+    _by_id(release, sheet, found)
+    for pairs in (_equal, _alike, _alone):
+        for missing, free in _gaps(found, len(sheet)):
+            for r, s in pairs(release, sheet, missing, free):
+                found.copies[r].append(s)
+                if release[r].name:
+                    found.by_look.append(r)
+    return found
+
+
+def _by_name(release: Sequence[Cell], sheet: Sequence[Cell], found: Match) -> None:
+    names = {cell.name: r for r, cell in enumerate(release) if cell.name}
+    ids = {cell.id: names[cell.name] for cell in release if cell.id and cell.name}
+    for s, cell in enumerate(sheet):
+        r = names.get(cell.name)
+        if r is None:
+            continue
+        other = ids.get(cell.id, r)
+        if other != r:  # an id is made with its cell and nobody sees it, so it is the better witness
+            found.swapped.append(other)
+        found.copies[other].append(s)
+
+
+def _by_id(release: Sequence[Cell], sheet: Sequence[Cell], found: Match) -> None:
+    ids = {cell.id: r for r, cell in enumerate(release) if cell.id}
+    for s in sorted(set(range(len(sheet))) - found.taken()):
+        r = ids.get(sheet[s].id)
+        if r is not None and not found.copies[r]:
+            found.copies[r].append(s)
+            if release[r].name:
+                found.by_id.append(r)
+
+
+def _gaps(found: Match, length: int) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield the missing cells between two known ones, with the free cells of the sheet in the same place."""
+    taken = found.taken()
+    missing: list[int] = []
+    start = 0
+    for r, copies in enumerate([*found.copies, [length]]):
+        if not copies:
+            missing.append(r)
+            continue
+        if missing:
+            yield missing, [s for s in range(start, copies[0]) if s not in taken]
+        missing, start = [], copies[-1] + 1
+
+
+def _equal(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], free: list[int]) -> Pairs:
+    """Those that say the same."""
+    return _only(missing, free, lambda r, s: float(release[r].key == sheet[s].key), least=1.0)
+
+
+def _alike(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], free: list[int]) -> Pairs:
+    """Those that kept most lines of what was handed out, or define what it defined."""
+
+    def likeness(r: int, s: int) -> float:
+        if sheet[s].kind not in (release[r].kind, ""):
+            return 0.0
+        ours, theirs = release[r], sheet[s]
+        kept = len(ours.lines & theirs.lines) / max(1, len(ours.lines))
+        return kept + bool(ours.defined and ours.defined <= theirs.defined)
+
+    return _only(missing, free, likeness, least=ALIKE)
+
+
+def _alone(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], free: list[int]) -> Pairs:
+    """An answer and the only cell in its place."""
+    answers = [r for r in missing if release[r].settings.get("solution") is True]
+    cells = [s for s in free if sheet[s].kind in ("code", "") and sheet[s].key]
+    alone = len(answers) == len(cells) == 1 and release[answers[0]].kind == "code"
+    return [(answers[0], cells[0])] if alone else []
+
+
+def _only(
+    missing: Sequence[int], free: Sequence[int], likeness: Callable[[int, int], float], least: float
+) -> Pairs:
+    """The pairs that are clearly more alike than either of the two is to any other."""
+    table = {(r, s): likeness(r, s) for r in missing for s in free}
+    pairs = []
+    for r in missing:
+        s, value = _clearly_best({s: table[r, s] for s in free})
+        if s is not None and value >= least and _clearly_best({r: table[r, s] for r in missing})[0] == r:
+            pairs.append((r, s))
+    return pairs
+
+
+def _clearly_best(values: Mapping[int, float]) -> tuple[int | None, float]:
+    best, *others = sorted(values, key=values.__getitem__, reverse=True)[:2] or [None]
+    if best is None or (others and values[best] < values[others[0]] + CLEARLY):
+        return None, 0.0
+    return best, values[best]

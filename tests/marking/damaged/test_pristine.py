@@ -1,0 +1,34 @@
+"""What is as it should be stays as it is, and nothing is said about it."""
+
+import nbformat
+import pytest
+
+from grader.marking.rebuild import mend
+from grader.marking.samples import submission
+from grader.marking.submission import load
+from tests.marking.damaged.damage import ASSIGNMENTS, ROOT, same
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_an_honest_submission_is_run_as_it_is_and_nothing_is_said(assignment, share, tmp_path):
+    release = load(ROOT / "exercises" / assignment)
+    for name, starter in release.notebooks.items():
+        solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
+        nbformat.write(honest := submission(solution, starter, share), tmp_path / f"{name}.ipynb")
+        mended = mend(tmp_path, release)
+        assert (mended.repairs, mended.flags, mended.missing) == ([], [], {})
+        assert same(mended.notebooks[name].notebook, honest)
+        expected = {0.0: {"untouched"}, 0.5: {"untouched", "answered"}, 1.0: {"answered"}}
+        assert set(mended.notebooks[name].answers.values()) == expected[share]
+
+
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assignment):
+    release = load(ROOT / "exercises" / assignment)
+    mended = mend(ROOT / "solutions" / assignment, release)
+    beside = ["Handed in beside the notebook and not used: `my_weather.py`."]
+    assert (mended.repairs, mended.flags) == (beside if assignment == "01_nodes" else [], [])
+    for name, starter in release.notebooks.items():
+        solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
+        assert same(mended.notebooks[name].notebook, submission(solution, starter, 1.0))
