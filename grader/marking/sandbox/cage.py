@@ -1,0 +1,92 @@
+"""The cage around all inmates: what bubblewrap shows them of this machine, and why it may refuse."""
+
+import importlib.util
+import os
+import shutil
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from grader.marking.sandbox.cell import HOME
+from grader.marking.sandbox.errors import SandboxMissing
+
+UNSAFE = "or mark with `--unsafe`, which lets students' code read and change all your files"
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64")
+SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "fonts")
+USER = 1000
+
+# Where Linux can forbid what a sandbox needs, the value that does, and what undoes it.
+KNOBS = (
+    ("kernel/apparmor_restrict_unprivileged_userns", "1", "kernel.apparmor_restrict_unprivileged_userns=0"),
+    ("kernel/unprivileged_userns_clone", "0", "kernel.unprivileged_userns_clone=1"),
+    ("user/max_user_namespaces", "0", "user.max_user_namespaces=10000"),
+)
+
+
+def visible(extra: Iterable[Path]) -> list[str]:
+    """Return what inmates may read besides the system: Python, its packages, sim and grader, and `extra`."""
+    python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
+    packages = [importlib.util.find_spec(name).submodule_search_locations[0] for name in ("sim", "grader")]
+    paths = {Path(path).absolute() for path in (*python, *packages, *extra)}
+    system = {Path(path) for path in SYSTEM}
+    hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
+    return sorted(map(str, hidden))
+
+
+def environment(home: str, scratch: str) -> dict[str, str]:
+    """Return all environment variables of an inmate; nothing of the marker's own goes through."""
+    return {
+        "HOME": home,
+        "TMPDIR": scratch,
+        "USER": "student",
+        "PATH": f"{sys.prefix}/bin:/usr/bin:/bin",
+        "LANG": "C.UTF-8",
+        "PYTHONHASHSEED": "0",
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": "1",
+        "MALLOC_ARENA_MAX": "2",  # an arena takes 64 MB of address space, and threads would take one each
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+        "MPLCONFIGDIR": f"{scratch}/matplotlib",
+    }
+
+
+def command(paths: Iterable[str], program: list[str]) -> list[str]:
+    """Return the command that runs `program` in the cage. Raises SandboxMissing if there is no bubblewrap."""
+    bwrap = shutil.which("bwrap")
+    if not bwrap:
+        raise SandboxMissing(
+            "Marking runs students' code in a sandbox made by bubblewrap, and this machine has no `bwrap`: "
+            f"install it with `sudo apt install bubblewrap`, {UNSAFE}."
+        )
+    words = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
+    words += ["--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
+    words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
+    for name, value in environment(HOME, "/tmp").items():
+        words += ["--setenv", name, value]
+    # What is private comes first: the course may lie in /tmp.
+    words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME]
+    for path in SYSTEM:
+        if os.path.islink(path):
+            words += ["--symlink", os.readlink(path), path]
+        elif os.path.exists(path):
+            words += ["--ro-bind", path, path]
+    for name in SETTINGS:
+        words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
+    for path in paths:
+        words += ["--ro-bind", path, path]
+    words += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--"]
+    # A network of bubblewrap's own has a loopback interface that is up, and inmates could talk over it.
+    return [*words, "unshare", "--map-current-user", "--net", *program]
+
+
+def forbidden(words: str, settings: Path = Path("/proc/sys")) -> SandboxMissing:
+    """Return the error for a system that lets bubblewrap make no sandbox; `words` are its own."""
+    for name, value, undo in KNOBS:
+        file = settings / name
+        if file.exists() and file.read_text().strip() == value:
+            way = f"Allow user namespaces with `sudo sysctl {undo}`"
+            break
+    else:
+        way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
+    return SandboxMissing(f"This system lets bubblewrap make no sandbox ({words}). {way}, {UNSAFE}.")

@@ -1,0 +1,115 @@
+"""The walls around one inmate, built by the inmate's own process before it runs anything of a student's."""
+
+import contextlib
+import os
+import shutil
+import signal
+import socket
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+from grader.marking.sandbox import limits as limits_
+from grader.marking.sandbox import linux, seccomp
+from grader.marking.sandbox.limits import MB, Limits
+
+HOME = "/student"  # of an inmate in the cage, and where it starts
+WIRE, ANSWER = 3, 4  # descriptors of an inmate
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How an inmate is confined.
+
+    caged: in the cage; otherwise as a plain process. visible: folders that were bound from outside; those
+    in places that are private to each inmate, such as /tmp, are shown there again.
+    """
+
+    caged: bool
+    visible: list[str] = field(default_factory=list)
+
+
+@contextlib.contextmanager
+def folder(plan: Plan) -> Iterator[str]:
+    """Make the folder that is HOME, and remove it in the end. In the cage it is a file system of its own."""
+    if plan.caged:
+        yield HOME
+        return
+    path = tempfile.mkdtemp(prefix="inmate-")
+    try:
+        yield path
+    finally:
+        shutil.rmtree(path, ignore_errors=True)
+
+
+def separate() -> None:
+    """Give the children of this process namespaces of their own: users, processes, mounts and messages."""
+    user, group = os.getuid(), os.getgid()
+    linux.unshare(linux.NEW_USER | linux.NEW_PID | linux.NEW_IPC)
+    linux.set_dumpable(True)  # else these files would belong to root
+    Path("/proc/self/setgroups").write_text("deny")
+    Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
+    Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
+    linux.set_dumpable(False)
+
+
+def keep_only(wire: socket.socket, answer: int, stderr: IO[bytes]) -> tuple[socket.socket, int]:
+    """Close every descriptor but these, let stdin and stdout lead nowhere; return the wire and the answer."""
+    kept = [os.open(os.devnull, os.O_RDWR), stderr.fileno(), wire.fileno(), answer]
+    high = [os.dup(os.dup2(descriptor, 100 + i)) for i, descriptor in enumerate(kept)]
+    nothing, errors, wire_, answer_ = high
+    for source, target in ((nothing, 0), (nothing, 1), (errors, 2), (wire_, WIRE), (answer_, ANSWER)):
+        os.dup2(source, target, inheritable=target < WIRE)
+    wire.detach()
+    os.closerange(ANSWER + 1, os.sysconf("SC_OPEN_MAX"))
+    return socket.socket(fileno=WIRE), ANSWER
+
+
+def confine(limits: Limits, plan: Plan, home: str) -> None:
+    """Shut this process in: its files, its limits, its rights and its system calls."""
+    if plan.caged:
+        _furnish(limits, plan)
+    linux.die_with_parent(signal.SIGKILL)
+    os.chdir(home)
+    os.umask(0o077)
+    if not plan.caged:
+        os.environ |= {"HOME": home, "TMPDIR": home, "ROS_LOG_DIR": os.path.join(home, ".ros")}
+    tempfile.tempdir = None
+    limits_.apply(limits, own_users=plan.caged)
+    if plan.caged:
+        linux.drop_capabilities()
+        linux.set_dumpable(True)
+    linux.filter_calls(seccomp.program())
+
+
+def _furnish(limits: Limits, plan: Plan) -> None:
+    """Give this process files of its own: one small file system behind all places that can be written."""
+    linux.unshare(linux.NEW_MOUNT)
+    linux.mount("", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
+    options = f"mode=755,size={limits.scratch_mb * MB},nr_inodes={limits.scratch_files}"
+    linux.mount("scratch", HOME, "tmpfs", linux.MS_NOSUID | linux.MS_NODEV, options)
+    scratch = Path(HOME)
+    places = {"tmp": "/tmp", "shm": "/dev/shm", "terminals": "/dev/pts", "processes": "/proc", "home": HOME}
+    for name in places:
+        (scratch / name).mkdir()
+    # Of the processes it sees itself only.
+    (scratch / "processes/self").mkdir()
+    _bind("/proc/self", scratch / "processes/self")
+    for place in plan.visible:
+        for name, private in places.items():
+            if Path(place).is_relative_to(private):
+                _bind(place, scratch / name / Path(place).relative_to(private))
+    for name, place in places.items():
+        _bind(scratch / name, place)
+
+
+def _bind(source: str | Path, target: str | Path) -> None:
+    target = Path(target)
+    if Path(source).is_dir():
+        target.mkdir(parents=True, exist_ok=True)
+    elif not target.exists():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.touch()
+    linux.mount(str(source), str(target), flags=linux.MS_BIND | linux.MS_REC)

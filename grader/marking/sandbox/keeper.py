@@ -1,0 +1,157 @@
+"""The process beside each inmate: it makes the inmate, watches its limits and reports how it ended."""
+
+import contextlib
+import json
+import os
+import resource
+import select
+import signal
+import socket
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Callable
+from typing import IO, Any, NoReturn
+
+from grader.marking.sandbox import cell, linux
+from grader.marking.sandbox.cell import Plan
+from grader.marking.sandbox.limits import MB, Ending, Limits
+
+WATCH_S = 0.25  # between two looks at the number of threads
+WORDS = 4000  # bytes of stderr that are reported
+OUT_OF_MEMORY = 70  # the exit status of an inmate whose MemoryError nobody caught
+
+Entry = Callable[[socket.socket], Any]
+
+
+def keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limits, plan: Plan) -> NoReturn:
+    """Be the keeper of one inmate from its start to its end; for a fresh child of the warden.
+
+    Sends two messages over `report`: {} with a pidfd of the inmate once it runs, or {"failed": why}; then
+    its Ending.
+    """
+    try:
+        _keep(entry, wire, report, limits, plan)
+    except Exception as error:
+        report.send(json.dumps({"failed": str(error)}).encode())
+    finally:
+        os._exit(0)
+
+
+def _keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limits, plan: Plan) -> None:
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    linux.die_with_parent(signal.SIGKILL)
+    with cell.folder(plan) as home, tempfile.TemporaryFile() as stderr:
+        if plan.caged:
+            cell.separate()
+        processes = os.open("/proc", os.O_RDONLY)
+        ready, answer = os.pipe()
+        inmate = os.fork()
+        if not inmate:
+            _live(entry, wire, answer, stderr, limits, plan, home)
+        os.close(answer)
+        wire.close()
+        pidfd = os.pidfd_open(inmate)
+        if problem := _problem(ready):
+            os.waitpid(inmate, 0)
+            raise OSError(problem)
+        socket.send_fds(report, [b"{}"], [pidfd])
+        reason = _watch(inmate, pidfd, processes, limits)
+        _, status, used = os.wait4(inmate, 0)
+        ending = describe(status, used, limits, reason)
+        report.send(json.dumps(vars(ending) | {"words": _last_words(stderr)}).encode())
+
+
+def _problem(ready: int) -> str:
+    """Wait until the inmate is confined; return "" or what went wrong."""
+    with os.fdopen(ready, "rb") as pipe:
+        said = pipe.read()
+    return "" if said == b"ready" else said.decode() or "the process died before it was confined"
+
+
+def _watch(inmate: int, pidfd: int, processes: int, limits: Limits) -> str:
+    """Return when the inmate has ended; if a limit made us end it, return the kind of its end."""
+    deadline = time.monotonic() + limits.wall_s
+    poll = select.poll()
+    poll.register(pidfd, select.POLLIN)
+    while not poll.poll(1000 * max(0.0, min(WATCH_S, deadline - time.monotonic()))):
+        late = time.monotonic() >= deadline
+        # RLIMIT_NPROC does not bind the real root.
+        if late or _threads(inmate, processes) > limits.threads:
+            os.kill(inmate, signal.SIGKILL)
+            return "time" if late else "threads"
+    return ""
+
+
+def _threads(inmate: int, processes: int) -> int:
+    try:
+        with os.fdopen(os.open(f"{inmate}/stat", os.O_RDONLY, dir_fd=processes), "rb") as file:
+            return int(file.read().rpartition(b")")[2].split()[17])
+    except OSError:
+        return 0
+
+
+def _last_words(stderr: IO[bytes]) -> str:
+    end = stderr.seek(0, os.SEEK_END)
+    stderr.seek(max(0, end - WORDS))
+    return stderr.read(WORDS).decode(errors="replace").strip()
+
+
+def _live(
+    entry: Entry, wire: socket.socket, answer: int, stderr: IO[bytes], limits: Limits, plan: Plan, home: str
+) -> NoReturn:
+    """Become the inmate: be confined, then run the entry. Never returns."""
+    code = 1
+    try:
+        try:
+            wire, answer = cell.keep_only(wire, answer, stderr)
+            cell.confine(limits, plan, home)
+            os.write(answer, b"ready")
+        except Exception as error:
+            os.write(answer, str(error).encode())
+            return  # the `finally` below ends the process
+        os.close(answer)
+        entry(wire)
+        code = 0
+    except SystemExit as error:
+        code = error.code if isinstance(error.code, int) else 1
+    except MemoryError:
+        code = OUT_OF_MEMORY
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        # Not sys.exit: destructors of C++ libraries wait for threads that are not in a forked process.
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(Exception):
+                stream.flush()
+        os._exit(code & 0xFF)
+
+
+def describe(status: int, used: resource.struct_rusage, limits: Limits, reason: str) -> Ending:
+    """Tell how an inmate ended, from what wait4 says and the limit that was the `reason`, if any."""
+    code = os.waitstatus_to_exitcode(status)
+    cpu_s = used.ru_utime + used.ru_stime
+    peak_mb = used.ru_maxrss * 1024 / MB
+    kind = reason or _kind(code, cpu_s, peak_mb, limits)
+    details = {
+        "exited": "The process ended by itself" + (f", with exit status {code}." if code else "."),
+        "killed": "The process was killed from outside.",
+        "crashed": f"The process crashed: {signal.strsignal(-code) if code < 0 else ''}.",
+        "memory": f"The process needed more than the {limits.memory_mb} MB of memory that are allowed.",
+        "cpu": f"The process computed for more than the {limits.cpu_s} s that are allowed.",
+        "time": f"The process ran for more than the {limits.wall_s:g} s that are allowed.",
+        "threads": f"The process had more than the {limits.threads} threads that are allowed.",
+    }
+    return Ending(kind, details[kind], code, round(cpu_s, 3), round(peak_mb, 1))
+
+
+def _kind(code: int, cpu_s: float, peak_mb: float, limits: Limits) -> str:
+    if code == OUT_OF_MEMORY:
+        return "memory"
+    if code >= 0:
+        return "exited"
+    if code in (-signal.SIGKILL, -signal.SIGXCPU):
+        return "cpu" if cpu_s >= limits.cpu_s else "killed"
+    # C++ code that gets no memory aborts.
+    return "memory" if peak_mb > 0.7 * limits.memory_mb else "crashed"

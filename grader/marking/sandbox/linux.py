@@ -1,0 +1,69 @@
+"""The system calls that Python has no function for. Each raises OSError with the name of the call."""
+
+import ctypes
+import os
+
+NEW_USER = 0x10000000
+NEW_PID = 0x20000000
+NEW_IPC = 0x08000000
+NEW_MOUNT = 0x00020000
+
+MS_RDONLY, MS_NOSUID, MS_NODEV, MS_REMOUNT = 1, 2, 4, 32
+MS_BIND, MS_REC, MS_PRIVATE = 4096, 16384, 1 << 18
+
+_PR_SET_PDEATHSIG = 1
+_PR_SET_DUMPABLE = 4
+_PR_SET_SECCOMP = 22
+_PR_SET_NO_NEW_PRIVS = 38
+_SECCOMP_MODE_FILTER = 2
+_CAPABILITY_VERSION_3 = 0x20080522
+
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+def _call(name: str, *arguments: object) -> None:
+    if getattr(_libc, name)(*arguments) == -1:
+        number = ctypes.get_errno()
+        raise OSError(number, f"{name}: {os.strerror(number)}")
+
+
+def _prctl(option: int, *values: object) -> None:
+    numbers = [ctypes.c_ulong(value) if isinstance(value, int) else value for value in values]
+    _call("prctl", option, *numbers, *[ctypes.c_ulong(0)] * (4 - len(numbers)))
+
+
+def unshare(flags: int) -> None:
+    """Give this process namespaces of its own."""
+    _call("unshare", flags)
+
+
+def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str = "") -> None:
+    """Mount `source` on `target`, as mount(2) says."""
+    words = [word.encode() if word else None for word in (source, target, kind)]
+    _call("mount", *words, ctypes.c_ulong(flags), options.encode() if options else None)
+
+
+def die_with_parent(signal: int) -> None:
+    """Get `signal` when the parent dies."""
+    _prctl(_PR_SET_PDEATHSIG, signal)
+
+
+def set_dumpable(dumpable: bool) -> None:
+    """Say whether others of the same user may look into this process."""
+    _prctl(_PR_SET_DUMPABLE, int(dumpable))
+
+
+def drop_capabilities() -> None:
+    """Give up every capability. With no new privileges, which `filter_calls` sets, that is for ever."""
+    header = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION_3, 0)
+    _call("capset", header, (ctypes.c_uint32 * 6)())
+
+
+def filter_calls(program: bytes) -> None:
+    """Let the BPF `program` decide on every system call from now on, see seccomp(2)."""
+
+    class Program(ctypes.Structure):
+        _fields_ = [("length", ctypes.c_ushort), ("instructions", ctypes.c_char_p)]
+
+    _prctl(_PR_SET_NO_NEW_PRIVS, 1)
+    _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(Program(len(program) // 8, program)))

@@ -1,0 +1,83 @@
+"""Where the inmates live: a cage made by bubblewrap, with a warm interpreter in it."""
+
+import socket
+import threading
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Self
+
+from grader.marking.sandbox import cage
+from grader.marking.sandbox.errors import SandboxFailed
+from grader.marking.sandbox.inmate import Inmate
+from grader.marking.sandbox.limits import Limits
+from grader.marking.sandbox.warm import WarmProcess
+
+PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.core.interactiveshell")
+
+
+class Sandbox:
+    """Starts students' processes, each apart from everything and from each other.
+
+    entry: "module:function"; each inmate calls it with a connected unix socket, its only way out.
+    preload: modules that are imported once, before any inmate. imports: folders with more modules.
+    readable: files and folders that inmates may read, at the same paths as here. Besides those they see
+    the system's programs, Python with its packages, and the packages sim and grader; nothing else.
+    unsafe: no cage. Inmates then are plain processes with the same limits. They have no rights of their own
+    over the machine, and every right of the user who marks: they can read and write all files, use the
+    network and kill processes. For machines without bubblewrap, and for code that is trusted.
+    """
+
+    def __init__(
+        self,
+        entry: str = "grader.marking.student:main",
+        preload: Sequence[str] = PRELOAD,
+        readable: Sequence[Path] = (),
+        unsafe: bool = False,
+        limits: Limits = Limits(),  # noqa: B008
+        imports: Sequence[Path] = (),
+    ) -> None:
+        """Start the warm process. Raises SandboxMissing, and SandboxFailed if what it imports fails."""
+        self._order = {
+            "entry": entry,
+            "preload": list(preload),
+            "imports": [str(path) for path in imports],
+            "limits": asdict(limits),
+            "caged": not unsafe,
+            "visible": [] if unsafe else cage.visible([*readable, *imports]),
+        }
+        self._lock = threading.Lock()
+        self._warm: WarmProcess | None = WarmProcess(self._order)
+
+    def start(self, sock: socket.socket) -> Inmate:
+        """Start an inmate that gets `sock`, which is closed here. Raises SandboxFailed."""
+        with sock:
+            for _ in range(2):
+                warm = self._current()
+                inmate = warm.start(sock)
+                if inmate:
+                    return inmate
+                warm.end()
+        raise SandboxFailed("The sandbox broke twice while it started a process.")
+
+    def _current(self) -> WarmProcess:
+        """Return the warm process; a new one if it has died."""
+        with self._lock:
+            if self._warm is None:
+                raise SandboxFailed("This sandbox is closed.")
+            if self._warm.ended:
+                self._warm = WarmProcess(self._order)
+            return self._warm
+
+    def close(self) -> None:
+        """End the warm process and every inmate that still runs."""
+        with self._lock:
+            if self._warm:
+                self._warm.end()
+            self._warm = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

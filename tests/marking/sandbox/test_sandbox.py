@@ -1,0 +1,64 @@
+"""What a sandbox is for those who use it: inmates start warm, answer, end, and say how."""
+import socket
+
+import pytest
+
+from grader.marking.sandbox import Sandbox, SandboxFailed
+from tests.marking.sandbox.prison import sandbox
+
+
+def test_an_inmate_starts_in_a_home_of_its_own_as_a_student(prisoner):
+    seen = prisoner.ask("import os; answer = [os.getcwd(), os.environ['HOME'], os.getuid(), os.listdir()]")
+    assert seen == ["/student", "/student", 1000, []]
+
+
+def test_an_inmate_that_returns_has_exited(prisoner):
+    prisoner.wire.shutdown(socket.SHUT_WR)
+    ending = prisoner.ending()
+    assert (ending.kind, ending.code, ending.detail) == ("exited", 0, "The process ended by itself.")
+    assert ending.peak_mb > 10
+
+
+def test_its_memory_is_known_while_it_runs_and_afterwards(prisoner):
+    before = prisoner.inmate.memory()
+    prisoner.ask("held = bytearray(100_000_000)")
+    assert prisoner.inmate.memory() > before + 90
+    prisoner.inmate.kill()
+    assert prisoner.ending().peak_mb > before + 90
+    assert prisoner.inmate.memory() == prisoner.ending().peak_mb
+
+
+def test_what_it_writes_to_stderr_last_is_kept(prisoner):
+    prisoner.tell("import sys; print('careful', file=sys.stderr); sys.exit(3)")
+    ending = prisoner.ending()
+    assert (ending.kind, ending.code, ending.words) == ("exited", 3, "careful")
+    assert ending.detail == "The process ended by itself, with exit status 3."
+
+
+def test_waiting_for_one_that_runs_takes_as_long_as_said(prisoner):
+    with pytest.raises(TimeoutError, match=r"^the process still runs after 0 s$"):
+        prisoner.inmate.wait(0)
+
+
+def test_the_socket_is_handed_over(cage, prisoners):
+    ours, theirs = socket.socketpair()
+    inmate = cage.start(theirs)
+    assert theirs.fileno() == -1
+    ours.close()
+    assert inmate.wait(60).kind == "exited"
+
+
+def test_a_closed_sandbox_starts_nobody():
+    box = sandbox()
+    box.close()
+    box.close()
+    with pytest.raises(SandboxFailed, match=r"^This sandbox is closed\.$"):
+        box.start(socket.socketpair()[0])
+
+
+def test_an_import_that_fails_is_named():
+    with pytest.raises(SandboxFailed) as caught:
+        Sandbox("nowhere:main", preload=())
+    assert str(caught.value) == (
+        "The sandbox could not import what it needs: ModuleNotFoundError: No module named 'nowhere'"
+    )
