@@ -1,0 +1,163 @@
+"""The outputs of a notebook's cells, put together from what a student's process says that they showed.
+
+That process is the student's and may say anything. So nothing of it is taken over as it comes: every output
+is made anew from the few fields that one has, with text of bounded size.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from typing import Any
+
+MOST = 1_000_000  # characters that one cell shows
+MOST_OF_ALL = 20_000_000  # that all cells of a submission show
+MOST_OUTPUTS = 1_000  # of one cell
+LEFT_OUT = "\n[This cell showed more than a notebook can hold. The rest is left out.]\n"
+
+SHOWN = (
+    "text/plain", "text/html", "text/markdown", "text/latex", "image/png", "image/jpeg", "image/svg+xml",
+)  # fmt: skip
+SIZES = ("width", "height")  # of a picture, in pixels
+
+
+class Outputs:
+    """What one cell showed, in order, as nbformat 4 has it. It shares `Screen` with the other cells."""
+
+    def __init__(self, screen: Screen) -> None:
+        self.list: list[dict[str, Any]] = []
+        self._screen = screen
+        self._used = 0  # characters
+        self._full = False
+        self._clear = False  # before the next output
+
+    def take(self, event: Mapping[str, Any]) -> None:
+        """Add what the student's process says; whatever makes no sense is left out."""
+        if "clear" in event:
+            self._clear = True
+            if not event["clear"]:
+                self._begin()
+            return
+        output, identity = made(event.get("output")), event.get("display_id")
+        if output is None:
+            return
+        if event.get("update"):
+            self._screen.update(identity, output)
+        elif self._has_room(output):
+            self._begin()
+            self._join(output)
+            if isinstance(identity, str):
+                self._screen.shown(identity, output)
+
+    def say(self, text: str) -> None:
+        """Add a line of ours. It is there however much the cell showed."""
+        self._begin()
+        self._join({"output_type": "stream", "name": "stdout", "text": text.rstrip("\n") + "\n"})
+
+    @property
+    def printed(self) -> list[dict[str, Any]]:
+        """Only what was written as text, all of it as stdout."""
+        text = "".join(output["text"] for output in self.list if output["output_type"] == "stream")
+        return [{"output_type": "stream", "name": "stdout", "text": text}] if text else []
+
+    def _begin(self) -> None:
+        if self._clear:
+            self.list.clear()
+            self._screen.room += self._used
+            self._used, self._full, self._clear = 0, False, False
+
+    def _join(self, output: dict[str, Any]) -> None:
+        last = self.list[-1] if self.list else {}
+        if output["output_type"] == "stream" == last.get("output_type") and output["name"] == last["name"]:
+            last["text"] += output["text"]
+        else:
+            self.list.append(output)
+
+    def _has_room(self, output: dict[str, Any]) -> bool:
+        """Whether it still fits. Says once that the rest is left out; text is cut where it has to be."""
+        if self._full and not self._clear:
+            return False
+        self._begin()
+        room = min(MOST - self._used, self._screen.room)
+        used = min(size(output), room)
+        self._used += used
+        self._screen.room -= used
+        if size(output) <= room and len(self.list) < MOST_OUTPUTS:
+            return True
+        self._full = True
+        if output["output_type"] == "stream":
+            self._join({**output, "text": output["text"][: max(room, 0)]})
+        self.say(LEFT_OUT)
+        return False
+
+
+class Screen:
+    """What the cells of a submission share: room, and displays that later cells may update."""
+
+    def __init__(self) -> None:
+        self.room = MOST_OF_ALL
+        self._displays: dict[str, list[dict[str, Any]]] = {}
+
+    def shown(self, identity: str, output: dict[str, Any]) -> None:
+        """Remember an output by its display_id."""
+        if len(self._displays) < MOST_OUTPUTS:
+            self._displays.setdefault(identity, []).append(output)
+
+    def update(self, identity: Any, output: dict[str, Any]) -> None:
+        """Let an output take the place of those with this display_id, if there are any."""
+        for old in self._displays.get(identity, ()) if isinstance(identity, str) else ():
+            more = size(output) - size(old)
+            if size(output) <= MOST and more <= self.room:
+                self.room -= more
+                old.update({key: output[key] for key in ("data", "metadata") if key in output})
+
+
+def made(output: Any) -> dict[str, Any] | None:
+    """An output of nbformat 4 out of anything that claims to be one; None where that can't be."""
+    match output:
+        case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
+            return {"output_type": "stream", "name": name, "text": plain(text)}
+        case {"output_type": "error", "ename": str(name), "evalue": str(value), "traceback": [*lines]}:
+            lines = [plain(line) for line in lines if isinstance(line, str)]
+            return {"output_type": "error", "ename": plain(name), "evalue": plain(value), "traceback": lines}
+        case {"output_type": "display_data" | "execute_result" as kind, "data": dict(data)}:
+            shown = {mime: plain(data[mime]) for mime in SHOWN if isinstance(data.get(mime), str)}
+            new = {"output_type": kind, "data": shown, "metadata": _sizes(output.get("metadata"))}
+            if kind == "execute_result":
+                count = output.get("execution_count")
+                new["execution_count"] = count if type(count) is int and 0 < count < 10**6 else None
+            return new if shown else None
+    return None
+
+
+def bundle(data: Mapping[str, Any], metadata: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The `data` and `metadata` of an output from what Jupyter's formatters give: pictures become text."""
+    text = {
+        mime: base64.b64encode(item).decode() if isinstance(item, bytes) else item
+        for mime, item in data.items()
+        if mime in SHOWN and isinstance(item, (bytes, str))
+    }
+    return {"data": text, "metadata": _sizes(metadata)}
+
+
+def plain(text: str) -> str:
+    """Text that every program can write to a file: half a character, as in "\\ud83d", becomes a "?"."""
+    return text.encode(errors="replace").decode()
+
+
+def _sizes(metadata: Any) -> dict[str, Any]:
+    """Of an output's metadata the words and sizes of its pictures."""
+    kept = {}
+    for mime, settings in metadata.items() if isinstance(metadata, Mapping) else ():
+        if mime in SHOWN and isinstance(settings, Mapping):
+            sizes = {key: settings[key] for key in SIZES if type(settings.get(key)) is int}
+            words = {"alt": plain(settings["alt"])} if isinstance(settings.get("alt"), str) else {}
+            if sizes or words:
+                kept[mime] = sizes | words
+    return kept
+
+
+def size(output: dict[str, Any]) -> int:
+    """How much room an output takes, in characters."""
+    parts = [output.get("text", ""), *output.get("data", {}).values(), *output.get("traceback", ())]
+    return sum(map(len, (*parts, output.get("ename", ""), output.get("evalue", "")))) + 50

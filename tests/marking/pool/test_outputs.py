@@ -1,0 +1,142 @@
+import pytest
+
+from grader.marking import outputs
+from grader.marking.outputs import LEFT_OUT, MOST, Outputs, Screen, bundle, made
+
+
+def stream(text: str, name: str = "stdout") -> dict:
+    return {"output_type": "stream", "name": name, "text": text}
+
+
+def picture(text: str) -> dict:
+    return {"output_type": "display_data", "data": {"text/plain": text}, "metadata": {}}
+
+
+def shown(*events: dict, screen: Screen | None = None) -> list[dict]:
+    cell = Outputs(screen or Screen())
+    for event in events:
+        cell.take(event)
+    return cell.list
+
+
+def test_text_of_one_stream_is_one_output():
+    events = [stream("a\n"), stream("b\n"), stream("c\n", "stderr"), stream("d\n")]
+    assert shown(*({"output": output} for output in events)) == [
+        stream("a\nb\n"), stream("c\n", "stderr"), stream("d\n"),
+    ]
+
+
+def test_clear_output_empties_the_cell_at_once_or_with_the_next_output():
+    assert shown({"output": stream("a")}, {"clear": False}) == []
+    assert shown({"output": stream("a")}, {"clear": True}) == [stream("a")]
+    assert shown({"output": stream("a")}, {"clear": True}, {"output": stream("b")}) == [stream("b")]
+
+
+def test_a_display_is_updated_also_from_a_later_cell():
+    screen = Screen()
+    first = shown({"output": picture("a"), "display_id": "x"}, screen=screen)
+    assert shown({"output": picture("b"), "display_id": "x", "update": True}, screen=screen) == []
+    assert first == [picture("b")]
+
+
+def test_an_update_of_nothing_shows_nothing():
+    assert shown({"output": picture("b"), "display_id": "x", "update": True}) == []
+    assert shown({"output": picture("b"), "display_id": ["x"], "update": True}) == []
+
+
+def test_a_cell_that_shows_too_much_is_cut_and_says_so_once():
+    cell = shown(*[{"output": stream("x" * 300_000)}] * 9)
+    assert cell == [stream(cell[0]["text"])]
+    assert cell[0]["text"] == "x" * (MOST - 3 * 50) + LEFT_OUT or cell[0]["text"].endswith(LEFT_OUT)
+    assert cell[0]["text"].count("left out") == 1
+    assert len(cell[0]["text"]) < MOST + 100
+
+
+def test_a_picture_that_is_too_large_is_left_out():
+    assert shown({"output": picture("x" * MOST)}, {"output": picture("y")}) == [stream(LEFT_OUT[:-1] + "\n")]
+
+
+def test_a_cell_has_not_more_than_a_thousand_outputs():
+    cell = shown(*({"output": picture(str(number))} for number in range(2000)))
+    assert len(cell) == outputs.MOST_OUTPUTS + 1
+    assert cell[-1] == stream(LEFT_OUT)
+
+
+def test_a_cell_that_clears_its_output_may_go_on_for_ever():
+    frame = {"output": stream("x" * 400_000)}
+    assert shown(*[frame, {"clear": True}] * 50, {"output": stream("end")}) == [stream("end")]
+
+
+def test_all_cells_together_have_a_limit():
+    screen = Screen()
+    screen.room = 1_500_000
+    cells = [shown({"output": stream("x" * 900_000)}, screen=screen) for _ in range(3)]
+    assert [round(len(cell[0]["text"]) / 100_000) for cell in cells] == [9, 6, 0]
+    assert cells[2] == [stream(LEFT_OUT)]
+
+
+def test_updates_have_the_same_limit():
+    screen = Screen()
+    screen.room = 1000
+    first = shown({"output": picture("a"), "display_id": "x"}, screen=screen)
+    shown({"output": picture("b" * 5000), "display_id": "x", "update": True}, screen=screen)
+    assert first == [picture("a")]
+
+
+def test_words_of_ours_stand_even_in_a_full_cell():
+    cell = Outputs(Screen())
+    cell.take({"output": stream("x" * 2 * MOST)})
+    cell.say("It stopped.")
+    assert cell.list[0]["text"].endswith(LEFT_OUT + "It stopped.\n")
+
+
+def test_what_was_written_can_be_had_alone_as_stdout():
+    cell = Outputs(Screen())
+    for output in (stream("a"), picture("p"), stream("b", "stderr")):
+        cell.take({"output": output})
+    assert cell.printed == [stream("ab")]
+    assert Outputs(Screen()).printed == []
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [
+        None, 3, [], {}, {"output_type": "stream"}, {"output_type": "stream", "name": "out", "text": "x"},
+        {"output_type": "stream", "name": "stdout", "text": ["x"]},
+        {"output_type": "display_data", "data": "x"},
+        {"output_type": "display_data", "data": {"application/javascript": "alert(1)"}},
+        {"output_type": "display_data", "data": {"text/html": {"a": 1}}},
+        {"output_type": "error", "ename": "E", "evalue": 1, "traceback": []},
+        {"output_type": "pyout", "data": {}},
+    ],
+)  # fmt: skip
+def test_what_is_no_output_is_left_out(nonsense):
+    assert made(nonsense) is None
+    assert shown({"output": nonsense}) == []
+
+
+def test_of_an_output_only_its_own_fields_are_kept():
+    claimed = {
+        "output_type": "execute_result",
+        "execution_count": "7",
+        "data": {"text/plain": "x", "application/x-evil": "y", "text/html": ["z"]},
+        "metadata": {"image/png": {"width": 5, "height": "6\" onload=", "alt": "a robot"}, "collapsed": True},
+        "transient": {},
+    }
+    assert made(claimed) == {
+        "output_type": "execute_result",
+        "execution_count": None,
+        "data": {"text/plain": "x"},
+        "metadata": {"image/png": {"width": 5, "alt": "a robot"}},
+    }
+
+
+def test_half_a_character_becomes_a_question_mark():
+    assert made(stream("\ud83d")) == stream("?")
+    error = {"output_type": "error", "ename": "E\ud83d", "evalue": "\udc00", "traceback": ["\ud83d", 5]}
+    assert made(error) == {"output_type": "error", "ename": "E?", "evalue": "?", "traceback": ["?"]}
+
+
+def test_bytes_of_pictures_become_base64():
+    data = {"image/png": b"\x89PNG", "text/plain": "p", "application/pdf": b"x"}
+    assert bundle(data, None) == {"data": {"image/png": "iVBORw==", "text/plain": "p"}, "metadata": {}}
