@@ -1,4 +1,4 @@
-"""Exceptions around what sensors say, as `rules` has those around topics."""
+"""Exceptions around what sensors say and what one reckons from it, as `rules` has those around topics."""
 
 from __future__ import annotations
 
@@ -23,5 +23,47 @@ SENSOR_RULES = (
     Rule(
         "ValueError", r"zero-size array to reduction operation (min|max)imum",
         "{0}() of nothing: no value was left. Say what it is then: `values.{0}(initial=np.inf)`.",
+    ),
+    Rule(
+        "TypeError", r"unsupported operand type\(s\) for -: '(?:Time|Duration)' and '(?:Time|Duration)'",
+        "The stamp of a message is no time that one can reckon with: `Time.from_msg(msg.header.stamp)` makes "
+        "one of it.",
+    ),
+    Rule(
+        "AssertionError", r"The '(\w+)' field must be a sub message of type '(Time|Duration)'",
+        "`{0}` is a message, too: `.to_msg()` makes one of a {1}, as in `Duration(seconds=1.5).to_msg()`.",
+    ),
+    Rule(
+        "AttributeError",
+        r"'(?:Odometry|PoseWithCovariance)' object has no attribute '(position|orientation)'",
+        "In an Odometry it lies two steps deep: `msg.pose.pose.{0}`.",
+    ),
+    Rule(
+        "TypeError", r"cannot unpack non-iterable NoneType object",
+        "A function on that line gave nothing back: end it with `return` and what it has found.",
+    ),
+    Rule(
+        "TypeError", r"cannot unpack non-iterable (\w+) object",
+        "Several values were wanted, and one {0} came: give them together, as in `return x, y`, or as the "
+        "pair `(number, cell)`.",
+    ),
+    Rule(
+        "TypeError", r"'(int|float)' object is not (?:iterable|subscriptable)",
+        "One {0} came where a list or a point was wanted: look at what the function before gives back.",
+    ),
+    Rule(
+        "IndexError", r"index (-?\d+) is out of bounds for axis (\d) with size (\d+)",
+        "Number {0} is too large: axis {1} of the array has {2} items, and counting begins at 0. Axis 0 is "
+        "the row (y), axis 1 the column (x): `cells[row, column]`.",
+    ),
+    Rule(
+        "KeyError", r"^(\(.+\)|None)$",
+        "The dictionary knows no {0}. Ask first, `if key in dictionary:`, or say what counts in its place, "
+        "`dictionary.get(key, math.inf)`.",
+    ),
+    Rule(
+        "ZeroDivisionError", r"^float division by zero$",
+        "What one divides by is 0.0 here, such as the distance to a point on which the robot stands: ask "
+        "first whether it is.",
     ),
 )  # fmt: skip

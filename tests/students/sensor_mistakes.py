@@ -1,6 +1,11 @@
-"""Nodes with one mistake each around what sensors say, named by it."""
+"""Nodes with one mistake each around what sensors say and what one reckons from it, named by it."""
+
+import math
 
 import numpy as np
+from nav2_msgs.action import NavigateToPose
+from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
 from rclpy.node import Node
 from sensor_msgs.msg import Imu, LaserScan
 
@@ -38,3 +43,64 @@ class LeastOfAnEmptyArray(Looker):
     def look(self, scan, imu):
         ranges = np.array(scan.ranges)
         return ranges[ranges > 3.0].min()
+
+
+class TakesAStampFromATime(Looker):
+    def look(self, scan, imu):
+        return self.get_clock().now() - scan.header.stamp
+
+
+class DurationForAMessage(Looker):
+    def look(self, scan, imu):
+        return NavigateToPose.Feedback(estimated_time_remaining=Duration(seconds=1.5))
+
+
+class TooShallow(Looker):
+    def look(self, scan, imu):
+        return Odometry().pose.orientation
+
+
+class ForgetsToReturn(Looker):
+    def look(self, scan, imu):
+        distance, bearing = self.polar(3.0, 4.0)
+        return distance, bearing
+
+    def polar(self, x, y):
+        math.hypot(x, y), math.atan2(y, x)
+
+
+class QueueOfNumbers(Looker):
+    def look(self, scan, imu):
+        _, cell = min([2.0, 1.0])
+        return cell
+
+
+class IndexForAList(Looker):
+    def look(self, scan, imu):
+        return list(scan.ranges.index(2.0))
+
+
+class DistanceForAPoint(Looker):
+    def look(self, scan, imu):
+        return math.dist((0.0, 0.0), (1.0, 1.0))[0]
+
+
+class ColumnForRow(Looker):
+    def look(self, scan, imu):
+        return np.zeros((2, 5))[3, 1]
+
+
+class CellNeverSeen(Looker):
+    def look(self, scan, imu):
+        return {(0, 0): None}[4, 34]
+
+
+class BeforeTheStart(Looker):
+    def look(self, scan, imu):
+        came_from = {(0, 0): None}
+        return came_from[came_from[0, 0]]
+
+
+class OnTopOfThePoint(Looker):
+    def look(self, scan, imu):
+        return 2.0 / math.dist((1.0, 1.0), (1.0, 1.0))

@@ -133,8 +133,8 @@ def _why_held(recording: Recording, moment: Moment) -> str:
         return "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s."
     if moment.sent == (0.0, 0.0):
         return (
-            "Zeros, although all is well. Is it something beside the robot that stops it? Look 30 degrees "
-            "to each side of straight ahead, leave out nan, and take the age of things in seconds."
+            "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
+            "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side."
         )
     return "Copy the driver's linear.x and angular.z as they are."
 

@@ -20,6 +20,7 @@ from sim.recording import Heard, Recording, Seconds, stamps
 SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
 MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
 HALF = 30.0  # degrees to each side
+BESIDE = 60.0  # degrees: as far off one still takes for ahead
 EDGE = 1.0  # degrees: whether a ray so near to a sector's edge belongs to it is left open
 LAG, PATIENCE = 0.02, 0.3  # seconds
 
@@ -30,6 +31,8 @@ class Sector(NamedTuple):
     rays: np.ndarray  # with those at its edges
     inner: np.ndarray  # without them
     middle: float  # the one ray in the middle
+    beside: np.ndarray  # those farther off, up to 60 degrees
+    around: float  # the nearest distance of all directions, m
 
     @property
     def kind(self) -> str:
@@ -89,7 +92,7 @@ def knows_the_directions(recording: Recording) -> None:
     looks = list(_looks(recording))
     wrong = [look for look in looks if look.sector.kind == "plain" and not look.right]
     if wrong:
-        _miss(wrong[0], _why_wrong(recording, looks, wrong[0]))
+        _miss(wrong[0], _why_wrong(recording, looks, wrong))
 
 
 @check(points=4, after=knows_the_directions)
@@ -122,28 +125,44 @@ def _miss(look: Look, hint: str) -> None:
     )
 
 
-def _why_wrong(recording: Recording, looks: list[Look], wrong: Look) -> str:
+def _why_wrong(recording: Recording, looks: list[Look], wrong: list[Look]) -> str:
     """The usual reasons for a wrong distance."""
-    if wrong.said == wrong.sector.middle:
+    first, sides = wrong[0], [look for look in wrong if look.topic != "/front"]
+    if all(look.said == look.sector.middle for look in wrong):
         return "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it."
-    if recording.world is None:
-        near = [item for item in looks if item.stamp == wrong.stamp and item.topic != wrong.topic]
-        if wrong.said is not None and any(abs(item.sector.nearest - wrong.said) < 0.001 for item in near):
-            return (
-                "That is the distance of another direction. This lidar's first ray looks back (angle_min "
-                "is -180 degrees), and it has 180 rays: the angle of ray i is msg.angle_min + i * "
-                "msg.angle_increment."
-            )
+    if all(look.said is not None and look.said >= look.sector.rays.max() for look in wrong):
+        return "That is the greatest distance. min(...) finds the least one."
+    if all(look.said == look.sector.around for look in wrong if look.topic == first.topic):
         return (
-            "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the "
-            "angle of each, msg.angle_min + i * msg.angle_increment."
+            "That is the nearest distance of all directions. Are both angles in degrees? "
+            "math.degrees(...) makes degrees of radians."
         )
-    if wrong.topic == "/front":
+    if recording.world is None:
+        return _why_another_lidar(looks, first)
+    if any(look.said in look.sector.rays for look in sides if look.said and math.isfinite(look.said)):
+        return "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides."
+    if sides and all(look.said in look.sector.beside for look in sides):
+        return "That is too far to the side: only the rays up to 30 degrees from the middle count."
+    if first.topic == "/front":
         return (
             "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at "
             "-10. Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180."
         )
     return "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right."
+
+
+def _why_another_lidar(looks: list[Look], wrong: Look) -> str:
+    near = [item for item in looks if item.stamp == wrong.stamp and item.topic != wrong.topic]
+    if wrong.said is not None and any(abs(item.sector.nearest - wrong.said) < 0.001 for item in near):
+        return (
+            "That is the distance of another direction. This lidar's first ray looks back (angle_min "
+            "is -180 degrees), and it has 180 rays: the angle of ray i is msg.angle_min + i * "
+            "msg.angle_increment."
+        )
+    return (
+        "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the "
+        "angle of each, msg.angle_min + i * msg.angle_increment."
+    )
 
 
 def _looks(recording: Recording) -> Iterator[Look]:
@@ -173,7 +192,13 @@ def _sectors(scan: Heard) -> dict[str, Sector]:
     angles = np.degrees(message.angle_min + np.arange(len(ranges)) * message.angle_increment)
     off = {topic: np.abs((angles - middle + 180.0) % 360.0 - 180.0) for topic, middle in MIDDLES.items()}
     return {
-        topic: Sector(ranges[far <= HALF + EDGE], ranges[far <= HALF - EDGE], float(ranges[far.argmin()]))
+        topic: Sector(
+            ranges[far <= HALF + EDGE],
+            ranges[far <= HALF - EDGE],
+            float(ranges[far.argmin()]),
+            ranges[(far > HALF) & (far <= BESIDE)],
+            max(0.0, _least(ranges)),
+        )
         for topic, far in off.items()
     }
 

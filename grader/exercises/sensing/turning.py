@@ -164,6 +164,8 @@ def _turned(recording: Recording, stamp: Seconds) -> float:
 def _why_not_turned(recording: Recording, said: float) -> str:
     """The usual reasons for a wrong sum."""
     largest = max(abs(value) for _, value in series(recording, HEADING, "data"))
+    if largest == 0.0:
+        return "It stays 0 all the time: collect the first 200 rates, and add up from then on."
     if abs(said) < 2.0 and largest > 30.0:
         return "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up."
     return _wrong_scale(recording) or BIAS
@@ -183,7 +185,7 @@ def _wrong_scale(recording: Recording) -> str:
         )
     if 0.01 < ratio < 0.025:
         return "That is the angle in radians: math.degrees(...) turns it into degrees."
-    if not abs(ratio) < 2.5:
+    if ratio > 2.5:
         return (
             f"That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the "
             "time since the last one, 0.01 s: add rate * 0.01."

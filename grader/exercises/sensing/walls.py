@@ -59,7 +59,7 @@ def keeps_the_distance(recording: Recording) -> None:
         near, far = sum(gap < NEAR for gap in gaps), sum(gap > FAR for gap in gaps)
         hint = (
             "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before "
-            "it is 0.3 m."
+            "it is 0.3 m: is angular.z positive then?"
             if near > far
             else "Turn a little to the right when the wall on the right is further than 0.5 m: it must "
             "not get lost."
@@ -95,13 +95,14 @@ def _gap(recording: Recording, pose: Pose) -> float:
 
 def _why_not_round(recording: Recording) -> str:
     """The usual reasons for not getting round."""
-    if not all(math.isfinite(turn) for _, turn in series(recording, "/cmd_vel", "angular.z")):
+    first = recording.contacts[0] if recording.contacts else None
+    infinite = any(not math.isfinite(turn) for _, turn in series(recording, "/cmd_vel", "angular.z"))
+    if infinite and (first is None or first.side != "front"):
         return (
             "It came so near to the wall that a ray said -inf (or nan), the formula made an infinite turn of "
             "it, and the robot refuses that. Steer so that it stays 0.5 m away."
         )
-    if recording.contacts:
-        first = recording.contacts[0]
+    if first:
         return (
             f"It touched a {first.what} at {first.stamp:.3g} s, with its {first.side} side. When the wall "
             "ahead is nearer than 0.6 m, stop and turn left until it is free again."

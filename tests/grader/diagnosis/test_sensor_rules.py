@@ -14,6 +14,17 @@ ADVICE = {
     "AddsUpVectors": "A Vector3 is no number, it holds numbers: take the field that you need, such as `.x` or `.z`.",
     "LeastOfNothing": "min() of nothing: no value was left. Say what it is then: `min(values, default=math.inf)`.",
     "LeastOfAnEmptyArray": "min() of nothing: no value was left. Say what it is then: `values.min(initial=np.inf)`.",
+    "TakesAStampFromATime": "The stamp of a message is no time that one can reckon with: `Time.from_msg(msg.header.stamp)` makes one of it.",
+    "DurationForAMessage": "`estimated_time_remaining` is a message, too: `.to_msg()` makes one of a Duration, as in `Duration(seconds=1.5).to_msg()`.",
+    "TooShallow": "In an Odometry it lies two steps deep: `msg.pose.pose.orientation`.",
+    "ForgetsToReturn": "A function on that line gave nothing back: end it with `return` and what it has found.",
+    "QueueOfNumbers": "Several values were wanted, and one float came: give them together, as in `return x, y`, or as the pair `(number, cell)`.",
+    "IndexForAList": "One int came where a list or a point was wanted: look at what the function before gives back.",
+    "DistanceForAPoint": "One float came where a list or a point was wanted: look at what the function before gives back.",
+    "ColumnForRow": "Number 3 is too large: axis 0 of the array has 2 items, and counting begins at 0. Axis 0 is the row (y), axis 1 the column (x): `cells[row, column]`.",
+    "CellNeverSeen": "The dictionary knows no (4, 34). Ask first, `if key in dictionary:`, or say what counts in its place, `dictionary.get(key, math.inf)`.",
+    "BeforeTheStart": "The dictionary knows no None. Ask first, `if key in dictionary:`, or say what counts in its place, `dictionary.get(key, math.inf)`.",
+    "OnTopOfThePoint": "What one divides by is 0.0 here, such as the distance to a point on which the robot stands: ask first whether it is.",
 }
 
 

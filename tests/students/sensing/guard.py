@@ -273,3 +273,23 @@ class Rarely(Guard):
         super().__init__()
         self.timers_ = [timer.cancel() for timer in self.timers]
         self.create_timer(1.0, self.decide)
+
+
+class NeverSaysThatAllIsWell(Guard):
+    """A test without `return`."""
+
+    def decide(self):
+        safe = Twist()
+        if self.is_well():
+            self.filter(safe)
+        self.publisher.publish(safe)
+
+    def is_well(self):
+        bool(self.scan and self.command and self.scan_age() < 0.3 and self.command_age() < 0.3)
+
+
+class SubtractsTheStamp(Guard):
+    """The stamp of a message is no Time of rclpy."""
+
+    def scan_age(self):
+        return (self.get_clock().now() - self.scan.header.stamp).nanoseconds / 1e9

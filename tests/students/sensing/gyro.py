@@ -183,3 +183,20 @@ class MisspeltTopic(Gyro):
 class AngularVelocityWithoutZ(Gyro):
     def look(self, msg):
         self.yaw += msg.angular_velocity * 0.01
+
+
+class NeverCollects(Gyro):
+    """Waits for 200 rates, and keeps none."""
+
+    def look(self, msg):
+        super().look(msg)
+        self.rates.clear()
+
+
+class TakesTheBiasFromTheAngle(Gyro):
+    """A bias is a rate: it, too, counts for 0.01 s."""
+
+    def look(self, msg):
+        super().look(msg)
+        if len(self.rates) == self.still:
+            self.yaw -= self.bias

@@ -202,3 +202,42 @@ class OnlyTheFront(Lookout):
     def say(self, topic, distance):
         if topic == "/front":
             super().say(topic, distance)
+
+
+class InRadians(Lookout):
+    """Takes an angle in radians for one in degrees."""
+
+    def nearest(self, msg, middle):
+        found = [math.inf]
+        for index, distance in enumerate(msg.ranges):
+            off = (msg.angle_min + index * msg.angle_increment - middle + 180) % 360 - 180
+            if abs(off) <= 30 and not math.isnan(distance):
+                found.append(distance)
+        return max(0.0, min(found))
+
+
+class Greatest(Lookout):
+    def nearest(self, msg, middle):
+        return max(r for r in msg.ranges if not math.isnan(r))
+
+
+class Within(Lookout):
+    """A sector of another width."""
+
+    half = 30
+
+    def nearest(self, msg, middle):
+        angles = msg.angle_min + np.arange(len(msg.ranges)) * msg.angle_increment - math.radians(middle)
+        inside = np.cos(angles) >= math.cos(math.radians(self.half))
+        return max(0.0, float(np.nanmin(np.array(msg.ranges)[inside])))
+
+
+class TenDegrees(Within):
+    half = 10
+
+
+class SixtyDegrees(Within):
+    half = 60
+
+
+PARTS = ("Within",)

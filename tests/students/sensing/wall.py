@@ -227,3 +227,10 @@ class MisspeltTopic(WallFollower):
     def __init__(self):
         super().__init__()
         self.publisher = self.create_publisher(Twist, "cmd_vell", 10)
+
+
+class IntoTheCorner(WallFollower):
+    """Has no rule for the wall ahead."""
+
+    def choose(self, command, ahead, wall):
+        super().choose(command, math.inf, wall)
