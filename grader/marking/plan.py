@@ -1,4 +1,4 @@
-"""Which submissions of an assignment are to be marked."""
+"""A submission to mark, as data that crosses processes. What makes the tasks is intake.py."""
 from dataclasses import dataclass
 from pathlib import Path
 

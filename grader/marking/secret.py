@@ -14,16 +14,15 @@ from pathlib import Path
 VARIABLE = "COURSE_SECRET"
 
 
-def show(**_: object) -> None:
-    """Hand the secret to the kernels that mark, through the environment variable COURSE_SECRET.
+def read(folder: Path) -> str:
+    """The secret of the course in `folder`, or "" without the file.
 
-    nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
-    Raises SystemExit when the file is empty or others may read it: nbgrader only notes other exceptions,
-    and would go on to mark with the public seeds.
+    Raises SystemExit when the file is empty, cannot be read or others may read it: marking would go on with
+    the public seeds.
     """
-    file = Path(".secret").absolute()
+    file = folder.absolute() / ".secret"
     if not file.exists():
-        return
+        return ""
     if stat.S_IMODE(file.stat().st_mode) & 0o077:
         raise SystemExit(f"Others may read {file}: run `chmod 600 .secret`, then mark again.")
     try:
@@ -32,7 +31,18 @@ def show(**_: object) -> None:
         raise SystemExit(f"{file} cannot be read ({error.strerror}): mark as the user who owns it.") from None
     if not text:
         raise SystemExit(f"{file} is empty: write a long random line into it, or delete it.")
-    os.environ[VARIABLE] = text
+    return text
+
+
+def show(**_: object) -> None:
+    """Hand the secret to the kernels that mark, through the environment variable COURSE_SECRET.
+
+    nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
+    Raises SystemExit as `read` does: nbgrader only notes other exceptions, and would go on.
+    """
+    text = read(Path())
+    if text:
+        os.environ[VARIABLE] = text
 
 
 def hide(**_: object) -> None:

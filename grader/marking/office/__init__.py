@@ -1,0 +1,1 @@
+"""The instructor's side of marking: what is handed in, the gradebook, the pages, the summary."""

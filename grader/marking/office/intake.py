@@ -1,0 +1,120 @@
+"""What was handed in of an assignment, and whether the assignment can be marked at all."""
+import difflib
+import hashlib
+from collections.abc import Collection, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbformat import NotebookNode
+from nbgrader.converters import GenerateAssignment
+from nbgrader.preprocessors import InstantiateTests, SaveCells
+from nbgrader.utils import is_grade
+
+from grader.marking import testcells
+from grader.marking.office.course import Course, CourseError
+from grader.marking.plan import Task
+from grader.marking.submission import submission_key
+
+CODE = Path(__file__).parents[2]
+PACKAGES = ("grader", "sim")
+REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
+
+
+def tasks(course: Course, assignment: str, chosen: Collection[str] = (), secret: str = "") -> list[Task]:
+    """The submissions of an assignment, sorted by student; only those of the chosen students, if any.
+
+    Raises CourseError where there is no such assignment, no such student, or no submission.
+    """
+    names = course.assignments()
+    if assignment not in names:
+        released = f"{course.release('.').parent} has no assignment {assignment}"
+        known = f"there are {', '.join(names)}" if names else REMAKE
+        raise CourseError(f"{released}: {_near(assignment, names) or known}")
+    found = course.students(assignment)
+    place = course.submitted("STUDENT", assignment)
+    if not found:
+        raise CourseError(f"nobody has handed in {assignment}: put the notebooks into {place}")
+    for student in chosen:
+        if student not in found:
+            here = course.submitted(student, assignment)
+            advice = _near(student, found) or f"{len(found)} students have handed it in"
+            raise CourseError(f"{student} has not handed in {assignment}, {here} is missing: {advice}")
+    release, fingerprint, version = course.release(assignment), _digest(secret.encode()), code_version()
+    return [
+        Task(student, assignment, folder, release, submission_key(folder, release, fingerprint, version))
+        for student, folder in sorted(found.items())
+        if not chosen or student in chosen
+    ]
+
+
+def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str], float] | None) -> None:
+    """Raise CourseError unless solutions, release and gradebook agree, and the tests can be marked here.
+
+    known: the points of the test cells in the gradebook, by notebook and cell; None where it has no entry.
+    """
+    if known is None:
+        raise CourseError(f"the gradebook doesn't know {assignment}: {REMAKE}")
+    found: dict[tuple[str, str], float] = {}
+    for path in sorted(course.release(assignment).glob("*.ipynb")):
+        notebook = nbformat.read(path, 4)
+        _check_tests(notebook)
+        cells = [cell.metadata.nbgrader for cell in notebook.cells if is_grade(cell)]
+        found |= {(path.stem, cell.grade_id): float(cell.points) for cell in cells}
+        source = course.source(assignment) / path.name
+        if source.exists() and _content(notebook) != _content(_released(course, source)):
+            file = path.relative_to(course.root)
+            raise CourseError(f"{file} is not what solutions/ gives now: {REMAKE}, or take solutions/ back")
+    for notebook, cell in sorted(found.keys() ^ known.keys()):
+        here = "exercises/" if (notebook, cell) in found else "the gradebook"
+        raise CourseError(f"the test cell {cell} of {notebook}.ipynb is only in {here}: {REMAKE}")
+    for (notebook, cell), points in found.items():
+        if points != known[notebook, cell]:
+            gives = f"gives {points:g} points, and {known[notebook, cell]:g} in the gradebook"
+            raise CourseError(f"the test cell {cell} of {notebook}.ipynb {gives}: {REMAKE}")
+
+
+def code_version() -> str:
+    """A digest of the code that marks: with other code, submissions are marked again."""
+    files = (path for package in PACKAGES for path in (CODE / package).rglob("*") if path.is_file())
+    parts: list[bytes] = []
+    for path in sorted(path for path in files if "__pycache__" not in path.parts):
+        parts += [str(path.relative_to(CODE)).encode(), path.read_bytes()]
+    return _digest(*parts)
+
+
+def _check_tests(notebook: NotebookNode) -> None:
+    try:
+        testcells.graded(notebook)
+    except testcells.NotOurs as error:
+        raise CourseError(str(error)) from None
+
+
+def _released(course: Course, source: Path) -> NotebookNode:
+    """What nbgrader makes of a notebook with answers, without entering it into the gradebook."""
+    converter = GenerateAssignment(coursedir=course.directory, parent=course.app)
+    notebook, resources = nbformat.read(source, 4), {"nbgrader": {}, "unique_key": source.stem}
+    for step in converter.preprocessors:
+        if step not in (SaveCells, InstantiateTests):
+            notebook, resources = step(parent=converter)(notebook, resources)
+    return notebook
+
+
+def _content(notebook: NotebookNode) -> list[tuple[str, str, Any]]:
+    """What counts of each cell: a checksum is of the answer in one and of the task in the other."""
+    return [
+        (cell.cell_type, cell.source, {**cell.metadata.get("nbgrader", {}), "checksum": ""})
+        for cell in notebook.cells
+    ]
+
+
+def _near(name: str, names: Iterable[str]) -> str:
+    near = difflib.get_close_matches(name, list(names), n=1)
+    return f"did you mean {near[0]}?" if near else ""
+
+
+def _digest(*parts: bytes) -> str:
+    whole = hashlib.sha256()
+    for part in parts:
+        whole.update(len(part).to_bytes(8) + part)
+    return whole.hexdigest()
