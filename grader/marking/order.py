@@ -19,7 +19,7 @@ class Place(NamedTuple):
 def ordered(
     release: Sequence[Cell], chosen: Mapping[int, int], own: Iterable[int]
 ) -> tuple[list[Place], list[int]]:
-    """Return the order, and the tests (by index in the release) that had to be moved behind their answers.
+    """Return the order, and those of the sheet's tests, by index in the release, that stood before an answer.
 
     chosen: which cell of the sheet stands for which of the release, by index. own: the student's own cells.
     """
@@ -28,7 +28,8 @@ def ordered(
     for r in range(len(release)):
         if r not in chosen:
             order.insert(_place_of_missing(release, order, r), Place(True, r))
-    return order, [r for r, answers in _tests(release) if _move_behind(order, r, answers)]
+    moved = [r for r, answers in _tests(release) if _move_behind(order, r, answers)]
+    return order, [r for r in moved if r in chosen]
 
 
 def _place_of_missing(release: Sequence[Cell], order: Sequence[Place], r: int) -> int:

@@ -9,7 +9,9 @@ from typing import Any
 from grader.marking.words import Unusable, quoted
 
 MERGE_MARKS = (re.compile(r"^<{7} ", re.MULTILINE), re.compile(r"^>{7} ", re.MULTILINE))
+WEB_PAGE = re.compile(r"<[!?a-zA-Z]")
 CELLS = re.compile(r'"cells"\s*:\s*\[')
+MOST_PARTS = 10_000_000  # each takes some 60 bytes, and notebooks of 100 MB in long lines have fewer
 BETWEEN = re.compile(r"[\s,]*")
 AGAIN = "Download the notebook again in JupyterLab (File, Download) and hand that in."
 
@@ -25,6 +27,11 @@ def table_in(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]:
     if data.startswith(b"PK\x03\x04"):
         problem = f"{quoted(file)} is a zip archive; expected a notebook."
         raise Unusable(f"{problem} Unpack it and hand in the notebook that lies in it.")
+    if (parts := sum(map(data.count, (b"{", b"[", b",")))) > MOST_PARTS:
+        raise Unusable(
+            f"{quoted(file)} is made of {parts / 1e6:.0f} million parts; at most {MOST_PARTS / 1e6:g} "
+            "million can be read. Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again."
+        )
     text, repairs = _decoded(data)
     twice: list[str] = []
     decoder = json.JSONDecoder(strict=False, object_pairs_hook=lambda pairs: _table(pairs, twice))
@@ -59,8 +66,9 @@ def _decoded(data: bytes) -> tuple[str, list[str]]:
     except UnicodeDecodeError:
         text = data.decode(errors="replace")
     bad, good = text.count("\ufffd"), sum(letter > "\x7f" and letter != "\ufffd" for letter in text)
-    if good > bad:
-        repairs.append(f"In the notebook's file {bad} characters were damaged; they were read as �.")
+    if good >= bad:
+        saw = "1 character was damaged; it was" if bad == 1 else f"{bad} characters were damaged; they were"
+        repairs.append(f"In the notebook's file {saw} read as �.")
         return text, repairs
     repairs.append("The notebook's file was not saved as UTF-8; it was read as Latin 1.")
     return data.decode("latin-1"), repairs
@@ -101,7 +109,7 @@ def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
     if all(mark.search(text) for mark in MERGE_MARKS):
         problem = f"{quoted(file)} holds git's merge marks (`<<<<<<<`), so two versions of it."
         raise Unusable(f"{problem} Choose one, open it in JupyterLab, save it and hand it in again.")
-    if text.startswith("<"):
+    if WEB_PAGE.match(text):
         problem = f"{quoted(file)} holds a web page, maybe one that asks for a password; expected a notebook."
         raise Unusable(f"{problem} {AGAIN}")
     if not text.startswith("{"):

@@ -4,6 +4,7 @@ Nothing of a submission is run here, and whatever lies in its folder, no excepti
 """
 
 import hashlib
+import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
@@ -104,7 +105,7 @@ def _contents(folder: Path) -> Iterator[str | bytes]:
 def _path(name: str, folder: Path, there: Sequence[Entry], release: Release) -> str:
     """Where the notebook `name` lies: under its own name, or the only other one that holds its cells."""
     file = name + SUFFIX
-    if any(entry.path == file for entry in there):
+    if os.path.lexists(folder / file):
         return file
     own = {other + SUFFIX for other in release.notebooks}
     others = [entry.path for entry in there if _candidate(entry) and entry.path not in own]

@@ -27,7 +27,8 @@ Damage = Callable[[dict[str, Any]], object]
 
 
 def data(notebook: NotebookNode | dict[str, Any]) -> bytes:
-    return json.dumps(notebook, indent=1, sort_keys=True, ensure_ascii=False).encode()
+    """A notebook as a file, in which all that is not ASCII is escaped."""
+    return json.dumps(notebook, indent=1, sort_keys=True).encode()
 
 
 def solved() -> dict[str, Any]:
