@@ -1,6 +1,7 @@
 """A class as nbgrader's configuration describes it: where its folders lie and where its gradebook is."""
 import contextlib
 import glob
+import logging
 import os
 import re
 import stat
@@ -33,6 +34,7 @@ class Course:
         self.app = NbGrader()
         self.app.raise_config_file_errors = True
         self.app.log.handlers.clear()  # it tells of every step; what matters is said by us
+        logging.getLogger("tornado.application").disabled = True  # where its gradebook prints tracebacks
         try:
             with contextlib.chdir(self.root):
                 self.app.initialize([], root=str(self.root))

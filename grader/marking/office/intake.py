@@ -28,7 +28,7 @@ def tasks(course: Course, assignment: str, chosen: Collection[str] = (), secret:
     """
     names = course.assignments()
     if assignment not in names:
-        released = f"{course.release('.').parent} has no assignment {assignment}"
+        released = f"{course.release(assignment).parent} has no assignment {assignment}"
         known = f"there are {', '.join(names)}" if names else REMAKE
         raise CourseError(f"{released}: {_near(assignment, names) or known}")
     found = course.students(assignment)
