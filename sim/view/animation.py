@@ -79,7 +79,7 @@ class _Stage:
                 draw.line(trail[: index + 1], fill=PATH, width=2 * SMOOTH)
             self._draw(draw, body, trail[index], track[index])
         draw.text((8 * SMOOTH, 6 * SMOOTH), f"{stamp:.1f} s", fill="black", font_size=12 * SMOOTH)
-        return image.resize((image.width // SMOOTH, image.height // SMOOTH), Image.Resampling.BOX)
+        return image.reduce(SMOOTH)
 
     def _draw(self, draw: ImageDraw.ImageDraw, body: Body, centre: tuple[float, float], pose: Pose) -> None:
         fill = KINDS.get(body.kind, "#8fb8dc")
