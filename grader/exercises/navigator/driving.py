@@ -11,7 +11,7 @@ from grader.exercise import Exercise
 from grader.exercises.advice import advising
 from grader.exercises.navigator.partners import Wanderer
 from grader.exercises.navigator.progress import tenths
-from sim.recording import Recording, Seconds
+from sim.recording import Pose, Recording, Seconds
 
 GOAL = (5.0, 5.0)
 FLOAT, TWIST = "std_msgs/msg/Float64", "geometry_msgs/msg/Twist"
@@ -132,7 +132,7 @@ compass = Exercise(
 )
 
 
-WAY, NEAR = math.dist((0.0, 0.0), GOAL), 0.2  # metres
+WAY, NEAR, STOP = math.dist((0.0, 0.0), GOAL), 0.2, 0.1  # metres
 
 
 @check(points=1)
@@ -144,7 +144,7 @@ def sends_velocities(recording: Recording) -> None:
 @check(points=7, after=sends_velocities)
 def gets_there(recording: Recording) -> None:
     """The robot comes within 20 cm of (5, 5)."""
-    nearest = min(recording.path, key=lambda pose: math.dist(GOAL, (pose.x, pose.y)))
+    nearest = _nearest(recording)
     left = math.dist(GOAL, (nearest.x, nearest.y))
     if left > NEAR:
         with advising(recording, _driving_hint(recording)):
@@ -159,9 +159,11 @@ def gets_there(recording: Recording) -> None:
 @check(points=4, after=gets_there)
 def stays_there(recording: Recording) -> None:
     """In the end the robot stands still, within 20 cm of (5, 5)."""
-    came = any(math.dist(GOAL, (pose.x, pose.y)) <= NEAR for pose in recording.path)
-    near = "Nearer than 0.1 m is near enough: then send a Twist() with zeros."
-    with advising(recording, near if came else "First get there."):
+    left = math.dist(GOAL, _nearest(recording)[1:3])
+    hint = "Nearer than 0.1 m is near enough: then send a Twist() with zeros."
+    if left > STOP:
+        hint = f"It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower."
+    with advising(recording, hint if left <= NEAR else "First get there."):
         arrives(recording, GOAL, tolerance=NEAR)
     stands_still(recording)
 
@@ -176,6 +178,10 @@ def goes_straight(recording: Recording) -> None:
     if way > 1.15 * WAY:
         hint = "Turn towards the goal first; while the bearing is large, drive slowly or not at all."
         raise Missed(f"a way of {1.15 * WAY:.2f} m or less", f"{way:.2f} m", hint, picture="path")
+
+
+def _nearest(recording: Recording) -> Pose:
+    return min(recording.path, key=lambda pose: math.dist(GOAL, (pose.x, pose.y)))
 
 
 def _driving_hint(recording: Recording) -> str:

@@ -22,10 +22,23 @@ COSTMAP = "/global_costmap/costmap"
 RADIUS = 0.2  # metres by which walls are to be thicker
 
 
-@check(points=3)
+@check(points=1)
+def hears_the_map(recording: Recording) -> None:
+    """The node hears /map, though it was published before."""
+    with advising(recording, "Subscribe to OccupancyGrid messages on /map, with the profile LATCHED."):
+        for end in subscribes(recording, "/map", GRID):
+            if end.qos["durability"] != "transient_local":
+                raise Missed(
+                    "a subscription to /map with the durability transient_local",
+                    f"one with {end.qos['durability']}",
+                    "The map was published before the node was there. It comes later only to those who "
+                    "subscribe with the profile LATCHED in place of a queue depth.",
+                )
+
+
+@check(points=2, after=hears_the_map)
 def publishes_a_costmap(recording: Recording) -> None:
     """The node publishes an OccupancyGrid on /global_costmap/costmap, with the form of /map."""
-    _hears_the_map(recording)
     with advising(recording, "Publish it in on_map, as soon as the map is there."):
         publishes(recording, COSTMAP, GRID)
     given, made = _map(recording), recording.messages(COSTMAP)[-1].message
@@ -34,7 +47,7 @@ def publishes_a_costmap(recording: Recording) -> None:
         raise Missed(forms[0], forms[1], "Send the map's own header and info along: only the data changes.")
 
 
-@check(points=5)
+@check(points=5, after=hears_the_map)
 def answers_clicks(recording: Recording) -> None:
     """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
     with advising(recording, "to_cell and to_point do it: first the cell of the point, then its middle."):
@@ -70,7 +83,7 @@ def _middle(info: Any, point: Point) -> Point:
     return _centre(info, point, math.floor)
 
 
-def _centre(info: Any, point: Point, whole: Callable[[float], int], offset: float = 0.5) -> Point:
+def _centre(info: Any, point: Point, whole: Callable[[float], float], offset: float = 0.5) -> Point:
     corner = info.origin.position
     return tuple(
         low + (whole((value - low) / info.resolution) + offset) * info.resolution
@@ -96,6 +109,9 @@ _SLIPS: dict[str, Callable[[Any, Point], Point]] = {
     ),
     "round() takes the nearest cell, which may be the next one: use math.floor().": (
         lambda info, point: _centre(info, point, round)
+    ),
+    "A column and a row are whole numbers: math.floor() cuts off what is behind the point.": (
+        lambda info, point: _centre(info, point, lambda value: value)
     ),
     "x belongs to the column and y to the row; here they are swapped.": (
         lambda info, point: _middle(info, point)[::-1]
@@ -130,7 +146,12 @@ def _inflation_hint(
     given: np.ndarray, made: np.ndarray, missing: np.ndarray, extra: np.ndarray, far: np.ndarray
 ) -> str:
     if np.array_equal(given, made):
-        return "The costmap is the map as it was: inflate() has to set cells to 100."
+        return (
+            "The costmap is the map as it was: set cells of the copy, `inflated`, to 100, up to `reach` "
+            f"cells away, which is {RADIUS} m / resolution."
+        )
+    if ((made != given) & (made != 100)).any():
+        return "Some cells became another number than 100: that is what stands for occupied."
     if not missing.any() and far[extra].max(initial=0.0) <= RADIUS * 1.5:
         return "Corners are too thick: skip cells that are farther than `reach`, by math.hypot(right, up)."
     if not missing.any() and (made[given != -1] == 100).mean() > 0.9:
@@ -140,18 +161,6 @@ def _inflation_hint(
     if missing.any() and not extra.any():
         return f"It should reach {RADIUS} m in all directions; in cells that is {RADIUS} / resolution."
     return "Is it cells[row, column]: first the row (y), then the column (x)?"
-
-
-def _hears_the_map(recording: Recording) -> None:
-    with advising(recording, "Subscribe to OccupancyGrid messages on /map, with the profile LATCHED."):
-        for end in subscribes(recording, "/map", GRID):
-            if end.qos["durability"] != "transient_local":
-                raise Missed(
-                    "a subscription to /map with the durability transient_local",
-                    f"one with {end.qos['durability']}",
-                    "The map was published before the node was there. It comes later only to those who "
-                    "subscribe with the profile LATCHED in place of a queue depth.",
-                )
 
 
 def _map(recording: Recording) -> Any:
@@ -190,7 +199,7 @@ def _form(msg: Any) -> str:
 costmap = Exercise(
     "costmap",
     "Cells and walls",
-    [publishes_a_costmap, answers_clicks, inflates],
+    [hears_the_map, publishes_a_costmap, answers_clicks, inflates],
     world=lambda seed: world_of("clutter", seed),
     seconds=8,
     companions=lambda seed: [

@@ -26,7 +26,7 @@ RIGHT, POOR = 1.1, 1.5  # times the shortest way: full points, no points
 @check(points=3)
 def answers_a_goal(recording: Recording) -> None:
     """A goal on /goal_pose is answered within 2 s with a Path on /plan, in the frame map."""
-    with advising(recording, "Publish the path in the callback of /goal_pose."):
+    with advising(recording, "Publish the path on /plan, in the callback of /goal_pose."):
         publishes(recording, "/plan", PATH)
     plan = _plan(recording, 0)
     if plan is None or not plan.poses:

@@ -112,7 +112,7 @@ def no_estimate(goal: Goal) -> Fault | None:
     times = [_seconds(heard.message.estimated_time_remaining) for heard in goal.feedback]
     if all(seconds > 0 for seconds in times[: len(times) // 2]):
         return None
-    hint = "It is the distance divided by the speed, as a Duration: Duration(sec=int(distance / speed))."
+    hint = "It is the distance by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
     return "an estimated_time_remaining above 0 on the way", "0 s or less", hint
 
 

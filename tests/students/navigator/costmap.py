@@ -233,3 +233,14 @@ class ColumnsFirst(Costmap):
         for row, column in np.argwhere(cells == 100):
             inflated[column, row] = 100
         return inflated
+
+
+class NoWholeNumbers(Costmap):
+    def to_cell(self, x, y):
+        corner, width = self.info.origin.position, self.info.resolution
+        return (x - corner.x) / width, (y - corner.y) / width
+
+
+class OneIsOccupied(Costmap):
+    def inflate(self, cells, reach):
+        return np.where(super().inflate(cells, reach) == 100, 1, cells)

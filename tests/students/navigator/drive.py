@@ -218,3 +218,11 @@ class GivesUpHalfWay(GoToGoal):
     def steer(self, command, distance, bearing):
         if distance > 3.5:
             super().steer(command, distance, bearing)
+
+
+class PassesBy(GoToGoal):
+    """Comes near, but not within 0.1 m, and goes on."""
+
+    def steer(self, command, distance, bearing):
+        if distance > self.near:
+            command.linear.x, command.angular.z = 0.4, 0.2 * bearing

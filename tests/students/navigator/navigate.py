@@ -223,6 +223,23 @@ class ReplansAlways(Navigator):
         return self.turn % 5 == 0
 
 
+class TurnsToTheHeading(Navigator):
+    """Turns to the goal's heading at the end, as Nav2 does; nobody asks for it."""
+
+    def execute(self, goal_handle):
+        self.began = self.get_clock().now()
+        return super().execute(goal_handle)
+
+    def arrived(self, goal_handle):
+        orientation = goal_handle.request.pose.pose.orientation
+        heading = 2 * math.atan2(orientation.z, orientation.w)
+        while abs(left := math.remainder(heading - self.pose[2], math.tau)) > 0.1:
+            self.drive(0.0, math.copysign(0.8, left))
+            self.tell(goal_handle, [self.pose[:2]], self.began)
+            time.sleep(0.1)
+        return super().arrived(goal_handle)
+
+
 def main_with_try():
     """A tutorial's main(), with try, finally and a rate of its own."""
     rclpy.init()
@@ -241,6 +258,7 @@ def main_with_try():
 main = main_of(Navigator)
 timer_main = main_of(TimerNavigator, SingleThreadedExecutor)
 replanning_main = main_of(ReplansAlways)
+turning_main = main_of(TurnsToTheHeading)
 
 
 class OtherName(Navigator):
