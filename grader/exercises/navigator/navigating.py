@@ -99,7 +99,7 @@ def does_not_dawdle(recording: Recording) -> None:
 
 @check(points=3, after=reaches_the_goal)
 def tells_how_far(recording: Recording) -> None:
-    """At least every 2 s the feedback tells where the robot is, how far it is to go, and how long that takes."""
+    """At least every 2 s the feedback says where the robot is, how far it is to go and how long it takes."""
     goal = last_goal(recording)
     moments = [goal.at("executing") or 0.0, *(heard.stamp for heard in goal.feedback)]
     pauses = [after - before for before, after in itertools.pairwise([*moments, end_of(recording, goal)])]
