@@ -60,7 +60,7 @@ def command(paths: Iterable[str], program: list[str]) -> list[str]:
             f"install it with `sudo apt install bubblewrap`, {UNSAFE}."
         )
     words = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
-    words += ["--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
+    words += ["--unshare-net", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
     words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
     for name, value in environment(HOME, "/tmp").items():
         words += ["--setenv", name, value]
@@ -75,9 +75,7 @@ def command(paths: Iterable[str], program: list[str]) -> list[str]:
         words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     for path in paths:
         words += ["--ro-bind", path, path]
-    words += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--"]
-    # A network of bubblewrap's own has a loopback interface that is up, and inmates could talk over it.
-    return [*words, "unshare", "--map-current-user", "--net", *program]
+    return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
 
 def forbidden(words: str, settings: Path = Path("/proc/sys")) -> SandboxMissing:

@@ -18,7 +18,7 @@ from grader.marking.sandbox import cell, linux
 from grader.marking.sandbox.cell import Plan
 from grader.marking.sandbox.limits import MB, Ending, Limits
 
-WATCH_S = 0.25  # between two looks at the number of threads
+WATCH_S = 0.25  # between two looks at an inmate
 WORDS = 4000  # bytes of stderr that are reported
 OUT_OF_MEMORY = 70  # the exit status of an inmate whose MemoryError nobody caught
 
@@ -57,10 +57,12 @@ def _keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limi
             os.waitpid(inmate, 0)
             raise OSError(problem)
         socket.send_fds(report, [b"{}"], [pidfd])
+        reserved = _reserved_mb(inmate, processes)
         reason = _watch(inmate, pidfd, processes, limits)
         _, status, used = os.wait4(inmate, 0)
-        ending = describe(status, used, limits, reason)
-        report.send(json.dumps(vars(ending) | {"words": _last_words(stderr)}).encode())
+        ending = describe(status, used, limits, reason, reserved)
+        words = _last_words(stderr)
+    report.send(json.dumps(vars(ending) | {"words": words}).encode())
 
 
 def _problem(ready: int) -> str:
@@ -75,21 +77,32 @@ def _watch(inmate: int, pidfd: int, processes: int, limits: Limits) -> str:
     deadline = time.monotonic() + limits.wall_s
     poll = select.poll()
     poll.register(pidfd, select.POLLIN)
-    while not poll.poll(1000 * max(0.0, min(WATCH_S, deadline - time.monotonic()))):
-        late = time.monotonic() >= deadline
-        # RLIMIT_NPROC does not bind the real root.
-        if late or _threads(inmate, processes) > limits.threads:
+    while not poll.poll(1000 * WATCH_S):
+        if reason := _exceeded(_read(f"{inmate}/stat", processes), deadline, limits):
             os.kill(inmate, signal.SIGKILL)
-            return "time" if late else "threads"
+            return reason
     return ""
 
 
-def _threads(inmate: int, processes: int) -> int:
-    try:
-        with os.fdopen(os.open(f"{inmate}/stat", os.O_RDONLY, dir_fd=processes), "rb") as file:
-            return int(file.read().rpartition(b")")[2].split()[17])
-    except OSError:
-        return 0
+def _exceeded(stat: bytes, deadline: float, limits: Limits) -> str:
+    """Return which limit does not hold any more, or "". See proc(5) for `stat`."""
+    fields = stat.rpartition(b")")[2].split()
+    if (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK") > limits.cpu_s:
+        return "cpu"
+    if int(fields[17]) > limits.threads:  # RLIMIT_NPROC does not bind the real root
+        return "threads"
+    return "time" if time.monotonic() > deadline else ""
+
+
+def _reserved_mb(inmate: int, processes: int) -> float:
+    """Return how much address space it has without memory behind it."""
+    size, resident, *_ = map(int, _read(f"{inmate}/statm", processes).split())
+    return (size - resident) * resource.getpagesize() / MB
+
+
+def _read(path: str, folder: int) -> bytes:
+    with os.fdopen(os.open(path, os.O_RDONLY, dir_fd=folder), "rb") as file:
+        return file.read()
 
 
 def _last_words(stderr: IO[bytes]) -> str:
@@ -128,12 +141,14 @@ def _live(
         os._exit(code & 0xFF)
 
 
-def describe(status: int, used: resource.struct_rusage, limits: Limits, reason: str) -> Ending:
+def describe(
+    status: int, used: resource.struct_rusage, limits: Limits, reason: str, reserved_mb: float
+) -> Ending:
     """Tell how an inmate ended, from what wait4 says and the limit that was the `reason`, if any."""
     code = os.waitstatus_to_exitcode(status)
     cpu_s = used.ru_utime + used.ru_stime
     peak_mb = used.ru_maxrss * 1024 / MB
-    kind = reason or _kind(code, cpu_s, peak_mb, limits)
+    kind = reason or _kind(code, peak_mb + reserved_mb, limits)
     details = {
         "exited": "The process ended by itself" + (f", with exit status {code}." if code else "."),
         "killed": "The process was killed from outside.",
@@ -146,12 +161,12 @@ def describe(status: int, used: resource.struct_rusage, limits: Limits, reason: 
     return Ending(kind, details[kind], code, round(cpu_s, 3), round(peak_mb, 1))
 
 
-def _kind(code: int, cpu_s: float, peak_mb: float, limits: Limits) -> str:
+def _kind(code: int, space_mb: float, limits: Limits) -> str:
     if code == OUT_OF_MEMORY:
         return "memory"
     if code >= 0:
         return "exited"
-    if code in (-signal.SIGKILL, -signal.SIGXCPU):
-        return "cpu" if cpu_s >= limits.cpu_s else "killed"
+    if code == -signal.SIGKILL:
+        return "killed"
     # C++ code that gets no memory aborts.
-    return "memory" if peak_mb > 0.7 * limits.memory_mb else "crashed"
+    return "memory" if space_mb > 0.9 * limits.memory_mb else "crashed"

@@ -41,10 +41,12 @@ class Ending:
 
 
 def apply(limits: Limits, own_users: bool) -> None:
-    """Limit this process from now on; `own_users` says that it has a user namespace of its own."""
+    """Limit this process from now on; `own_users` says that it has a user namespace of its own.
+
+    The keeper watches the time, for Linux's own limit counts it too roughly to be told from other ends.
+    """
     figures = {
         resource.RLIMIT_AS: limits.memory_mb * MB,
-        resource.RLIMIT_CPU: limits.cpu_s,
         resource.RLIMIT_FSIZE: limits.file_mb * MB,
         resource.RLIMIT_NOFILE: limits.open_files,
         resource.RLIMIT_MSGQUEUE: 0,

@@ -45,7 +45,7 @@ class WarmProcess:
         try:
             self._control.send(json.dumps(order).encode())
             answer, descriptors, _, _ = socket.recv_fds(self._control, 1 << 16, 1)
-        except BrokenPipeError:
+        except ConnectionError:
             answer, descriptors = b"", []
         except TimeoutError:
             text = f"The sandbox was not ready after {START_S:g} s: is this machine too busy?"
@@ -74,7 +74,10 @@ class WarmProcess:
             except OSError:
                 ours.close()
                 return None
-        answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+        try:
+            answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+        except ConnectionError:
+            answer, descriptors = b"", []
         if descriptors:
             return Inmate(descriptors[0], ours)
         ours.close()

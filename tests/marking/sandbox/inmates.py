@@ -14,3 +14,10 @@ def obey(wire: socket.socket) -> None:
         except Exception as error:
             said = {"error": type(error).__name__, "text": str(error)}
         wire.sendall(json.dumps(said).encode() + b"\n")
+
+
+def greedy(wire: socket.socket) -> None:
+    """Take memory until there is none."""
+    held = []
+    while True:
+        held.append(bytearray(100_000))

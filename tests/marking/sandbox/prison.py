@@ -46,6 +46,6 @@ class Prisoner:
         self.wire.close()
 
 
-def sandbox(**options: Any) -> Sandbox:
+def sandbox(entry: str = "inmates:obey", **options: Any) -> Sandbox:
     """A sandbox whose inmates obey."""
-    return Sandbox("inmates:obey", imports=[Path(__file__).parent], **({"preload": FEW} | options))
+    return Sandbox(entry, imports=[Path(__file__).parent], **({"preload": FEW} | options))

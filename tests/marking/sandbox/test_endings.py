@@ -1,0 +1,109 @@
+"""How inmates end, and that none outlives its end."""
+import os
+import select
+import signal
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+from tests.marking.sandbox.prison import PATIENCE, sandbox
+
+
+@pytest.mark.parametrize(
+    ("act", "kind", "detail"),
+    [
+        ("import os; os._exit(5)", "exited", "The process ended by itself, with exit status 5."),
+        ("import ctypes; ctypes.string_at(0)", "crashed", "The process crashed: Segmentation fault."),
+        ("import os; os.abort()", "crashed", "The process crashed: Segmentation fault."),
+        ("raise KeyboardInterrupt", "exited", "The process ended by itself, with exit status 1."),
+    ],
+)
+def test_an_end_of_its_own_is_told(prisoner, act, kind, detail):
+    prisoner.tell(act)
+    ending = prisoner.ending()
+    assert (ending.kind, ending.detail) == (kind, detail)
+
+
+def test_an_error_that_leaves_the_entry_is_kept(prisoner):
+    prisoner.tell("raise KeyboardInterrupt('stop it')")
+    assert prisoner.ending().words.endswith("KeyboardInterrupt: stop it")
+
+
+def test_it_cannot_stop_itself(prisoner):
+    stop = "import os, signal; os.kill(os.getpid(), signal.SIGSTOP); answer = 'going on'"
+    assert prisoner.ask(stop) == "going on"
+
+
+IGNORANT = "import signal; [signal.signal(s, signal.SIG_IGN) for s in signal.valid_signals() - {9, 19}]"
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        "while True: pass",
+        IGNORANT + "\nwhile True: pass",
+        "import threading; [threading.Thread(target=threading.Event().wait).start() for _ in range(5)]",
+        "wire.close(); import threading; threading.Event().wait()",
+        "import os; keep = os.dup(3); os.closerange(0, 60); import threading; threading.Event().wait()",
+    ],
+)
+def test_killing_ends_it_whatever_it_does(prisoner, act):
+    pidfd = os.pidfd_open(prisoner.inmate.pid)
+    prisoner.tell(act)
+    prisoner.inmate.kill()
+    ending = prisoner.ending()
+    assert (ending.kind, ending.detail) == ("killed", "The process was killed from outside.")
+    assert gone(pidfd)
+    prisoner.inmate.kill()
+
+
+def test_closing_the_sandbox_ends_all(prisoners):
+    box = sandbox()
+    held = [prisoners(box) for _ in range(3)]
+    box.close()
+    assert {prisoner.ending().kind for prisoner in held} == {"killed"}
+
+
+def test_when_the_warm_process_dies_a_new_one_takes_its_place(prisoners):
+    with sandbox() as box:
+        before = prisoners(box)
+        signal.pidfd_send_signal(box._warm._pidfd, signal.SIGKILL)
+        assert before.ending().detail == "The process was killed: the cage around it broke."
+        after = prisoners(box)
+        assert after.ask("answer = 'alive'") == "alive"
+        after.leave()
+
+
+def test_nothing_is_left_of_many(cage, prisoners):
+    prisoners(cage).leave()
+    before = len(os.listdir("/proc/self/fd"))
+    for _ in range(20):
+        prisoners(cage).leave()
+    assert len(os.listdir("/proc/self/fd")) == before
+
+
+@pytest.mark.parametrize("unsafe", [False, True])
+def test_nobody_outlives_the_marker(unsafe):
+    marker = f"""
+        import socket, sys
+        from tests.marking.sandbox.prison import Prisoner, sandbox
+        prisoner = Prisoner(sandbox(unsafe={unsafe}))
+        prisoner.tell("while True: pass")
+        print(prisoner.inmate.pid, flush=True)
+        sys.stdin.read()
+    """
+    command = [sys.executable, "-c", textwrap.dedent(marker)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        pidfd = os.pidfd_open(int(process.stdout.readline()))
+        process.kill()
+    assert gone(pidfd)
+
+
+def gone(pidfd: int) -> bool:
+    poll = select.poll()
+    poll.register(pidfd, select.POLLIN)
+    ended = bool(poll.poll(1000 * PATIENCE))
+    os.close(pidfd)
+    return ended

@@ -1,0 +1,104 @@
+"""Systems without a sandbox, and what the marker reads there."""
+import os
+import subprocess
+import sys
+
+import pytest
+
+from grader.marking.sandbox import Sandbox, SandboxFailed, SandboxMissing, cage, warm
+from tests.marking.sandbox.prison import sandbox
+
+UNSAFE = ", or mark with `--unsafe`, which lets students' code read and change all your files."
+
+
+def test_without_bubblewrap_it_says_how_to_get_it(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(SandboxMissing) as caught:
+        sandbox()
+    assert str(caught.value) == (
+        "Marking runs students' code in a sandbox made by bubblewrap, and this machine has no `bwrap`: "
+        "install it with `sudo apt install bubblewrap`" + UNSAFE
+    )
+
+
+@pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, none for an inmate
+def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespaces):
+    attempt = "from tests.marking.sandbox.prison import sandbox; sandbox()"
+    script = f'echo {namespaces} > /proc/sys/user/max_user_namespaces; exec "$0" -c "$1"'
+    inner = ["unshare", "--user", "--map-root-user", "sh", "-c", script, sys.executable, attempt]
+    done = subprocess.run(inner, capture_output=True, text=True)
+    error = done.stderr.splitlines()[-1]
+    assert error.startswith(
+        "grader.marking.sandbox.errors.SandboxMissing: This system lets bubblewrap make no sandbox ("
+    )
+    way = "Allow user namespaces with `sudo sysctl user.max_user_namespaces=10000`"
+    if namespaces:
+        way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
+        assert "([Errno 28] unshare: No space left on device)" in error
+    assert error.endswith(f"). {way}{UNSAFE}")
+
+
+@pytest.mark.parametrize(
+    ("setting", "value", "way"),
+    [
+        (
+            "kernel/apparmor_restrict_unprivileged_userns",
+            "1",
+            "Allow user namespaces with `sudo sysctl kernel.apparmor_restrict_unprivileged_userns=0`",
+        ),
+        (
+            "kernel/unprivileged_userns_clone",
+            "0",
+            "Allow user namespaces with `sudo sysctl kernel.unprivileged_userns_clone=1`",
+        ),
+        (
+            "user/max_user_namespaces",
+            "10000",
+            "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`",
+        ),
+    ],
+)
+def test_the_way_out_depends_on_the_system(tmp_path, setting, value, way):
+    file = tmp_path / setting
+    file.parent.mkdir()
+    file.write_text(value + "\n")
+    assert str(cage.forbidden("bwrap: No permission", tmp_path)) == (
+        f"This system lets bubblewrap make no sandbox (bwrap: No permission). {way}{UNSAFE}"
+    )
+
+
+@pytest.mark.parametrize("unsafe", [False, True])
+def test_a_warm_process_that_dies_early_is_told_with_its_last_words(tmp_path, unsafe):
+    (tmp_path / "quitter.py").write_text("import os; os.write(2, b'no more'); os._exit(1)")
+    with pytest.raises(SandboxFailed) as caught:
+        Sandbox("quitter:main", preload=(), imports=[tmp_path], unsafe=unsafe)
+    assert str(caught.value) == "The sandbox ended before it was ready. It said last: no more"
+
+
+def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
+    monkeypatch.setattr(warm, "START_S", 0.01)
+    with pytest.raises(SandboxFailed) as caught:
+        sandbox()
+    assert str(caught.value) == "The sandbox was not ready after 0.01 s: is this machine too busy?"
+
+
+def test_an_ordinary_user_has_the_same_sandbox():
+    attempt = (
+        "from tests.marking.sandbox.prison import Prisoner, sandbox\n"
+        "prisoner = Prisoner(sandbox())\n"
+        "print(prisoner.ask('import os; answer = [os.getcwd(), os.getuid(), os.listdir(\"/proc\")]'))"
+    )
+    done = subprocess.run([*ordinary_user(), sys.executable, "-c", attempt], capture_output=True, text=True)
+    assert done.stdout == "['/student', 1000, ['self']]\n", done.stderr
+
+
+def ordinary_user() -> list[str]:
+    """What makes a command run as an ordinary user, who may read Python even if it lies in root's folder."""
+    if os.getuid():
+        return []
+    open_home = (
+        "mount --bind /root /mnt && mount -t tmpfs none /root && chmod 755 /root && mkdir /root/.pyenv"
+        ' && if [ -d /mnt/.pyenv ]; then mount --bind /mnt/.pyenv /root/.pyenv; fi && exec "$@"'
+    )
+    drop = ["setpriv", "--reuid", "12345", "--regid", "12345", "--clear-groups"]
+    return ["unshare", "--mount", "sh", "-c", open_home, "sh", *drop]

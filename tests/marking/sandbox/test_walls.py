@@ -1,0 +1,174 @@
+"""Ways out of the cage, each tried from inside."""
+import json
+import os
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+
+import grader
+from tests.marking.sandbox.prison import sandbox
+
+COURSE = Path(grader.__file__).parents[1]
+ABSTRACT = f"\0marking-test-{os.getpid()}"
+
+
+def test_of_the_course_only_its_packages_are_there(prisoner):
+    allowed = {"grader", "sim", "tests"}  # tests/ for the entry of these tests
+    if Path(sys.prefix).parent == COURSE:
+        allowed.add(Path(sys.prefix).name)
+    assert set(prisoner.ask(f"import os; answer = os.listdir({str(COURSE)!r})")) == allowed
+    assert prisoner.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]
+
+
+@pytest.mark.parametrize(
+    "place", [".secret", "class/gradebook.db", "class/submitted", "solutions", "nbgrader_config.py", ".git"]
+)
+def test_nothing_of_the_instructor_can_be_opened(prisoner, place):
+    path = str(COURSE / place)
+    said = prisoner.ask(f"open({path!r})")
+    assert said == f"FileNotFoundError: [Errno 2] No such file or directory: {path!r}"
+
+
+def test_the_home_of_the_marker_holds_python_at_most(prisoner):
+    home = Path.home()
+    seen = prisoner.ask(f"import glob; answer = glob.glob('{home}/*', include_hidden=True)")
+    shown = [Path(path) for path in (sys.base_prefix, sys.prefix, COURSE)]
+    assert [name for name in seen if not any(path.is_relative_to(name) for path in shown)] == []
+
+
+def test_files_of_the_host_are_not_there(prisoner, tmp_path):
+    (tmp_path / "answers.txt").write_text("42")
+    assert prisoner.ask(f"open({str(tmp_path / 'answers.txt')!r})").startswith("FileNotFoundError: ")
+    assert prisoner.ask("import os; answer = os.path.exists('/etc/passwd')") is False
+
+
+def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, prisoners):
+    data = tmp_path / "release" / "data.csv"
+    data.parent.mkdir()
+    data.write_text("1,2")
+    with sandbox(readable=[data, tmp_path / "release"]) as box:
+        prisoner = prisoners(box)
+        assert prisoner.ask(f"answer = open({str(data)!r}).read()") == "1,2"
+        said = prisoner.ask(f"open('{data}', 'w')")
+        assert said == f"OSError: [Errno 30] Read-only file system: '{data}'"
+        assert prisoner.ask(f"import os; os.rename({str(data)!r}, '/tmp/x')").startswith("OSError: ")
+        assert prisoner.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
+        prisoner.leave()
+    assert data.read_text() == "1,2"
+
+
+@pytest.mark.parametrize(
+    "folder", [sys.prefix, sys.base_prefix, str(COURSE / "grader"), "/usr/lib", "/", "/etc", "/dev"]
+)
+def test_nothing_but_its_own_places_can_be_written(prisoner, folder):
+    said = prisoner.ask(f"open({folder!r} + '/mine', 'w')")
+    assert said == f"OSError: [Errno 30] Read-only file system: '{folder}/mine'"
+
+
+@pytest.mark.parametrize("folder", ["/tmp", "/dev/shm", "/student"])
+def test_what_one_leaves_behind_no_other_finds(cage, prisoners, folder):
+    first, second = prisoners(cage), prisoners(cage)
+    assert first.ask(f"answer = open({folder!r} + '/mine', 'w').write('!')") == 1
+    first_leaves = f"import os; answer = os.listdir({folder!r})"
+    assert (first.ask(first_leaves), second.ask(first_leaves)) == (["mine"], [])
+    first.leave()
+    assert prisoners(cage).ask(first_leaves) == []
+
+
+def test_the_environment_holds_nothing_of_the_markers(monkeypatch, prisoners):
+    monkeypatch.setenv("COURSE_SECRET", "do not tell")
+    with sandbox() as box:
+        prisoner = prisoners(box)
+        assert "COURSE_SECRET" not in prisoner.ask("import os; answer = dict(os.environ)")
+        assert "do not tell" not in prisoner.ask("answer = open('/proc/self/environ').read()")
+        prisoner.leave()
+
+
+def test_it_has_its_wire_and_no_other_descriptor(prisoner):
+    links = "import os; answer = [os.readlink(f'/proc/self/fd/{n}') for n in range(4)]"
+    stdin, stdout, _, wire = prisoner.ask(links)
+    assert (stdin, stdout, wire[:8]) == ("/dev/null", "/dev/null", "socket:[")
+    assert prisoner.ask("os.fstat(4)") == "OSError: [Errno 9] Bad file descriptor"
+    assert prisoner.ask("answer = len(os.listdir('/proc/self/fd'))") == 4 + 1  # one for the look itself
+
+
+def test_it_sees_no_process_but_itself(cage, prisoners):
+    first, second = prisoners(cage), prisoners(cage)
+    look = "import os; answer = [os.getpid(), os.getppid(), os.listdir('/proc')]"
+    assert first.ask(look) == second.ask(look) == [1, 0, ["self"]]
+    assert first.ask("answer = open('/proc/2/environ')").startswith("FileNotFoundError: ")
+
+
+@pytest.mark.parametrize("target", ["0", "-1", "1", "2", "-2"])
+def test_it_can_kill_nobody_else(cage, prisoners, target):
+    attacker, other = prisoners(cage), prisoners(cage)
+    attacker.ask(f"import os, signal; os.kill({target}, signal.SIGKILL)")
+    assert other.ask("answer = 'alive'") == "alive"
+    assert prisoners(cage).ask("answer = 'alive'") == "alive"
+
+
+@pytest.mark.parametrize(
+    "attempt",
+    [
+        "import os; os.fork()",
+        "import os; os.execv('/bin/true', ['true'])",
+        "import os; os.posix_spawn('/bin/true', ['true'], {})",
+        "import subprocess; subprocess.run(['true'])",
+        "import multiprocessing; multiprocessing.get_context('fork').Process().start()",
+        "import socket; socket.socket(40, socket.SOCK_STREAM)",  # to the host of a virtual machine
+        "import socket; socket.socket(socket.AF_INET6)",
+        "import os; os.mkfifo('x')",
+        "import os; os.memfd_create('x')",
+        "import os; os.pidfd_open(1)",
+        "import os; os.chroot('/tmp')",
+    ],
+)
+def test_new_processes_and_the_like_are_ordinary_errors(prisoner, attempt):
+    assert prisoner.ask(attempt).startswith("PermissionError: [Errno 1] Operation not permitted")
+
+
+def test_threads_are_allowed(prisoner):
+    work = "import threading; answer = []; t = threading.Thread(target=answer.append, args=(1,)); "
+    assert prisoner.ask(work + "t.start(); t.join()") == [1]
+
+
+UNREACHABLE = "OSError: [Errno 101] Network is unreachable"
+
+
+@pytest.mark.parametrize("address", ["1.1.1.1", "127.0.0.1", "169.254.169.254"])
+def test_no_address_can_be_reached(prisoner, address):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        target = (address, server.getsockname()[1])
+        assert prisoner.ask(f"import socket; socket.create_connection({target})") == UNREACHABLE
+        assert prisoner.ask(f"socket.socket(type=socket.SOCK_DGRAM).sendto(b'x', {target})") == UNREACHABLE
+
+
+def test_no_name_can_be_looked_up(prisoner):
+    assert prisoner.ask("import socket; socket.getaddrinfo('example.org', 80)").startswith("gaierror: ")
+
+
+def test_abstract_sockets_lead_nowhere(cage, prisoners):
+    first, second = prisoners(cage), prisoners(cage)
+    name = json.dumps(ABSTRACT)
+    attempt = f"import socket; s = socket.socket(socket.AF_UNIX); s.connect({name})"
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(ABSTRACT)
+        server.listen()
+        assert first.ask(attempt) == "ConnectionRefusedError: [Errno 111] Connection refused"
+    serve = f"s = socket.socket(socket.AF_UNIX); s.bind({name}); s.listen(); answer = 'open'"
+    assert first.ask(serve) == "open"
+    assert second.ask(attempt) == "ConnectionRefusedError: [Errno 111] Connection refused"
+
+
+def test_ports_of_one_are_free_for_the_next(cage, prisoners):
+    bind = "import socket; s = socket.socket(type=socket.SOCK_DGRAM); s.bind(('', 7410)); answer = 'bound'"
+    assert [prisoners(cage).ask(bind) for _ in range(2)] == ["bound", "bound"]
+
+
+def test_its_own_user_has_no_power(prisoner):
+    lines = prisoner.ask("answer = open('/proc/self/status').read().split('\\n')")
+    status = dict(line.split(":\t") for line in lines if line)
+    assert {status[name] for name in ("CapInh", "CapPrm", "CapEff", "CapAmb")} == {"0" * 16}
+    assert (status["NoNewPrivs"], status["Seccomp"]) == ("1", "2")
