@@ -1,0 +1,186 @@
+"""What of a submission's source only makes sense for somebody who works on the marking instead of the task.
+
+It decides nothing: points come from what the judge saw. It names the tricks, so that an instructor knows whom
+to talk to. Who hides a trick well is not found here, and gains nothing all the same.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from IPython.core.inputtransformer2 import TransformerManager
+
+DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
+MAX_SOURCE = 20_000  # characters
+COURSE = ("rclpy", "sim", "grader", "builtins")
+# Modules that no exercise needs, and what one does with them.
+MODULES = {
+    "atexit": "runs code when the process ends",
+    "ctypes": "reaches into Python's memory",
+    "gc": "finds objects that it was not given",
+    "multiprocessing": "starts processes",
+    "pty": "starts processes",
+    "signal": "changes how the process is stopped",
+    "socket": "opens connections",
+    "subprocess": "starts processes",
+    "IPython": "changes how cells are run and shown",
+}
+# Attributes, wherever they stand.
+ATTRIBUTES = {
+    "__subclasses__": "finds classes that it was not given",
+    "__globals__": "reaches into another function's module",
+    "__code__": "replaces or reads a function's code",
+    "__builtins__": "changes what Python itself does",
+    "_getframe": "reaches into its callers",
+    "f_back": "reaches into its callers",
+    "f_locals": "reaches into its callers",
+    "settrace": "follows the marking step by step",
+    "setprofile": "follows the marking step by step",
+    "modules": "replaces modules",
+    "meta_path": "replaces modules",
+    "ast_transformers": "rewrites cells before they run",
+    "input_transformers_cleanup": "rewrites cells before they run",
+    "input_transformers_post": "rewrites cells before they run",
+    "display_formatter": "changes what cells show",
+    "displayhook": "changes what cells show",
+    "display_pub": "changes what cells show",
+    "run_cell": "changes how cells are run",
+    "run_cell_async": "changes how cells are run",
+    "_exit": "ends the process",
+    "kill": "stops processes",
+    "killpg": "stops processes",
+    "fork": "starts processes",
+    "system": "starts processes",
+    "popen": "starts processes",
+    "execv": "starts processes",
+    "ptrace": "reaches into other processes",
+    "close": "touches the process's own open files",
+    "closerange": "touches the process's own open files",
+    "dup2": "touches the process's own open files",
+    "write": "touches the process's own open files",
+    "walk": "searches the disk",
+}
+# Words that are too common for others' attributes.
+OWNERS = {"modules": {"sys"}} | {
+    word: {"os"} for word in ("kill", "fork", "system", "popen", "close", "dup2", "write", "walk")
+}
+CALLS = {"exec": "runs text as code", "eval": "runs text as code", "__import__": "imports by text"}
+METHODS = {
+    "__eq__": "decides what it is equal to",
+    "__float__": "decides what number it is",
+    "__instancecheck__": "decides what is an instance of it",
+    "__del__": "runs code when it is thrown away",
+    "_repr_html_": "decides how it is shown",
+    "_repr_mimebundle_": "decides how it is shown",
+    "_ipython_display_": "decides how it is shown",
+}
+SECRETS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/")
+SHELL = ("system", "getoutput")  # what IPython makes of !command
+
+
+def suspicions(cells: Iterable[tuple[str, str]]) -> list[str]:
+    """A sentence for each suspicious thing in these cells, pairs of a name and a source; each thing once."""
+    course: dict[str, str] = {}
+    found: dict[str, None] = {}
+    for name, source in cells:
+        if len(source) > MAX_SOURCE:
+            long = f"has more than {MAX_SOURCE} characters: nobody has looked through it"
+            found.setdefault(f"The cell `{name}` {long}.")
+            continue
+        tree = _parsed(source)
+        nodes = list(ast.walk(tree))
+        for node in nodes:
+            course |= _names_from_course(node)
+        whats = [what for node in nodes for what in _judge(node, course)]
+        for what in whats + [what for statement in tree.body for what in _taken(statement, course)]:
+            found.setdefault(f"The cell `{name}` {what}.")
+    return list(found)
+
+
+def _parsed(source: str) -> ast.Module:
+    """The cell's code; none of what can't run either."""
+    try:
+        return ast.parse(TransformerManager().transform_cell(source))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])
+
+
+def _names_from_course(node: ast.AST) -> dict[str, str]:
+    """Names that an import gives from the modules that a run stands on, with the module."""
+    names = {}
+    if isinstance(node, ast.Import):
+        names = {(a.asname or a.name.split(".")[0]): a.name for a in node.names}
+    elif isinstance(node, ast.ImportFrom) and node.module:
+        names = {(a.asname or a.name): node.module for a in node.names}
+    return {name: module for name, module in names.items() if module.split(".")[0] in COURSE}
+
+
+def _judge(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
+    if isinstance(node, ast.Import):
+        for name in node.names:
+            yield from _imported(name.name)
+    elif isinstance(node, ast.ImportFrom) and node.module:
+        yield from _imported(node.module)
+    elif isinstance(node, ast.Attribute):
+        yield from _attribute(node)
+        if not isinstance(node.ctx, ast.Load):
+            yield from _replaced(node, course)
+    elif isinstance(node, ast.Call):
+        yield from _called(node, course)
+    elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name in METHODS:
+        yield f"defines `{node.name}`, which {METHODS[node.name]}"
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield from (f"speaks of `{word}`" for word in SECRETS if word in node.value)
+
+
+def _imported(module: str) -> Iterator[str]:
+    top = module.split(".")[0]
+    if top in MODULES and module != "IPython.display":
+        yield f"imports `{module}`, which {MODULES[top]}"
+    if top in ("sim", "grader") and module not in DOORS and not module.startswith("grader.exercises."):
+        yield f"imports `{module}`, which is inside the course's own machinery"
+
+
+def _attribute(node: ast.Attribute) -> Iterator[str]:
+    reason, owners = ATTRIBUTES.get(node.attr), OWNERS.get(node.attr)
+    owner = node.value.id if isinstance(node.value, ast.Name) else ""
+    if reason and (owners is None or owner in owners):
+        yield f"uses `{ast.unparse(node)[:60]}`, which {reason}"
+    if _is_shell(node.value) and node.attr == "events":
+        yield "uses `get_ipython().events`, which runs code around every cell"
+
+
+def _replaced(node: ast.expr, course: dict[str, str], what: str = "") -> Iterator[str]:
+    """Something is assigned to an attribute: does it belong to a module of the course or of ROS?"""
+    root = node
+    while isinstance(root, ast.Attribute):
+        root = root.value
+    if isinstance(root, ast.Name) and root.id in course:
+        yield f"replaces {what}`{ast.unparse(node)[:60]}`, which is part of {course[root.id].split('.')[0]}"
+
+
+def _taken(statement: ast.stmt, course: dict[str, str]) -> Iterator[str]:
+    """A statement of the cell itself, not of a function: does it hide a name of the course?"""
+    names = [getattr(statement, "name", "")]
+    if isinstance(statement, ast.Assign):
+        parts = [part for target in statement.targets for part in ast.walk(target)]
+        names = [part.id for part in parts if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)]
+    for name in names:
+        package = course.get(name, "").split(".")[0]
+        if package in ("sim", "grader"):
+            yield f"takes the name `{name}`, which is part of {package}"
+
+
+def _called(node: ast.Call, course: dict[str, str]) -> Iterator[str]:
+    name = node.func.id if isinstance(node.func, ast.Name) else ""
+    if name in CALLS:
+        yield f"calls `{name}(...)`, which {CALLS[name]}"
+    if name == "setattr" and node.args:
+        yield from _replaced(node.args[0], course, "attributes of ")
+    if isinstance(node.func, ast.Attribute) and node.func.attr in SHELL and _is_shell(node.func.value):
+        yield "runs a command of the system's shell, which starts processes"
+
+
+def _is_shell(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "get_ipython"

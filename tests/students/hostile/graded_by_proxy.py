@@ -1,0 +1,5 @@
+"""The test cell's exercise is told that another, easier one was asked for."""
+
+# %% after square
+topics.square = topics.temperature
+SquareDriver = Thermometer

@@ -1,0 +1,5 @@
+"""Output without end."""
+
+# %% after square
+while True:
+    print("x" * 1_000_000)

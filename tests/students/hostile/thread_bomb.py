@@ -1,0 +1,7 @@
+"""Threads without end."""
+
+# %% after square
+import threading
+
+while True:
+    threading.Thread(target=threading.Event().wait, daemon=True).start()
