@@ -22,6 +22,7 @@ DIAGNOSES = (
     actions.cancel_ignored,
     actions.cancel_refused,
     services.empty_answers,
+    services.answer_dropped,
     activity.ended_early,
     activity.unused_publisher,
     activity.empty_node,

@@ -55,8 +55,8 @@ def cancel_not_heard(recording: Recording) -> str:
             heard_at = f"only at {heard:.3g} s" if heard is not None else "never"
             return (
                 f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} heard it "
-                f"{heard_at}: the execute callback kept the node busy. Give the ActionServer "
-                "callback_group=ReentrantCallbackGroup(), and spin the node with a MultiThreadedExecutor."
+                f"{heard_at}: the execute callback kept the node busy. Spin the node with a "
+                "MultiThreadedExecutor, or let execute await a pause in place of time.sleep."
             )
     return ""
 

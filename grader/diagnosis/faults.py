@@ -6,8 +6,11 @@ import re
 
 from grader.diagnosis.errors import advice
 from grader.diagnosis.fault import NOT_STARTED, Fault
+from grader.diagnosis.situations import advice_here
 from sim.recording import CallbackError, Ended, Recording
 
+# Classes of rclpy that call a student's method inside a callback of their own.
+_RCLPYS_OWN = ("ActionClient.", "ParameterService.")
 _HINTS = {
     "error": "Read the last line of the error first: it says what Python did not like.",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
@@ -26,12 +29,12 @@ _HINTS = {
 def find_fault(recording: Recording) -> Fault | None:
     """The student's first error, or the way the run got stuck; None when it ran as it should."""
     if recording.errors:
-        return _from_error(recording.errors[0])
+        return _from_error(recording.errors[0], recording)
     ended = recording.ended
     return _from_end(ended) if ended.reason in _HINTS else None
 
 
-def _from_error(error: CallbackError) -> Fault:
+def _from_error(error: CallbackError, recording: Recording) -> Fault:
     if error.type == "NotImplementedError":
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
@@ -44,7 +47,7 @@ def _from_error(error: CallbackError) -> Fault:
     return Fault(
         expected="no error",
         saw=f"{error.type}: {_first_line(error.text)} ({where(error)})",
-        hint=advice(error),
+        hint=advice_here(error, recording) or advice(error),
         before_start=error.stamp <= 0.0,
     )
 
@@ -60,10 +63,13 @@ def _from_end(ended: Ended) -> Fault:
 
 def where(error: CallbackError) -> str:
     """The place of an error in words: "in Talker.tick, line 12, at 0.5 s"."""
-    frames = re.findall(r'File "(.*?)", line (\d+)', error.traceback)
-    own = [line for file, line in frames if "site-packages" not in file]
-    line = f", line {own[-1]}" if own else ""
-    return f"in {error.callback or 'a callback'}{line}, at {error.stamp:.3g} s"
+    frames = re.findall(r'File "(.*?)", line (\d+), in (.+)', error.traceback)
+    own = [(line, name) for file, line, name in frames if "site-packages" not in file]
+    callback = error.callback or "a callback"
+    if own and callback.startswith(_RCLPYS_OWN):
+        callback = own[0][1]
+    line = f", line {own[-1][0]}" if own else ""
+    return f"in {callback}{line}, at {error.stamp:.3g} s"
 
 
 def _first_line(text: str) -> str:

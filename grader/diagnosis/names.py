@@ -55,7 +55,7 @@ def difference(found: str, wanted: str) -> str:
     """A sentence on what makes `found` another name than `wanted`."""
     if found.lower() == wanted.lower():
         return f"Capital letters count: write {wanted}."
-    if _leaf(found) == _leaf(wanted):
+    if _leaf(found) == _leaf(wanted) and not _alike(_space(found), _space(wanted)):
         return (
             f"Only the namespace differs: write {wanted}. A name that starts with a slash is taken as it is; "
             "without the slash the node's namespace is put before it."
@@ -65,6 +65,14 @@ def difference(found: str, wanted: str) -> str:
 
 def _leaf(name: str) -> str:
     return name.rsplit("/", 1)[-1]
+
+
+def _space(name: str) -> str:
+    return name.rsplit("/", 1)[0]
+
+
+def _alike(one: str, other: str) -> bool:
+    return difflib.SequenceMatcher(None, one, other).ratio() >= 0.75
 
 
 def _folded(name: str) -> str:

@@ -34,6 +34,7 @@ PARAMETER_RULES = (
     ),
     Rule(
         "AttributeError", r"'Future' object has no attribute '(\w+)'",
-        "A future is the box in which the answer comes: `future.result().{0}`, in its done callback.",
+        "A future is the box in which the answer comes: `await` it first, or take `future.result().{0}` in "
+        "its done callback.",
     ),
 )  # fmt: skip

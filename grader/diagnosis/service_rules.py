@@ -48,6 +48,20 @@ SERVICE_RULES = (
         "write `def {0}(self, request, response):`.",
     ),
     Rule(
+        "TypeError", r"(\w+)\(\) missing \d required positional arguments?: '(?:request|goal_handle|future)'",
+        "`{0}` is called without what it needs. As a callback it is handed over without brackets, "
+        "`self.{0}`: ROS calls it, and fills in the rest.",
+    ),
+    Rule(
+        "AttributeError", r"type object 'str' has no attribute '_TYPE_SUPPORT'",
+        "The arguments are in the wrong order: first the type, then the name, as in "
+        "create_service(SetBool, '/arm', self.arm).",
+    ),
+    Rule(
+        "TypeError", r"'(bool|int|float|str)' object is not callable",
+        "What stands before the brackets is a value of type {0}, not a method: leave the brackets out.",
+    ),
+    Rule(
         "TypeError", r"create_service\(\) missing",
         "create_service() is missing an argument: write create_service(Type, 'name', self.callback).",
     ),

@@ -67,6 +67,28 @@ def _decided(events: list[tuple[float, str]]) -> float | None:
     return events[0][0] if events else None
 
 
+def answer_dropped(recording: Recording) -> str:
+    """An answer that came in, but that no done callback takes, and no callback awaited."""
+    took = {run.node for run in recording.callbacks if run.kind == "task" and not _is_rclpys(run.callback)}
+    for call in recording.calls:
+        if call.received is None or call.asked is None or call.client in took:
+            continue
+        asking = [
+            run for run in recording.callbacks if run.node == call.client and run.stamp == call.asked
+        ]
+        if asking and call.received > max(run.stamp + run.duration for run in asking):
+            return (
+                f"{call.client} called {call.service} at {call.asked:.3g} s, and the answer came at "
+                f"{call.received:.3g} s, but nothing took it: "
+                "`call_async(request).add_done_callback(self.hear)` names the method that hears it."
+            )
+    return ""
+
+
+def _is_rclpys(callback: str) -> bool:
+    return callback.startswith(("Client.", "ActionClient."))
+
+
 def empty_answers(recording: Recording) -> str:
     """A service all of whose answers are as empty as a new response."""
     answered = [call for call in recording.calls_of() if call.raw_response is not None]

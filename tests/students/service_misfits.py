@@ -10,7 +10,7 @@ from rclpy.action import ActionServer
 from rclpy.node import Node
 
 from tests.students.engine.actions import Server
-from tests.students.engine.services import Adder
+from tests.students.engine.services import Adder, Customer
 
 
 class MisspeltService(Adder):
@@ -35,6 +35,17 @@ class NeverSetsTheSum(Adder):
     def add(self, request, response):
         self.sum = request.a + request.b
         return response
+
+
+class NobodyHears(Customer):
+    """Asks, and names nobody who gets the answer."""
+
+    def __init__(self):
+        super().__init__()
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.client.call_async(self.request())
 
 
 def adder_that_nobody_spins():

@@ -91,6 +91,16 @@ class ServesWithoutCallback(Asker):
         self.create_service(AddTwoInts, "other")
 
 
+class TypeAfterName(Asker):
+    def tick(self):
+        self.create_service("other", AddTwoInts, self.answer)
+
+
+class HandsOverWhatTheCallbackReturns(Asker):
+    def tick(self):
+        self.create_service(AddTwoInts, "other", self.answer())
+
+
 class Runner(Node):
     """What the others are built on: offers the action /count, and sends itself a goal after a second."""
 
@@ -129,6 +139,13 @@ class PublishesAListAsFeedback(Runner):
 class PublishesTheResultAsFeedback(Runner):
     def execute(self, goal_handle):
         goal_handle.publish_feedback(Fibonacci.Result())
+        return super().execute(goal_handle)
+
+
+class CallsAValue(Runner):
+    def execute(self, goal_handle):
+        if goal_handle.is_cancel_requested():
+            goal_handle.canceled()
         return super().execute(goal_handle)
 
 

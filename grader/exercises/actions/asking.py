@@ -62,9 +62,14 @@ def logs_the_result(recording: Recording) -> None:
     wanted = list(goal.result.sequence)
     if not any("result" in text.lower() and holds(text, wanted) for text in said):
         hint = (
-            "goal_handle.get_result_async().add_done_callback(self.hear_result); there the numbers are in "
-            "future.result().result.sequence, and list(...) of them prints well."
+            "In hear_result the numbers are in future.result().result.sequence, and list(...) of them prints "
+            "well."
         )
+        if goal.received is None:
+            hint = (
+                "Nobody asked for the result. In ask: future.add_done_callback(self.hear_response); there: "
+                "goal_handle.get_result_async().add_done_callback(self.hear_result)."
+            )
         with hinting(hint):
             raise Missed(f"an info line with “result” and {wanted} after {end:.3g} s", _said(said))
 
@@ -76,7 +81,7 @@ def notices_a_no(recording: Recording) -> None:
     warnings = lines(recording, goal.asked or 0.0, recording.ended.stamp, "WARN")
     rejected = [text for text in warnings if "rejected" in text.lower()]
     if goal.status == "rejected" and not rejected:
-        hint = "goal_handle.accepted is False then: self.get_logger().warning(...), and return."
+        hint = "In hear_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."
         saw = _said(lines(recording, goal.asked or 0.0, recording.ended.stamp))
         with hinting(hint):
             raise Missed(f"a warning with “rejected” after {goal.asked:.3g} s", saw)

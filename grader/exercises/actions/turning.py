@@ -158,10 +158,15 @@ def _turning_hint(recording: Recording, goal: Goal, turned: float) -> str:
         return "It turned the wrong way: a negative target_yaw is to the right, with a negative angular.z."
     if not goal.over and abs(turned) < 0.05:
         return "The robot stands, and the goal never ends: send a Twist in the loop, each time."
+    if not goal.over and told and abs(told[-1]) < 0.01:
+        return (
+            "It turned on and on, for self.turned stays 0: does hear_odometry add to it? And does execute "
+            "await self.pause(...)? While it sleeps, the node is deaf to /odom."
+        )
     if not goal.over:
         return (
             "It turned on and on. From pi the yaw jumps to -pi: add up small steps, each one "
-            "math.remainder(yaw - self.yaw, math.tau). And execute has to pause, so that /odom is heard."
+            "math.remainder(yaw - self.yaw, math.tau), to self.turned."
         )
     if over > 0.25:
         return "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly."

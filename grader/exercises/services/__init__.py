@@ -6,7 +6,7 @@ from grader.exercises.services.asking import door, ticks
 from grader.exercises.services.modes import modes
 from grader.exercises.services.partners import Operator, Pilot, Pupil, RawGyro, Technician, Tuner
 from grader.exercises.services.servers import Door, SlowAdder, Wheels
-from grader.exercises.services.settings import parameters
+from grader.exercises.services.settings import launch, parameters
 
 __all__ = [
     "Door",
@@ -22,6 +22,7 @@ __all__ = [
     "arming",
     "calibrate",
     "door",
+    "launch",
     "modes",
     "parameters",
     "ticks",

@@ -30,8 +30,7 @@ def says_what_it_did(recording: Recording) -> None:
     for call in asked(recording, ARM, CALLS):
         if not _is_answered(call):
             expected = f"success=True, message={_word(call)!r} for {call.question}"
-            hint = "Set response.success and response.message, then return response."
-            not_so(recording, expected, call, hint)
+            not_so(recording, expected, call, _answering_hint(call))
 
 
 @check(points=4, after=offers_to_arm)
@@ -70,8 +69,11 @@ def _word(call: Call) -> str:
 
 
 def _is_answered(call: Call) -> bool:
-    said = re.findall(r"\b(?:dis)?armed\b", call.response.get("message", "").lower())
-    return accepted(call) and said == [_word(call)]
+    return accepted(call) and _said(call) == [_word(call)]
+
+
+def _said(call: Call) -> list[str]:
+    return re.findall(r"\b(?:dis)?armed\b", call.response.get("message", "").lower())
 
 
 def _phases(recording: Recording, *, armed: bool) -> list[tuple[Call, Seconds]]:
@@ -86,6 +88,14 @@ def _driven(recording: Recording, begin: Seconds, end: Seconds) -> float:
     poses = [pose for pose in recording.path if begin <= pose.stamp <= end]
     steps = itertools.pairwise(poses)
     return sum(math.dist((a.x, a.y), (b.x, b.y)) for a, b in steps)
+
+
+def _answering_hint(call: Call) -> str:
+    if _said(call) == [_word(call)]:
+        return "success says whether the call went well, and here it always does. The message says the rest."
+    if accepted(call):
+        return 'The message says what holds after this call: "armed" if self.armed else "disarmed".'
+    return "Set response.success and response.message, then return response."
 
 
 def _driving_hint(recording: Recording, call: Call) -> str:

@@ -70,8 +70,8 @@ def asks_until_yes(recording: Recording) -> None:
     made = _answered(recording, OPEN)
     pauses = [after.asked - before.answered for before, after in itertools.pairwise(made)]
     if pauses and max(pauses) < 0.3:
-        hint = "Don't ask again in the done callback: let the timer do it, once a second."
-        raise Missed("a pause of about a second before it asks again", f"{max(pauses):.2g} s", hint)
+        with advising(recording, "Only the timer asks, once a second: no loop, and not the done callback."):
+            raise Missed("a pause of about a second before it asks again", f"{max(pauses):.2g} s")
     yes = next((call for call in made if accepted(call)), None)
     if yes is None:
         hint = "Let a timer ask once a second, for as long as the answer is no."
@@ -80,8 +80,8 @@ def asks_until_yes(recording: Recording) -> None:
             raise Missed("questions until the door says yes", saw)
     late = [call for call in made if call.asked > yes.answered]
     if late:
-        hint = "When it is open: self.timer.cancel() stops the asking."
-        raise Missed("no question after the yes", f"{len(late)}, the first at {late[0].asked:.3g} s", hint)
+        with advising(recording, "When it is open: self.timer.cancel() stops the asking."):
+            raise Missed("no question after the yes", f"{len(late)}, the first at {late[0].asked:.3g} s")
 
 
 @check(points=3, after=asks_the_door)

@@ -16,7 +16,7 @@ from grader.checks.ends import declared
 from grader.exercises.advice import advising
 from sim.recording import Recording, Seconds
 
-OURS = {"/pupil", "/technician", "/pilot", "/tuner", "/operator"}  # nodes that ask the student's
+OURS = {"/pupil", "/technician", "/pilot", "/reader", "/tuner", "/operator"}  # nodes that ask the student's
 
 
 class Call(NamedTuple):

@@ -22,7 +22,9 @@ def offers_its_services(recording: Recording) -> None:
     offers(recording, RESET, "std_srvs/srv/Trigger")
     first = asked(recording, SET)[0]
     if not accepted(first):
-        hint = 'self.declare_parameter("mode", "idle"). And check returns SetParametersResult(...).'
+        hint = 'self.declare_parameter("mode", "idle") in __init__.'
+        if "invalid type" in first.response.get("reason", ""):
+            hint = "check has to return something for a good mode, too: SetParametersResult(successful=True)."
         not_so(recording, f"successful=True for {first.question}", first, hint)
 
 

@@ -75,14 +75,21 @@ class Pilot(Caller):
             moment += random.uniform(1.6, 2.2)
 
 
-class Tuner(Caller):
+class Reader(Caller):
+    """Reads the parameter `speed` of /cruiser."""
+
+    def __init__(self, name: str = "reader") -> None:
+        super().__init__(name)
+        self.get = self.create_client(GetParameters, "/cruiser/get_parameters")
+        at(self, 0.7, lambda: self.ask(self.get, GetParameters.Request(names=["speed"])))
+
+
+class Tuner(Reader):
     """Reads the parameter `speed` of /cruiser, then sets it: to allowed values, and to others."""
 
     def __init__(self) -> None:
         super().__init__("tuner")
-        self.get = self.create_client(GetParameters, "/cruiser/get_parameters")
         self.set = self.create_client(SetParameters, "/cruiser/set_parameters")
-        at(self, 0.7, lambda: self.ask(self.get, GetParameters.Request(names=["speed"])))
         speeds = [random.randint(40, 45) / 100, random.randint(55, 90) / 100, -0.1, 0.1, 0.5, 0.51, 0.0]
         for number, speed in enumerate(speeds):
             at(self, 2.0 + 1.5 * number, lambda speed=speed: set_parameter(self, self.set, "speed", speed))

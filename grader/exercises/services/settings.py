@@ -1,4 +1,4 @@
-"""An exercise on parameters: a speed that can be set from outside, but not to anything."""
+"""Exercises on parameters: a speed that can be set, but not to anything, and a start with another one."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ import math
 from grader.checks import Missed, check, named, publishes, series
 from grader.exercise import Exercise
 from grader.exercises.advice import advising
-from grader.exercises.services.calls import Call, accepted, asked, not_so, refused
-from grader.exercises.services.partners import Tuner
+from grader.exercises.services.calls import Call, accepted, asked, calls, not_so, refused
+from grader.exercises.services.partners import Reader, Tuner
 from sim.recording import Recording
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
-LOW, HIGH, LAUNCHED = 0.0, 0.5, 0.3  # m/s
+LOW, HIGH, DEFAULT, LAUNCHED = 0.0, 0.5, 0.2, 0.3  # m/s
 SETTINGS = 7  # that the tuner makes
 
 
-@check(points=3)
+@check(points=2)
 def declares_speed(recording: Recording) -> None:
     """The node /cruiser has a parameter `speed`, a number with a decimal point."""
     named(recording, "/cruiser")
@@ -28,14 +28,10 @@ def declares_speed(recording: Recording) -> None:
             raise Missed("a parameter `speed` of /cruiser with a value such as 0.2", saw)
 
 
-@check(points=3, after=declares_speed)
-def is_launched_with_a_speed(recording: Recording) -> None:
-    """It is started with a speed of 0.3, and begins to drive with that."""
-    value = asked(recording, GET)[0].response["value"]
-    if not math.isclose(value, LAUNCHED):
-        hint = 'In launch: return Process(Cruiser, parameters={"speed": 0.3}).'
-        raise Missed(f"speed {LAUNCHED} from the start", f"{value:g}", hint)
-    _drives_at(recording, LAUNCHED, 0.5, asked(recording, SET)[0].asked)
+@check(points=2, after=declares_speed)
+def begins_with_its_default(recording: Recording) -> None:
+    """As long as nobody sets it the speed is 0.2, and the robot drives with that."""
+    _begins_with(recording, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
 @check(points=4, after=declares_speed)
@@ -54,26 +50,41 @@ def follows_the_setting(recording: Recording) -> None:
         _drives_at(recording, call.request["speed"], call.asked + 0.3, min(later, default=math.inf))
 
 
-@check(points=5, after=declares_speed)
+@check(points=4, after=declares_speed)
 def refuses_other_speeds(recording: Recording) -> None:
     """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing."""
     for call in asked(recording, SET, SETTINGS):
         if _is_allowed(call):
             continue
         expected = f"successful=False and a reason for {call.question}"
-        hint = (
-            "Hand a method to self.add_on_set_parameters_callback(...). It looks at p.name and p.value of "
-            'each parameter p, and returns SetParametersResult(successful=False, reason="...") for a bad one.'
-        )
         if not refused(call):
-            not_so(recording, expected, call, hint)
+            not_so(recording, expected, call, _refusing_hint(recording))
         if not call.response["reason"].strip():
             why = 'Say why: SetParametersResult(successful=False, reason="...").'
             not_so(recording, expected, call, why, credit=0.6)
 
 
+def _refusing_hint(recording: Recording) -> str:
+    if any(refused(call) for call in asked(recording, SET) if not _is_allowed(call)):
+        return f"The range has two ends: refuse a value unless {LOW} <= parameter.value <= {HIGH}."
+    return (
+        "Hand a method to self.add_on_set_parameters_callback(...). It looks at p.name and p.value of "
+        'each parameter p, and returns SetParametersResult(successful=False, reason="...") for a bad one.'
+    )
+
+
 def _is_allowed(call: Call) -> bool:
     return LOW <= call.request["speed"] <= HIGH
+
+
+def _begins_with(recording: Recording, speed: float, hint: str) -> None:
+    """The parameter has this value at the start, and the commands, too."""
+    read = asked(recording, GET)[0]
+    value = read.response["value"]
+    if not math.isclose(value, speed):
+        raise Missed(f"speed {speed} from the start", f"{value:g}", hint)
+    later = [call.asked for call in calls(recording, SET)]
+    _drives_at(recording, speed, 0.5, min(later, default=math.inf))
 
 
 def _drives_at(recording: Recording, speed: float, begin: float, end: float) -> None:
@@ -93,9 +104,34 @@ def _drives_at(recording: Recording, speed: float, begin: float, end: float) -> 
 parameters = Exercise(
     "parameters",
     "A speed that can be set",
-    [declares_speed, is_launched_with_a_speed, follows_the_setting, refuses_other_speeds],
+    [declares_speed, begins_with_its_default, follows_the_setting, refuses_other_speeds],
     world="yard",
     seconds=14,
     companions=[Tuner],
     seeds=(1, 2),
+)
+
+
+@check(points=1)
+def launches_the_cruiser(recording: Recording) -> None:
+    """The node /cruiser runs, and has its parameter `speed`."""
+    if not set(recording.graph.nodes) - {"/robot", "/reader"}:
+        hint = "launch hands back what is to be started: return Process(...), with Cruiser in it."
+        raise Missed("a node called /cruiser", "no node was started", hint)
+    declares_speed(recording)
+
+
+@check(points=2, after=launches_the_cruiser)
+def is_launched_with_a_speed(recording: Recording) -> None:
+    """It is started with a speed of 0.3, and drives with that."""
+    _begins_with(recording, LAUNCHED, 'In launch: return Process(Cruiser, parameters={"speed": 0.3}).')
+
+
+launch = Exercise(
+    "launch",
+    "The same node, with another speed",
+    [launches_the_cruiser, is_launched_with_a_speed],
+    world="yard",
+    seconds=4,
+    companions=[Reader],
 )

@@ -11,8 +11,8 @@ SPIN = (
 IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
 NEVER_RAN = "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
 THREADS = (
-    "the execute callback kept the node busy. Give the ActionServer callback_group=ReentrantCallbackGroup(), and "
-    "spin the node with a MultiThreadedExecutor."
+    "the execute callback kept the node busy. Spin the node with a MultiThreadedExecutor, or let execute await a "
+    "pause in place of time.sleep."
 )
 LOOK = (
     "Look at goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
@@ -61,4 +61,6 @@ SERVICE_CAUSES = {
     "CancelResponse.ACCEPT.",
     (misfits.NeverSetsTheSum, services.done_callback): "Every answer of /add is empty: its callback never sets a field "
     "of the response. Set them before you return it, as in `response.sum = ...`.",
+    (services.SlowAdder, misfits.NobodyHears): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
+    "took it: `call_async(request).add_done_callback(self.hear)` names the method that hears it.",
 }

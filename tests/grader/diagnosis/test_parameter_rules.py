@@ -16,7 +16,7 @@ ADVICE = {
     "ComputesWithTheParameter": "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
     "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
-    "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `future.result().sum`, in its done callback.",
+    "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `await` it first, or take `future.result().sum` in its done callback.",
 }
 
 

@@ -44,6 +44,12 @@ ADVICE = {
     mistakes.AsksByAMessage: NO_SERVICE,
     mistakes.ServesWithoutCallback: "create_service() is missing an argument: write "
     "create_service(Type, 'name', self.callback).",
+    mistakes.TypeAfterName: "The arguments are in the wrong order: first the type, then the name, as in "
+    "create_service(SetBool, '/arm', self.arm).",
+    mistakes.HandsOverWhatTheCallbackReturns: "`answer` is called without what it needs. As a callback it is handed over "
+    "without brackets, `self.answer`: ROS calls it, and fills in the rest.",
+    mistakes.CallsAValue: "What stands before the brackets is a value of type bool, not a method: leave the brackets "
+    "out.",
     mistakes.ReturnsNoResult: RESULT,
     mistakes.ReturnsTheFeedback: RESULT,
     mistakes.PublishesAListAsFeedback: FEEDBACK,

@@ -1,21 +1,9 @@
-"""Ways to launch a cruiser: right ones, and wrong ones named by their defect."""
+"""Cruisers: right ones, and wrong ones named by their defect."""
 
 import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
-from rclpy.parameter import Parameter
-
-from sim import Process
-
-PARTS = (
-    "started",
-    "Cruiser", "CruiserWithField", "CruiserWithDescriptor", "AnotherName", "ParameterMisspelt",
-    "NotDeclared", "WholeNumber", "ReadOnceInInit", "NoCallback", "CallbackNotHandedOver", "RefusesSilently",
-    "OnlyUpwards", "ReturnsNothing", "ReturnsABool", "RaisesForBadValues", "CutsToTheLimits",
-    "RefusesTheLimits", "RefusesEverything", "ConstantSpeed", "TakesOneParameter", "TextForSpeed",
-    "NeverComesBack",
-)  # fmt: skip
 
 
 class Cruiser(Node):
@@ -77,29 +65,10 @@ class CruiserWithDescriptor(Cruiser):
         self.speed = self.declare_parameter("speed", 0.2, descriptor)
 
 
-def launch():
-    return Process(Cruiser, parameters={"speed": 0.3})
-
-
-def launch_with_list():
-    return Process(CruiserWithField, parameters=[{"speed": 0.3}])
-
-
-def launch_with_words():
-    return Process(CruiserWithDescriptor, arguments=["--ros-args", "-p", "speed:=0.3"])
-
-
-as_process = Process(CruiserWithDescriptor, name="cruiser", parameters={"speed": 0.3})
-
-
 def main():
-    rclpy.init(args=["--ros-args", "-p", "speed:=0.3"])
+    rclpy.init()
     rclpy.spin(Cruiser())
     rclpy.shutdown()
-
-
-def started(target, **parameters):
-    return Process(target, parameters=parameters or {"speed": 0.3})
 
 
 class AnotherName(Cruiser):
@@ -118,6 +87,10 @@ class NotDeclared(Cruiser):
         Node.__init__(self, "cruiser")
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_timer(0.1, self.drive)
+
+
+class AnotherDefault(Cruiser):
+    default = 0.3
 
 
 class WholeNumber(Cruiser):
@@ -233,35 +206,3 @@ class NeverComesBack(Cruiser):
     def check(self, parameters):
         while True:
             pass
-
-
-def sets_itself():
-    """Sets the speed in the program in place of at the launch."""
-    node = Cruiser()
-    node.set_parameters([Parameter("speed", value=0.45)])
-    return node
-
-
-without_setting = Process(Cruiser)
-another_value = started(Cruiser, speed=0.4)
-misspelt_setting = started(Cruiser, sped=0.3)
-whole_number_setting = started(Cruiser, speed=1)
-another_name = started(AnotherName)
-parameter_misspelt = started(ParameterMisspelt)
-not_declared = started(NotDeclared)
-whole_number_default = started(WholeNumber)
-text_for_speed = started(TextForSpeed)
-read_once_in_init = started(ReadOnceInInit)
-constant_speed = started(ConstantSpeed)
-no_callback = started(NoCallback)
-callback_not_handed_over = started(CallbackNotHandedOver)
-refuses_silently = started(RefusesSilently)
-only_upwards = started(OnlyUpwards)
-returns_nothing = started(ReturnsNothing)
-returns_a_bool = started(ReturnsABool)
-raises_for_bad_values = started(RaisesForBadValues)
-cuts_to_the_limits = started(CutsToTheLimits)
-refuses_the_limits = started(RefusesTheLimits)
-refuses_everything = started(RefusesEverything)
-takes_one_parameter = started(TakesOneParameter)
-never_comes_back = started(NeverComesBack)

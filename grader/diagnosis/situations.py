@@ -1,0 +1,63 @@
+"""Advice on an error that its words alone don't explain: what its node was doing is in the recording."""
+
+from __future__ import annotations
+
+import re
+
+from sim.recording import CallbackError, Recording
+
+_SETS_PARAMETERS = "ParameterService._set_parameters_callback"
+
+
+def advice_here(error: CallbackError, recording: Recording) -> str:
+    """What to do about an error in its situation; "" where its words say enough."""
+    return _refusal(error, recording) or _too_early(error, recording) or _no_future(error, recording)
+
+
+def _refusal(error: CallbackError, recording: Recording) -> str:
+    """Something raised on purpose, to say no."""
+    if not re.search(r"\n\s+raise \w.*\n[^\n]*\n?$", error.traceback):
+        return ""
+    if error.callback == _SETS_PARAMETERS:
+        return (
+            "An exception is no refusal, it ends the node. To refuse a value, "
+            'return SetParametersResult(successful=False, reason="...").'
+        )
+    call = next((c for c in recording.calls if c.server == error.node and c.raised == error.type), None)
+    if call is None:
+        return ""
+    no = "response.success = False, response.message = the reason, return response"
+    how = no if call.type.endswith(("/Trigger", "/SetBool")) else "set its fields, and return the response"
+    return (
+        "An exception is no refusal: it ends the node, and the client waits for an answer that never comes. "
+        f"Say no in the answer: {how}."
+    )
+
+
+def _too_early(error: CallbackError, recording: Recording) -> str:
+    """Something taken out of a future that was still empty."""
+    if not re.search(r"'NoneType' object (has no attribute|is not subscriptable)", error.text):
+        return ""
+    sent = [(c.client, c.asked, c.received, "call_async") for c in recording.calls]
+    sent += [(goal.client, goal.asked, goal.answered, "send_goal_async") for goal in recording.goals]
+    runs = [run for run in recording.callbacks if (run.node, run.callback) == (error.node, error.callback)]
+    begin = max((run.stamp for run in runs if run.stamp <= error.stamp), default=0.0)
+    for client, asked, heard, what in sent:
+        if client == error.node and heard is None and asked is not None and asked >= begin:
+            return (
+                f"The answer isn't there yet: {what} returns at once, with a future that is still empty. "
+                "`future.add_done_callback(self.hear)`, without brackets after the method, lets ROS call it "
+                "once the answer has come; there future.result() is the answer."
+            )
+    return ""
+
+
+def _no_future(error: CallbackError, recording: Recording) -> str:
+    """A done callback that doesn't take the future."""
+    takes = r"(\w+)\(\) takes (?:1 positional argument but 2|0 positional arguments but 1)"
+    found = re.search(takes, error.text)
+    tasks = {(run.stamp, run.node, run.callback) for run in recording.callbacks if run.kind == "task"}
+    if found is None or (error.stamp, error.node, error.callback) not in tasks:
+        return ""
+    name = found[1]
+    return f"A done callback is called with the future: write `def {name}(self, future):`."

@@ -1,0 +1,173 @@
+"""Advice on errors that the recording explains: what was raised on purpose, or taken too early."""
+
+import pytest
+from example_interfaces.action import Fibonacci
+from rcl_interfaces.srv import SetParameters
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+
+from grader.diagnosis import explain, find_fault
+from sim import run
+from tests.students import service_misfits as misfits
+from tests.students.engine.actions import Server
+from tests.students.engine.services import Adder, Customer, SlowAdder
+from tests.students.parameter_mistakes import Wheel
+
+NO = "An exception is no refusal: it ends the node, and the client waits for an answer that never comes. Say no in the "
+TOO_EARLY = (
+    "The answer isn't there yet: {} returns at once, with a future that is still empty. "
+    "`future.add_done_callback(self.hear)`, without brackets after the method, lets ROS call it once the answer has "
+    "come; there future.result() is the answer."
+)
+GENERAL = "Read the line it names, and think what its values are at that moment; `print` shows them."
+
+
+class AsksItself(Node):
+    """Offers /reset, and calls it after a second."""
+
+    def __init__(self):
+        super().__init__("meter")
+        self.create_service(Trigger, "reset", self.reset)
+        self.client = self.create_client(Trigger, "reset")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.client.call_async(Trigger.Request())
+
+
+class RaisesForNo(AsksItself):
+    def reset(self, request, response):
+        raise RuntimeError("not now")
+
+
+class SlipsInAService(AsksItself):
+    def reset(self, request, response):
+        response.success = {}["ready"]
+        return response
+
+
+class RaisesForNoSum(Adder):
+    def add(self, request, response):
+        if request.a:
+            raise ValueError("too large")
+        return response
+
+
+class RaisesForABadValue(Wheel):
+    def check(self, parameters):
+        raise ValueError("not this one")
+
+
+class Tuner(Node):
+    """Sets the radius of the wheel after half a second."""
+
+    def __init__(self):
+        super().__init__("tuner")
+        self.client = self.create_client(SetParameters, "/wheel/set_parameters")
+        self.create_timer(0.5, self.tick)
+
+    def tick(self):
+        parameter = Parameter("radius", value=0.3).to_parameter_msg()
+        self.client.call_async(SetParameters.Request(parameters=[parameter]))
+
+
+class RaisesInATimer(Wheel):
+    def change(self):
+        raise RuntimeError("by a student")
+
+
+class Ticking(Customer):
+    def __init__(self):
+        super().__init__()
+        self.create_timer(1.0, self.tick)
+
+
+class TakesTheResultAtOnce(Ticking):
+    def tick(self):
+        self.say(self.client.call_async(self.request()).result().sum)
+
+
+class ReadsNothingWhileAskingElsewhere(Ticking):
+    """Two mistakes: the first error has nothing to do with the question of a second before."""
+
+    nothing = None
+
+    def tick(self):
+        self.create_timer(0.2, self.look)
+        self.client.call_async(self.request())
+
+    def look(self):
+        self.say(self.nothing.sum)
+
+
+class CallsTheDoneCallback(Ticking):
+    def tick(self):
+        future = self.client.call_async(self.request())
+        future.add_done_callback(self.hear(future))
+
+    def hear(self, future):
+        self.say(future.result().sum)
+
+
+class LooksIntoTheGoalAtOnce(Node):
+    def __init__(self):
+        super().__init__("client")
+        self.client = ActionClient(self, Fibonacci, "fibonacci")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        if self.client.send_goal_async(Fibonacci.Goal(order=3)).result().accepted:
+            self.get_logger().info("accepted")
+
+
+class HearsWithoutTheFuture(Ticking):
+    def tick(self):
+        self.client.call_async(self.request()).add_done_callback(self.hear)
+
+    def hear(self):
+        self.say("heard")
+
+
+class Hears(Ticking):
+    """Nothing is wrong with it."""
+
+    def tick(self):
+        self.client.call_async(self.request()).add_done_callback(lambda future: self.say(future.result().sum))
+
+
+def record(*nodes):
+    return run(*nodes, seconds=3, quiet=True)
+
+
+ADVICE = {
+    (RaisesForNo,): NO + "answer: response.success = False, response.message = the reason, return response.",
+    (RaisesForNoSum, Hears): NO + "answer: set its fields, and return the response.",
+    (SlipsInAService,): GENERAL,
+    (RaisesInATimer,): GENERAL,
+    (Tuner, RaisesForABadValue): "An exception is no refusal, it ends the node. To refuse a value, return "
+    'SetParametersResult(successful=False, reason="...").',
+    (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
+    (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
+    (Server, LooksIntoTheGoalAtOnce): TOO_EARLY.format("send_goal_async"),
+    (SlowAdder, ReadsNothingWhileAskingElsewhere): "What stands before `.sum` is None: it was never set, or comes from a "
+    "function without `return`.",
+    (SlowAdder, HearsWithoutTheFuture): "A done callback is called with the future: write `def hear(self, future):`.",
+}
+
+
+@pytest.mark.parametrize("nodes", ADVICE, ids=lambda nodes: nodes[-1].__name__)
+def test_an_error_gets_the_advice_of_its_situation(nodes):
+    assert find_fault(record(*nodes)).hint == ADVICE[nodes]
+
+
+def test_an_error_in_a_check_of_parameters_names_the_students_own_method():
+    fault = find_fault(record(Tuner, RaisesForABadValue))
+    line = RaisesForABadValue.check.__code__.co_firstlineno + 1
+    assert fault.saw == f"ValueError: not this one (in check, line {line}, at 0.5 s)"
+
+
+@pytest.mark.parametrize("nodes", [(SlowAdder, Hears), (Adder, misfits.NobodyHears)], ids=["taken", "at once"])
+def test_an_answer_that_may_have_been_taken_is_not(nodes):
+    assert explain(record(*nodes)) == ""
