@@ -8,7 +8,7 @@ import errno
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -101,17 +101,16 @@ def _opened(path: str, flags: int, opened: ExitStack, place: int | None = None) 
 
 
 def _below(place: int, prefix: str) -> Iterator[Entry]:
-    with os.scandir(place) as found:
-        names = [entry.name for entry in islice(found, MOST_ENTRIES)]
-    for name in names:
-        try:
+    folders = []
+    for name in sorted(os.listdir(place)):
+        with suppress(FileNotFoundError):
             seen = os.lstat(name, dir_fd=place)
             yield Entry(prefix + name, _kind(seen.st_mode), seen.st_size)
             if stat.S_ISDIR(seen.st_mode) and prefix.count("/") < DEEPEST:
-                with ExitStack() as inside:
-                    yield from _below(_opened(name, _AS_FOLDER, inside, place), f"{prefix}{name}/")
-        except OSError:
-            continue  # it went away, or nobody may look into it: nothing of it is used
+                folders.append(name)
+    for name in folders:
+        with suppress(OSError), ExitStack() as inside:  # where nobody may look, nothing is used
+            yield from _below(_opened(name, _AS_FOLDER, inside, place), f"{prefix}{name}/")
 
 
 def _kind(mode: int) -> str:

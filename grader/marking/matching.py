@@ -7,7 +7,7 @@ two cells could be meant, neither is taken.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from grader.marking.sheet import Cell
+from grader.marking.sheet import Cell, is_answer
 
 ALIKE = 0.5  # share of the lines that were handed out
 CLEARLY = 0.2  # how much more alike than the next
@@ -90,12 +90,15 @@ def _equal(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], f
 
 
 def _alike(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], free: list[int]) -> Pairs:
-    """Those that kept most lines of what was handed out, or define what it defined."""
+    """Those that kept most lines of what was handed out, or define what it defined.
+
+    No tests: nobody has to change one, so a cell that is like a test is the student's own.
+    """
 
     def likeness(r: int, s: int) -> float:
-        if sheet[s].kind not in (release[r].kind, ""):
-            return 0.0
         ours, theirs = release[r], sheet[s]
+        if theirs.kind not in (ours.kind, "") or (ours.name and not is_answer(ours)):
+            return 0.0
         kept = len(ours.lines & theirs.lines) / max(1, len(ours.lines))
         return kept + bool(ours.defined and ours.defined <= theirs.defined)
 
@@ -104,7 +107,7 @@ def _alike(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], f
 
 def _alone(release: Sequence[Cell], sheet: Sequence[Cell], missing: list[int], free: list[int]) -> Pairs:
     """An answer and the only cell in its place."""
-    answers = [r for r in missing if release[r].settings.get("solution") is True]
+    answers = [r for r in missing if is_answer(release[r])]
     cells = [s for s in free if sheet[s].kind in ("code", "") and sheet[s].key]
     alone = len(answers) == len(cells) == 1 and release[answers[0]].kind == "code"
     return [(answers[0], cells[0])] if alone else []

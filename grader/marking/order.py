@@ -6,7 +6,7 @@ Cells that were missing stand where the release has them, and no test stands bef
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from grader.marking.sheet import Cell
+from grader.marking.sheet import Cell, is_answer, is_test
 
 
 class Place(NamedTuple):
@@ -61,13 +61,3 @@ def _move_behind(order: list[Place], test: int, answers: Iterable[int]) -> bool:
         return False
     order.insert(last, order.pop(position))
     return True
-
-
-def is_answer(cell: Cell) -> bool:
-    """Whether students write in this cell of a release, and are marked for it."""
-    return cell.settings.get("solution") is True
-
-
-def is_test(cell: Cell) -> bool:
-    """Whether this cell of a release gives points for an answer."""
-    return cell.settings.get("grade") is True and not is_answer(cell)

@@ -15,8 +15,8 @@ from nbformat import NotebookNode
 
 from grader.marking.matching import Match, match
 from grader.marking.notes import FLAGS, REPAIRS, Notes
-from grader.marking.order import Place, is_answer, ordered
-from grader.marking.sheet import Cell, Sheet, cell_of
+from grader.marking.order import Place, ordered
+from grader.marking.sheet import Cell, Sheet, cell_of, is_answer
 from grader.marking.submission import Release, read
 from grader.marking.words import Unusable, listed
 from grader.notebooks import cell_ids
@@ -105,8 +105,7 @@ def rebuild(release: NotebookNode, submitted: Sheet) -> Rebuilt:
     order, moved = ordered(ours, chosen, own)
     for r in moved:
         notes.add("test too early", ours[r].name)
-    notebook = copy.deepcopy(release)
-    notebook.cells = _in_order(order, nodes, theirs)
+    notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, theirs)})
     return Rebuilt(notebook, answers, [*submitted.repairs, *notes.sentences(REPAIRS)], notes.sentences(FLAGS))
 
 

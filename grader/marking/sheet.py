@@ -17,6 +17,7 @@ MOST_CELLS = 1000
 LONGEST_TEXT = 1_000_000  # characters of one cell
 LONGEST_SUM = 5_000_000  # characters of all cells
 DEFINITION = re.compile(r"^(?:(?:class|def|async def) |%%writefile +)(\S[^\s(:]*)", re.MULTILINE)
+MOST_TOLD = 5
 KINDS = ("code", "markdown", "raw")
 
 
@@ -70,12 +71,8 @@ def read_sheet(data: bytes, file: str) -> Sheet:
         seen = quoted(version) if isinstance(version, (int, float, str)) else "unknown"
         repairs.append(f"The notebook's format is {seen}; it was read as well as possible. Expected was `4`.")
     repairs += _language(table)
-    cells = []
-    for number, raw in enumerate(found, 1):
-        if isinstance(raw, dict):
-            cells.append(cell_of(raw, repairs, number))
-        else:
-            repairs.append(f"Cell {number} of the notebook is {what_it_is(raw)}; it was left out.")
+    cells, odd = _cells(found)
+    repairs += odd
     if (total := sum(len(cell.text) for cell in cells)) > LONGEST_SUM:
         problem = f"The cells of {quoted(file)} hold {total / 1e6:.1f} million characters of text;"
         raise Unusable(f"{problem} at most {LONGEST_SUM / 1e6:g} million can be marked. Make them shorter.")
@@ -98,11 +95,34 @@ def cell_of(raw: Mapping[str, Any], repairs: list[str] | None = None, number: in
     )
 
 
+def is_answer(cell: Cell) -> bool:
+    """Whether students write in this cell of a release, and are marked for it."""
+    return cell.settings.get("solution") is True
+
+
+def is_test(cell: Cell) -> bool:
+    """Whether this cell of a release gives points for an answer."""
+    return cell.settings.get("grade") is True and not is_answer(cell)
+
+
 def _raw_cells(table: Mapping[str, Any]) -> Iterator[Any]:
     """The cells of a notebook, those of the formats 2 and 3 too, which had them in worksheets."""
     places = [table, *_list(table.get("worksheets"))]
     for place in places:
         yield from _list(_table(place).get("cells"))
+
+
+def _cells(found: list[Any]) -> tuple[list[Cell], list[str]]:
+    told: list[str] = []
+    cells = []
+    for number, raw in enumerate(found, 1):
+        if isinstance(raw, dict):
+            cells.append(cell_of(raw, told, number))
+        else:
+            told.append(f"Cell {number} of the notebook is {what_it_is(raw)}; it was left out.")
+    if len(told) > MOST_TOLD:
+        told[MOST_TOLD:] = [f"The notebook has {len(told) - MOST_TOLD} more such oddities."]
+    return cells, told
 
 
 def _kind(raw: Mapping[str, Any], told: list[str], number: int) -> str:
@@ -135,11 +155,11 @@ def _text(raw: Mapping[str, Any], told: list[str], number: int) -> str:
 def _language(table: Mapping[str, Any]) -> list[str]:
     metadata = _table(table.get("metadata"))
     kernel, language = _table(metadata.get("kernelspec")), _table(metadata.get("language_info"))
-    name = kernel.get("language") or language.get("name") or "python"
+    name = _word(kernel.get("language")) or _word(language.get("name")) or "python"
     if name in ("python", "ipython") and kernel.get("name") != "python2":
         return []
-    saw = quoted(kernel.get("display_name") or kernel.get("name") or name)
-    return [f"The notebook was saved for the kernel {saw}; it was run with Python 3."]
+    saw = _word(kernel.get("display_name")) or _word(kernel.get("name")) or name
+    return [f"The notebook was saved for the kernel {quoted(saw)}; it was run with Python 3."]
 
 
 def _table(value: Any) -> Mapping[str, Any]:

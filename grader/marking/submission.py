@@ -7,7 +7,7 @@ import hashlib
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path, PurePath
+from pathlib import Path, PurePosixPath
 
 import nbformat
 from nbformat import NotebookNode
@@ -48,8 +48,7 @@ class Submission:
 def load(folder: Path) -> Release:
     """Read the release of an assignment, such as exercises/01_nodes."""
     notebooks = {path.stem: nbformat.read(path, 4) for path in sorted(folder.glob(f"*{SUFFIX}"))}
-    there = {entry.path for entry in entries(folder) if entry.kind == FILE and not _hidden(entry.path)}
-    return Release(notebooks, frozenset(there - {name + SUFFIX for name in notebooks}))
+    return Release(notebooks, _files(folder) - {name + SUFFIX for name in notebooks})
 
 
 def read(folder: Path, release: Release) -> Submission:
@@ -79,27 +78,33 @@ def submission_key(folder: Path, release: Path, secret_fingerprint: str, version
     Whatever lies in `folder`, this gives a key and raises nothing.
     """
     digest = hashlib.sha256()
-    for part in (secret_fingerprint, version, *_contents(release), "submission", *_contents(folder)):
+    notebooks = {path.name for path in release.glob(f"*{SUFFIX}")}
+    parts = (*_contents(release, _files(release)), "submission", *_contents(folder, notebooks))
+    for part in (secret_fingerprint, version, *parts):
         data = part if isinstance(part, bytes) else part.encode(errors="surrogateescape")
         digest.update(b"%d:" % len(data))
         digest.update(data)
     return digest.hexdigest()
 
 
-def _contents(folder: Path) -> Iterator[str | bytes]:
-    """What lies in a folder, and the bytes of its notebooks: no other file of a submission is used."""
+def _contents(folder: Path, files: Collection[str]) -> Iterator[str | bytes]:
+    """What lies in a folder, and the bytes of `files` and of whatever may stand for one of them."""
     try:
-        there = entries(folder)
+        there = [entry for entry in entries(folder) if entry.path not in SILENT]
     except Unusable as reason:
         yield str(reason)
         return
-    for entry in there:
-        yield from (entry.path, entry.kind)
-        if entry.path.lower().endswith(SUFFIX) and not _hidden(entry.path):
-            try:
-                yield read_file(folder, entry.path, LARGEST)
-            except Unusable as reason:
-                yield str(reason)
+    yield from (f"{entry.path} {entry.kind}" for entry in there)
+    for path in sorted({*files, *(entry.path for entry in there if _candidate(entry))}):
+        try:
+            yield read_file(folder, path, LARGEST)
+        except Unusable as reason:
+            yield str(reason)
+
+
+def _files(folder: Path) -> frozenset[str]:
+    files = (entry.path for entry in entries(folder) if entry.kind == FILE)
+    return frozenset(path for path in files if not _hidden(path))
 
 
 def _path(name: str, folder: Path, there: Sequence[Entry], release: Release) -> str:
@@ -141,5 +146,5 @@ def _unused(there: Sequence[Entry], used: Collection[str], release: Release) -> 
             yield f"{entry.path}/" if entry.kind == FOLDER else entry.path
 
 
-def _hidden(path: str | PurePath) -> bool:
-    return any(part.startswith(".") for part in PurePath(path).parts)
+def _hidden(path: str) -> bool:
+    return any(part.startswith(".") for part in PurePosixPath(path).parts)

@@ -69,7 +69,7 @@ UNTOUCHED = next(cell.source for cell in STARTER.cells if cell.id == "hello")
 
 HARMLESS = {
     "a text is gone": delete("goal"),
-    "a text is source as a list": lambda notebook: cell(notebook, "hello").update(
+    "a text as a list of lines": lambda notebook: cell(notebook, "hello").update(
         source=cell(notebook, "hello")["source"].splitlines(keepends=True)
     ),
     "Windows line ends": lambda notebook: cell(notebook, "hello").update(
@@ -80,6 +80,9 @@ HARMLESS = {
     "no metadata": lambda notebook: notebook.update(metadata=None),
     "another kernel of Python": lambda notebook: notebook["metadata"].update(
         kernelspec={"name": "ros2", "display_name": "ros2 (env)", "language": "python"}
+    ),
+    "a kernel that makes no sense": lambda notebook: notebook.update(
+        metadata={"kernelspec": {"name": [], "language": {"name": "R"}}, "language_info": "Python"}
     ),
     "outputs, counts and widgets": lambda notebook: [
         notebook["metadata"].update(widgets={"state": {}}),
@@ -333,6 +336,31 @@ def test_where_two_cells_could_be_the_answer_neither_is_and_both_run():
     assert [cell.id for cell in result.notebook.cells[4:7]] == ["hello", "a", "b"]
     assert result.answers["hello"] == "missing"
     assert result.repairs == ["The answer `hello` was missing; an empty cell took its place."]
+
+
+def test_a_cell_like_a_deleted_test_is_the_students_own():
+    def damage(notebook):
+        mine = own("nodes.hello.grade(Hello)\nprint('done')")
+        notebook["cells"][position(notebook, "hello-points")] = mine
+
+    result = rebuilt(damage)
+    assert "f00d" in [cell.id for cell in result.notebook.cells]
+    assert (result.repairs, result.flags) == (
+        ["The test cell `hello-points` was missing; the instructor's own was run."],
+        [],
+    )
+
+
+def test_many_odd_cells_are_told_in_a_few_sentences():
+    def damage(notebook):
+        notebook["cells"] += [{"cell_type": "code", "source": 5}] * 300
+
+    repairs = rebuilt(damage).repairs
+    assert len(repairs) == 6
+    assert repairs[4:] == [
+        "Cell 42 of the notebook holds a number for its text; that was left out.",
+        "The notebook has 295 more such oddities.",
+    ]
 
 
 def test_all_is_found_by_text_and_place_among_cells_of_the_students_own():

@@ -258,6 +258,9 @@ def test_among_very_many_files_the_notebook_is_found(folder):
         (folder / f"{number}.txt").touch()
     assert len(entries(folder)) == MOST_ENTRIES
     assert same(mend(folder, NODES).notebooks["nodes"].notebook)
+    before = key(folder)
+    (folder / "nodes.ipynb").write_bytes(data(STARTER))
+    assert key(folder) != before
 
 
 def key(folder: Path, fingerprint: str = "secret", version: str = "1") -> str:
@@ -277,6 +280,19 @@ def test_the_same_submission_has_the_same_key_and_any_other_another(folder, tmp_
     keys.add(key(folder))
     assert len(keys) == 8
     assert all(len(each) == 64 and int(each, 16) for each in keys)
+
+
+def test_a_key_changes_with_the_releases_data_but_not_with_the_time_of_handing_in(folder, tmp_path):
+    (folder / "nodes.ipynb").write_bytes(WHOLE)
+    release = shutil.copytree(ROOT / "exercises" / "01_nodes", tmp_path / "release")
+    keys = [submission_key(folder, release, "", "")]
+    (folder / "timestamp.txt").write_text("2026-11-21 09:00:00 UTC")
+    keys.append(submission_key(folder, release, "", ""))
+    for figures in ("1", "2"):
+        (release / "speeds.csv").write_text(figures)
+        keys.append(submission_key(folder, release, "", ""))
+    assert keys[0] == keys[1]
+    assert len(set(keys)) == 3
 
 
 @pytest.mark.parametrize("surprise", [*SURPRISES.values(), sparse], ids=[*SURPRISES, "a sparse file"])
