@@ -14,7 +14,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from grader.marking.office.course import Course, CourseError
 from grader.marking.result import CellResult, Result
 
-PATIENCE = 60.0  # seconds to wait for another program that holds an SQLite gradebook
+PATIENCE = 60.0  # seconds to wait where another program holds an SQLite file, if its address names none
 NO_RESPONSE = "No response."  # nbgrader's own words for an answer that is as it was given out
 ADVICE = {
     "locked": "another program holds it: close the formgrader's page or wait, then mark again",
@@ -29,17 +29,14 @@ class GradebookError(CourseError):
 
 
 class Book:
-    """The gradebook of a course, open for one command. Raises GradebookError.
+    """The gradebook of a course, open for one command. Raises GradebookError."""
 
-    patience: seconds to wait where another program holds an SQLite file.
-    """
-
-    def __init__(self, course: Course, patience: float = PATIENCE) -> None:
+    def __init__(self, course: Course) -> None:
         self._app = course.app
         self._address = make_url(course.database)
         url = self._address
         if url.get_backend_name() == "sqlite" and "timeout" not in url.query:
-            url = url.update_query_dict({"timeout": str(patience)})
+            url = url.update_query_dict({"timeout": str(PATIENCE)})
         with self._telling():
             self._gradebook = Gradebook(url.render_as_string(hide_password=False), course.name)
 

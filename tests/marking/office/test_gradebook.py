@@ -36,9 +36,9 @@ def file(course):
     return course.root / "class" / "gradebook.db"
 
 
-def write(course, task, patience=0.05, **changes):
+def write(course, task, **changes):
     entry = Entry("ab12", result(course, task, **changes))
-    with Book(course, patience) as book:
+    with Book(course) as book:
         book.write(entry.result, pages(entry, task.release), handed_in(course, entry.result))
 
 
@@ -163,17 +163,18 @@ def test_where_writing_fails_nothing_of_the_submission_is_written(course, task):
         assert book.students == []
 
 
-def refused(course, task, **settings):
+def refused(course, task):
     with pytest.raises(GradebookError) as failed:
-        write(course, task, **settings)
+        write(course, task)
     return str(failed.value)
 
 
 def test_a_gradebook_that_another_program_holds_is_left_alone(course, task, file):
+    course.directory.db_url += "?timeout=0.05"  # seconds of patience
     other = sqlite3.connect(file)
     other.execute("BEGIN EXCLUSIVE")
     advice = "another program holds it: close the formgrader's page or wait, then mark again"
-    expected = f"the gradebook sqlite:///{file} can't be used (database is locked): {advice}"
+    expected = f"the gradebook {course.database} can't be used (database is locked): {advice}"
     assert refused(course, task) == expected
     other.rollback()
     write(course, task)
