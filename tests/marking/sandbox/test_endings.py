@@ -89,7 +89,8 @@ def test_nobody_outlives_the_marker(unsafe):
     marker = f"""
         import socket, sys
         from tests.marking.sandbox.prison import Prisoner, sandbox
-        prisoner = Prisoner(sandbox(unsafe={unsafe}))
+        box = sandbox(unsafe={unsafe})
+        prisoner = Prisoner(box)
         prisoner.tell("while True: pass")
         print(prisoner.inmate.pid, flush=True)
         sys.stdin.read()

@@ -85,7 +85,8 @@ def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
 def test_an_ordinary_user_has_the_same_sandbox():
     attempt = (
         "from tests.marking.sandbox.prison import Prisoner, sandbox\n"
-        "prisoner = Prisoner(sandbox())\n"
+        "box = sandbox()\n"
+        "prisoner = Prisoner(box)\n"
         "print(prisoner.ask('import os; answer = [os.getcwd(), os.getuid(), os.listdir(\"/proc\")]'))"
     )
     done = subprocess.run([*ordinary_user(), sys.executable, "-c", attempt], capture_output=True, text=True)
