@@ -33,7 +33,7 @@ class Course:
             raise CourseError(f"expected {CONFIGURATION} in {self.root}, saw none: go to the course's folder")
         self.app = NbGrader()
         self.app.raise_config_file_errors = True
-        self.app.log.handlers.clear()  # it tells of every step; what matters is said by us
+        self.app.log_level = "CRITICAL"  # it tells of every step; what matters is said by us
         logging.getLogger("tornado.application").disabled = True  # where its gradebook prints tracebacks
         try:
             with contextlib.chdir(self.root):

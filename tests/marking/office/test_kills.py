@@ -1,0 +1,44 @@
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import nbformat
+
+from grader.marking.office.course import Course
+from grader.marking.office.mark import Settings, mark
+from tests.marking.classroom import ASSIGNMENT, gradebook, submit
+from tests.marking.office.marking import opening
+from tests.marking.office.test_gradebook import by_hand
+from tests.marking.tiny import ROOT
+
+
+def left_behind(course):
+    """All files of the class with their contents, without the names that each marking gives itself."""
+    files = {}
+    for path in (course.root / "class").rglob("*"):
+        if path.suffix == ".ipynb":
+            notebook = nbformat.read(path, 4)
+            notebook.metadata.pop("marking", None)
+            files[path] = nbformat.writes(notebook)
+        elif path.is_file() and path.suffix not in (".db", ".json") and path.name != ".lock":
+            files[path] = re.sub(r"\d{4}-\d{2}-\d{2}T[\d:.]+", "", path.read_text())
+    return {str(path.relative_to(course.root)): content for path, content in files.items()}
+
+
+def test_a_run_that_is_killed_at_any_moment_comes_to_the_same_end(course):
+    mark(course, ASSIGNMENT, Settings(), opening(course))
+    by_hand(course, "anna")
+    submit(course, "anna", "bob", "carl", "dora", "eve", line="Line = 3")
+    other = Course(shutil.copytree(course.root, course.root.with_name("other")))
+    mark(course, ASSIGNMENT, Settings(), opening(course))
+    expected = gradebook(course)
+    assert expected["anna"]["essay"]["needs_manual_grade"]
+
+    command = [sys.executable, "-m", "tests.marking.office.killed", "1"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=other.root, env=environment, text=True, stdout=subprocess.PIPE)
+    assert int(done.stdout) > 5
+    assert gradebook(other) == expected
+    assert left_behind(other) == left_behind(course)
