@@ -4,7 +4,7 @@ import importlib.util
 import os
 import shutil
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from grader.marking.sandbox.cell import HOME
@@ -23,8 +23,13 @@ KNOBS = (
 )
 
 
-def visible(extra: Iterable[Path]) -> list[str]:
-    """Return what inmates may read besides the system: Python, its packages, sim and grader, and `extra`."""
+def visible(extra: Sequence[Path]) -> list[str]:
+    """Return what inmates may read besides the system: Python, its packages, sim and grader, and `extra`.
+
+    Raises FileNotFoundError.
+    """
+    for path in extra:
+        os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
     packages = [importlib.util.find_spec(name).submodule_search_locations[0] for name in ("sim", "grader")]
     paths = {Path(path).absolute() for path in (*python, *packages, *extra)}

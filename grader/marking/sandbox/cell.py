@@ -7,12 +7,11 @@ import signal
 import socket
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from grader.marking.sandbox import limits as limits_
-from grader.marking.sandbox import linux, seccomp
+from grader.marking.sandbox import limits, linux, seccomp
 from grader.marking.sandbox.limits import MB, Limits
 
 HOME = "/student"  # of an inmate in the cage, and where it starts
@@ -27,8 +26,9 @@ class Plan:
     in places that are private to each inmate, such as /tmp, are shown there again.
     """
 
+    limits: Limits
     caged: bool
-    visible: list[str] = field(default_factory=list)
+    visible: list[str]
 
 
 @contextlib.contextmanager
@@ -70,10 +70,10 @@ def keep_only(wire: socket.socket, answer: int, stderr: IO[bytes]) -> tuple[sock
     return socket.socket(fileno=WIRE), ANSWER
 
 
-def confine(limits: Limits, plan: Plan, home: str) -> None:
+def confine(plan: Plan, home: str) -> None:
     """Shut this process in: its files, its limits, its rights and its system calls."""
     if plan.caged:
-        _furnish(limits, plan)
+        _furnish(plan)
     linux.die_with_parent(signal.SIGKILL)
     os.setsid()  # else os.kill(0, ...) would reach the warden and all inmates
     os.chdir(home)
@@ -81,7 +81,7 @@ def confine(limits: Limits, plan: Plan, home: str) -> None:
     if not plan.caged:
         os.environ |= {"HOME": home, "TMPDIR": home, "ROS_LOG_DIR": os.path.join(home, ".ros")}
     tempfile.tempdir = None
-    limits_.apply(limits, own_users=plan.caged)
+    limits.apply(plan.limits, own_users=plan.caged)
     if plan.caged:
         linux.drop_capabilities()
     linux.set_dumpable(True)  # else its own /proc/self would be closed to it
@@ -89,11 +89,11 @@ def confine(limits: Limits, plan: Plan, home: str) -> None:
     linux.filter_calls(seccomp.program())
 
 
-def _furnish(limits: Limits, plan: Plan) -> None:
+def _furnish(plan: Plan) -> None:
     """Give this process files of its own: one small file system behind all places that can be written."""
     linux.unshare(linux.NEW_MOUNT)
     linux.mount("", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
-    options = f"mode=755,size={limits.scratch_mb * MB},nr_inodes={limits.scratch_files}"
+    options = f"mode=755,size={plan.limits.scratch_mb * MB},nr_inodes={plan.limits.scratch_files}"
     linux.mount("scratch", HOME, "tmpfs", linux.MS_NOSUID | linux.MS_NODEV, options)
     scratch = Path(HOME)
     places = {"tmp": "/tmp", "shm": "/dev/shm", "terminals": "/dev/pts", "processes": "/proc", "home": HOME}

@@ -7,6 +7,7 @@ import re
 import select
 import signal
 import socket
+import threading
 from pathlib import Path
 
 from grader.marking.sandbox.limits import Ending
@@ -19,14 +20,15 @@ class Inmate:
 
     def __init__(self, pidfd: int, report: socket.socket) -> None:
         self.pid = int(re.search(r"^Pid:\s*(\S+)", Path(f"/proc/self/fdinfo/{pidfd}").read_text(), re.M)[1])
-        self._pidfd: int | None = pidfd
+        self._pidfd = pidfd
+        self._lock = threading.Lock()
         self._report = report
         self._ending: Ending | None = None
 
     def kill(self) -> None:
         """End it with all it started, at once. Does nothing if it has ended."""
-        with contextlib.suppress(ProcessLookupError):
-            if self._pidfd is not None:
+        with self._lock, contextlib.suppress(ProcessLookupError):
+            if self._ending is None:  # else the descriptor may be somebody else's by now
                 signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
 
     def wait(self, timeout: float | None = None) -> Ending:
@@ -38,10 +40,10 @@ class Inmate:
                 raise TimeoutError(f"the process still runs after {timeout:g} s")
             said = self._report.recv(1 << 16)
             self.kill()  # without a keeper nobody else would
-            self._ending = Ending(**json.loads(said)) if said else GONE
             self._report.close()
-            pidfd, self._pidfd = self._pidfd, None
-            os.close(pidfd)
+            with self._lock:
+                self._ending = Ending(**json.loads(said)) if said else GONE
+                os.close(self._pidfd)
         return self._ending
 
     def memory(self) -> float:

@@ -25,21 +25,21 @@ OUT_OF_MEMORY = 70  # the exit status of an inmate whose MemoryError nobody caug
 Entry = Callable[[socket.socket], Any]
 
 
-def keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limits, plan: Plan) -> NoReturn:
+def keep(entry: Entry, wire: socket.socket, report: socket.socket, plan: Plan) -> NoReturn:
     """Be the keeper of one inmate from its start to its end; for a fresh child of the warden.
 
     Sends two messages over `report`: {} with a pidfd of the inmate once it runs, or {"failed": why}; then
     its Ending.
     """
     try:
-        _keep(entry, wire, report, limits, plan)
+        _keep(entry, wire, report, plan)
     except Exception as error:
         report.send(json.dumps({"failed": str(error)}).encode())
     finally:
         os._exit(0)
 
 
-def _keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limits, plan: Plan) -> None:
+def _keep(entry: Entry, wire: socket.socket, report: socket.socket, plan: Plan) -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     linux.die_with_parent(signal.SIGKILL)
     with cell.folder(plan) as home, tempfile.TemporaryFile() as stderr:
@@ -49,7 +49,7 @@ def _keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limi
         ready, answer = os.pipe()
         inmate = os.fork()
         if not inmate:
-            _live(entry, wire, answer, stderr, limits, plan, home)
+            _live(entry, wire, answer, stderr, plan, home)
         os.close(answer)
         wire.close()
         pidfd = os.pidfd_open(inmate)
@@ -58,9 +58,9 @@ def _keep(entry: Entry, wire: socket.socket, report: socket.socket, limits: Limi
             raise OSError(problem)
         socket.send_fds(report, [b"{}"], [pidfd])
         reserved = _reserved_mb(inmate, processes)
-        reason = _watch(inmate, pidfd, processes, limits)
+        reason = _watch(inmate, pidfd, processes, plan.limits)
         _, status, used = os.wait4(inmate, 0)
-        ending = describe(status, used, limits, reason, reserved)
+        ending = describe(status, used, plan.limits, reason, reserved)
         words = _last_words(stderr)
     report.send(json.dumps(vars(ending) | {"words": words}).encode())
 
@@ -112,14 +112,14 @@ def _last_words(stderr: IO[bytes]) -> str:
 
 
 def _live(
-    entry: Entry, wire: socket.socket, answer: int, stderr: IO[bytes], limits: Limits, plan: Plan, home: str
+    entry: Entry, wire: socket.socket, answer: int, stderr: IO[bytes], plan: Plan, home: str
 ) -> NoReturn:
     """Become the inmate: be confined, then run the entry. Never returns."""
     code = 1
     try:
         try:
             wire, answer = cell.keep_only(wire, answer, stderr)
-            cell.confine(limits, plan, home)
+            cell.confine(plan, home)
             os.write(answer, b"ready")
         except Exception as error:
             os.write(answer, str(error).encode())
@@ -128,7 +128,7 @@ def _live(
         entry(wire)
         code = 0
     except SystemExit as error:
-        code = error.code if isinstance(error.code, int) else 1
+        code = error.code if isinstance(error.code, int) else int(error.code is not None)
     except MemoryError:
         code = OUT_OF_MEMORY
     except BaseException:

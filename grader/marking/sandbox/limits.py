@@ -23,6 +23,9 @@ class Limits:
     open_files: int = 256
 
 
+USUAL = Limits()
+
+
 @dataclass(frozen=True)
 class Ending:
     """How an inmate ended.

@@ -10,14 +10,14 @@ from typing import Self
 from grader.marking.sandbox import cage
 from grader.marking.sandbox.errors import SandboxFailed
 from grader.marking.sandbox.inmate import Inmate
-from grader.marking.sandbox.limits import Limits
+from grader.marking.sandbox.limits import USUAL, Limits
 from grader.marking.sandbox.warm import WarmProcess
 
 PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.core.interactiveshell")
 
 
 class Sandbox:
-    """Starts students' processes, each apart from everything and from each other.
+    """Starts students' processes, each apart from everything and from each other. Thread-safe.
 
     entry: "module:function"; each inmate calls it with a connected unix socket, its only way out.
     preload: modules that are imported once, before any inmate. imports: folders with more modules.
@@ -34,10 +34,13 @@ class Sandbox:
         preload: Sequence[str] = PRELOAD,
         readable: Sequence[Path] = (),
         unsafe: bool = False,
-        limits: Limits = Limits(),  # noqa: B008
+        limits: Limits = USUAL,
         imports: Sequence[Path] = (),
     ) -> None:
-        """Start the warm process. Raises SandboxMissing, and SandboxFailed if what it imports fails."""
+        """Start the warm process.
+
+        Raises SandboxMissing, SandboxFailed if what it imports fails, FileNotFoundError for what is readable.
+        """
         self._order = {
             "entry": entry,
             "preload": list(preload),
@@ -50,22 +53,23 @@ class Sandbox:
         self._warm: WarmProcess | None = WarmProcess(self._order)
 
     def start(self, sock: socket.socket) -> Inmate:
-        """Start an inmate that gets `sock`, which is closed here. Raises SandboxFailed."""
+        """Start an inmate that gets `sock`, which is closed here; `wait` for it. Raises SandboxFailed."""
         with sock:
-            for _ in range(2):
-                warm = self._current()
-                inmate = warm.start(sock)
-                if inmate:
-                    return inmate
-                warm.end()
-        raise SandboxFailed("The sandbox broke twice while it started a process.")
+            warm = self._current()
+            try:
+                return warm.start(sock)
+            except SandboxFailed:
+                if warm.alive(patience=1.0):
+                    raise
+            return self._current().start(sock)
 
     def _current(self) -> WarmProcess:
         """Return the warm process; a new one if it has died."""
         with self._lock:
             if self._warm is None:
                 raise SandboxFailed("This sandbox is closed.")
-            if self._warm.ended:
+            if not self._warm.alive():
+                self._warm.end()
                 self._warm = WarmProcess(self._order)
             return self._warm
 

@@ -10,7 +10,7 @@ import struct
 X86_64 = 0xC000003E
 _X32 = 0x40000000  # calls of the x32 ABI have this bit
 _CLONE_THREAD = 0x10000
-_AF_UNIX, _AF_INET, _AF_NETLINK = 1, 2, 16
+_AF_UNIX, _AF_INET, _AF_NETLINK, _NETLINK_ROUTE = 1, 2, 16, 0
 
 _CLONE, _CLONE3, _SOCKET = 56, 435, 41
 
@@ -44,6 +44,7 @@ _NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16  # where they stand in struct secc
 
 
 def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
+    """Return an instruction; `then` and `otherwise` are how many of the next a comparison passes over."""
     return struct.pack("=HBBI", code, then, otherwise, value)
 
 
@@ -76,10 +77,17 @@ def program() -> bytes:
         # Fast DDS wants UDP, and netlink to list the interfaces; nobody answers on either. Others, such as
         # sockets to the host of a virtual machine, belong to no network namespace.
         _rule(
-            _SOCKET, _argument(0), _step(_EQUAL, _AF_UNIX, 3, 0), _step(_EQUAL, _AF_INET, 2, 0),
-            _step(_EQUAL, _AF_NETLINK, 1, 0), _DENY, _ALLOW,
+            _SOCKET,
+            _argument(0),
+            _step(_EQUAL, _AF_UNIX, 5, 0),
+            _step(_EQUAL, _AF_INET, 4, 0),
+            _step(_EQUAL, _AF_NETLINK, 0, 2),
+            _argument(2),
+            _step(_EQUAL, _NETLINK_ROUTE, 1, 0),
+            _DENY,
+            _ALLOW,
         ),
         *(_rule(number, _DENY) for number in DENIED.values()),
         _ALLOW,
-    ]  # fmt: skip
+    ]
     return b"".join(steps)

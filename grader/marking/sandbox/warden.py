@@ -26,8 +26,7 @@ class Warden:
 
     def __init__(self, control: socket.socket, order: dict[str, Any]) -> None:
         self._control = control
-        self._limits = Limits(**order["limits"])
-        self._plan = Plan(order["caged"], order["visible"])
+        self._plan = Plan(Limits(**order["limits"]), order["caged"], order["visible"])
         self._entry = _load(order)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # keepers report to the Sandbox, not here
         if self._plan.caged:
@@ -36,11 +35,15 @@ class Warden:
 
     def fork(self, entry: Entry, wire: socket.socket, report: socket.socket) -> None:
         """Fork a keeper that gets `wire` and `report`, and close both here."""
-        if not os.fork():
-            self._control.close()
-            keep(entry, wire, report, self._limits, self._plan)
-        wire.close()
-        report.close()
+        with wire, report:
+            try:
+                keeper = os.fork()
+            except OSError as error:  # too many processes, for now
+                report.send(json.dumps({"failed": str(error)}).encode())
+                return
+            if not keeper:
+                self._control.close()
+                keep(entry, wire, report, self._plan)
 
     def rehearse(self) -> None:
         """Start an inmate that does nothing. Raises OSError if this system does not allow it."""

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -24,7 +25,7 @@ class WarmProcess:
 
     def __init__(self, order: dict[str, Any]) -> None:
         """Start it and wait until it is warm. Raises SandboxMissing or SandboxFailed."""
-        self.ended = False
+        self._ended = False
         self._pidfd = -1
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
@@ -65,32 +66,37 @@ class WarmProcess:
         if "failed" in said:
             raise SandboxFailed(f"The sandbox could not import what it needs: {said['failed']}")
 
-    def start(self, wire: socket.socket) -> Inmate | None:
-        """Return a new inmate that has `wire`; None if the process has died. Raises SandboxFailed."""
+    def start(self, wire: socket.socket) -> Inmate:
+        """Return a new inmate that has `wire`. Raises SandboxFailed."""
         ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
-        with theirs, self._lock:
-            try:
-                socket.send_fds(self._control, [b"start"], [wire.fileno(), theirs.fileno()])
-            except OSError:
-                ours.close()
-                return None
+        ours.settimeout(START_S)
         try:
+            with theirs, self._lock:
+                socket.send_fds(self._control, [b"start"], [wire.fileno(), theirs.fileno()])
             answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
-        except ConnectionError:
+        except OSError:
             answer, descriptors = b"", []
         if descriptors:
             return Inmate(descriptors[0], ours)
         ours.close()
-        if answer:
-            raise SandboxFailed(f"The sandbox could not start a process: {json.loads(answer)['failed']}")
-        return None
+        reason = json.loads(answer)["failed"] if answer else "it gave no answer"
+        raise SandboxFailed(f"The sandbox could not start a process: {reason}")
+
+    def alive(self, patience: float = 0.0) -> bool:
+        """Say whether it still runs after `patience` seconds."""
+        with self._lock:
+            if self._ended:
+                return False
+            poll = select.poll()
+            poll.register(self._pidfd, select.POLLIN)
+            return not poll.poll(1000 * patience)
 
     def end(self) -> None:
         """End it, and with it every inmate. Safe to call again."""
         with self._lock:
-            if self.ended:
+            if self._ended:
                 return
-            self.ended = True
+            self._ended = True
             self._control.close()
             with contextlib.suppress(ProcessLookupError):
                 if self._pidfd >= 0:

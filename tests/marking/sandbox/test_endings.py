@@ -17,6 +17,7 @@ from tests.marking.sandbox.prison import PATIENCE, sandbox
         ("import os; os._exit(5)", "exited", "The process ended by itself, with exit status 5."),
         ("import ctypes; ctypes.string_at(0)", "crashed", "The process crashed: Segmentation fault."),
         ("import os; os.abort()", "crashed", "The process crashed: Segmentation fault."),
+        ("import sys; sys.exit()", "exited", "The process ended by itself."),
         ("raise KeyboardInterrupt", "exited", "The process ended by itself, with exit status 1."),
     ],
 )

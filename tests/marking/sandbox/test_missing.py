@@ -75,6 +75,12 @@ def test_a_warm_process_that_dies_early_is_told_with_its_last_words(tmp_path, un
     assert str(caught.value) == "The sandbox ended before it was ready. It said last: no more"
 
 
+def test_a_file_to_read_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError) as caught:
+        sandbox(readable=[tmp_path / "data.csv"])
+    assert str(caught.value) == f"[Errno 2] No such file or directory: '{tmp_path}/data.csv'"
+
+
 def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
     monkeypatch.setattr(warm, "START_S", 0.01)
     with pytest.raises(SandboxFailed) as caught:

@@ -43,3 +43,6 @@ def test_sockets_are_unix_udp_tcp_and_the_list_of_interfaces(caller):
     allowed = f"answer = [family for family in range(50) if call(41, family, {datagram}, 0) != 1]"
     unix, inet, netlink = 1, 2, 16
     assert caller.ask(allowed) == [unix, inet, netlink]
+    of_netlink = f"answer = [kind for kind in range(23) if call(41, {netlink}, {datagram}, kind) != 1]"
+    route = 0
+    assert caller.ask(of_netlink) == [route]
