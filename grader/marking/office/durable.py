@@ -6,7 +6,8 @@ from pathlib import Path
 def write_whole(path: Path, content: str | bytes, mode: int = 0o644) -> None:
     """Put `content` into the place of whatever is at `path`, at once and for good.
 
-    It is written beside it first, under a name of its own that the next writing takes again. Raises OSError.
+    It is written beside it first, under a name of its own that the next writing takes again. Raises OSError
+    with the name of `path`.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.part")
@@ -18,8 +19,9 @@ def write_whole(path: Path, content: str | bytes, mode: int = 0o644) -> None:
             os.fchmod(file.fileno(), mode)
             os.fsync(file.fileno())
         os.replace(beside, path)
-    except OSError:
+    except OSError as error:
         beside.unlink(missing_ok=True)
+        error.filename = str(path)  # a full disk names none
         raise
     _sync_folder(path.parent)
 

@@ -36,7 +36,7 @@ class Progress:
             return
         rate = self._done / max(self._clock() - self._begin, 1e-3)
         left = _duration((self._total - self._done) / rate)
-        line = f"{count}, {rate:.1f} each second, {left} left  {said}"
+        line = f"{count}, {rate:.2g} each second, {left} left  {said}"
         width = shutil.get_terminal_size().columns - 1
         print(CLEAR + line[:width], end="", file=self._stream, flush=True)
 
