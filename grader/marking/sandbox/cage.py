@@ -31,21 +31,29 @@ def visible(extra: Sequence[Path]) -> list[str]:
     for path in extra:
         os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
-    packages = [importlib.util.find_spec(name).submodule_search_locations[0] for name in ("sim", "grader")]
-    paths = {Path(path).absolute() for path in (*python, *packages, *extra)}
+    paths = {Path(path).absolute() for path in (*python, *_packages(), *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
     return sorted(map(str, hidden))
 
 
-def environment(home: str, scratch: str) -> dict[str, str]:
-    """Return all environment variables of an inmate; nothing of the marker's own goes through."""
+def _packages() -> list[Path]:
+    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in ("sim", "grader")]
+
+
+def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, str]:
+    """Return all environment variables of an inmate; nothing of the marker's own goes through.
+
+    imports: folders of modules besides Python's own, sim and grader.
+    """
+    modules = dict.fromkeys([*(str(package.parent) for package in _packages()), *imports])
     return {
         "HOME": home,
         "TMPDIR": scratch,
         "USER": "student",
         "PATH": f"{sys.prefix}/bin:/usr/bin:/bin",
         "LANG": "C.UTF-8",
+        "PYTHONPATH": os.pathsep.join(modules),  # the same sim and grader as here, wherever they are from
         "PYTHONHASHSEED": "0",
         "PYTHONDONTWRITEBYTECODE": "1",
         "OPENBLAS_NUM_THREADS": "1",
@@ -56,7 +64,7 @@ def environment(home: str, scratch: str) -> dict[str, str]:
     }
 
 
-def command(paths: Iterable[str], program: list[str]) -> list[str]:
+def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) -> list[str]:
     """Return the command that runs `program` in the cage. Raises SandboxMissing if there is no bubblewrap."""
     bwrap = shutil.which("bwrap")
     if not bwrap:
@@ -67,7 +75,7 @@ def command(paths: Iterable[str], program: list[str]) -> list[str]:
     words = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
     words += ["--unshare-net", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
     words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
-    for name, value in environment(HOME, "/tmp").items():
+    for name, value in environment(HOME, "/tmp", imports).items():
         words += ["--setenv", name, value]
     # What is private comes first: the course may lie in /tmp.
     words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME]

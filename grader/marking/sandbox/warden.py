@@ -69,7 +69,6 @@ class Warden:
 
 def _load(order: dict[str, Any]) -> Entry:
     """Import what inmates will need, so that each is born with it; return their entry."""
-    sys.path += order["imports"]
     for name in order["preload"]:
         importlib.import_module(name)
     module, _, function = order["entry"].partition(":")

@@ -115,8 +115,8 @@ def _spawn(
     program = [sys.executable, "-P", "-s", "-m", "grader.marking.sandbox.warden", str(theirs.fileno())]
     caged = order["caged"]
     return subprocess.Popen(
-        cage.command(order["visible"], program) if caged else program,
-        env={} if caged else cage.environment(folder, folder),
+        cage.command(order["visible"], order["imports"], program) if caged else program,
+        env={} if caged else cage.environment(folder, folder, order["imports"]),
         pass_fds=[theirs.fileno()],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,

@@ -1,8 +1,11 @@
 """Ways out of the cage, each tried from inside."""
 import json
 import os
+import shutil
 import socket
+import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -57,6 +60,23 @@ def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, pris
         assert prisoner.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
         prisoner.leave()
     assert data.read_text() == "1,2"
+
+
+def test_the_course_itself_may_lie_in_tmp(tmp_path):
+    for package in ("grader", "sim"):
+        shutil.copytree(COURSE / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
+    attempt = f"""
+        import sys
+        sys.path += [{str(COURSE)!r}]
+        from tests.marking.sandbox.prison import Prisoner, sandbox
+        with sandbox() as box:
+            prisoner = Prisoner(box)
+            print(prisoner.ask("import grader.notebooks; answer = grader.notebooks.__file__"))
+            prisoner.leave()
+    """
+    command = [sys.executable, "-c", textwrap.dedent(attempt)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout == f"{tmp_path}/grader/notebooks.py\n", done.stderr
 
 
 @pytest.mark.parametrize(

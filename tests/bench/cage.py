@@ -1,0 +1,46 @@
+"""What it costs to give each student a process of its own, in the cage and without."""
+
+import statistics
+import time
+
+from grader.marking.sandbox import Sandbox
+from grader.marking.sandbox.sandbox import PRELOAD
+from tests.bench.report import table
+from tests.marking.sandbox.prison import Prisoner, sandbox
+
+INMATES = 20
+RUN = """
+import rclpy
+from sim import run
+run(lambda: rclpy.create_node("talker"), seconds=1, quiet=True)
+"""
+
+
+def one(box: Sandbox) -> tuple[float, float, float, float]:
+    """An inmate's life: wall times (s) to its first answer, of its first run and of its end; its memory (MB)."""
+    began = time.perf_counter()
+    prisoner = Prisoner(box)
+    prisoner.ask("answer = 1")
+    answered = time.perf_counter()
+    prisoner.ask(RUN)
+    ran = time.perf_counter()
+    prisoner.leave()
+    return answered - began, ran - answered, time.perf_counter() - ran, prisoner.inmate.memory()
+
+
+def main() -> None:
+    """Compare the cage with plain processes."""
+    rows = []
+    for name, unsafe in (("in the cage", False), ("without", True)):
+        began = time.perf_counter()
+        with sandbox(preload=PRELOAD, unsafe=unsafe) as box:
+            warm = time.perf_counter() - began
+            *times, memory = zip(*(one(box) for _ in range(INMATES)), strict=True)
+        medians = [f"{statistics.median(column) * 1e3:.0f}" for column in times]
+        rows.append([name, f"{warm * 1e3:.0f}", *medians, f"{statistics.median(memory):.0f}"])
+    print(f"Wall time in ms, medians of {INMATES} inmates; most memory of one in MB, most of it shared")
+    table(["", "warm process", "fork to first answer", "first run", "end", "memory"], rows)
+
+
+if __name__ == "__main__":
+    main()
