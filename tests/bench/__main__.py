@@ -7,7 +7,18 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-PARTS = ("scenario", "startup", "world", "machines", "repeats", "digests", "grading", "cage", "marking", "view")
+PARTS = (
+    "scenario",
+    "startup",
+    "world",
+    "machines",
+    "repeats",
+    "digests",
+    "grading",
+    "cage",
+    "marking",
+    "view",
+)
 # peers installs what it compares with; navigator takes minutes
 ON_REQUEST = ("peers", "navigator")
 

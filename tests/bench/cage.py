@@ -17,7 +17,7 @@ run(lambda: rclpy.create_node("talker"), seconds=1, quiet=True)
 
 
 def one(box: Sandbox) -> tuple[float, float, float, float]:
-    """An inmate's life: wall times (s) to its first answer, of its first run and of its end; its memory (MB)."""
+    """Wall times (s) of an inmate: to its first answer, of its first run, of its end; its memory (MB)."""
     began = time.perf_counter()
     prisoner = Prisoner(box)
     prisoner.ask("answer = 1")
