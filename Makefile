@@ -13,13 +13,16 @@ export OPENBLAS_NUM_THREADS = 1
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab test demo exercises bench tidy lint setup lock clean
+.PHONY: help lab teach test demo exercises bench tidy lint setup lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 lab: setup  ## open the course in JupyterLab
 	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter $(BIN)/jupyter-lab
+
+teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
+	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter/teach $(BIN)/jupyter-lab
 
 test: setup  ## run every test, on all cores (make test ARGS="-k notebooks" runs some)
 	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)

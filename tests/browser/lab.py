@@ -84,10 +84,10 @@ def copy_for_students(target: Path) -> Path:
 
 
 @contextmanager
-def server(folder: Path, *more: str) -> Iterator[str]:
+def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]:
     """Run JupyterLab for the course in `folder`; yield its address. Log: test-artifacts/jupyterlab.log.
 
-    more: options for its command line.
+    more: options for its command line. settings: the folder with its configuration.
     """
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -97,7 +97,7 @@ def server(folder: Path, *more: str) -> Iterator[str]:
     options.append("--LabApp.expose_app_in_browser=True")  # for Lab.run_all and Lab.has_command
     home = folder / "home"  # Lab keeps a student's layout and settings there
     home.mkdir(exist_ok=True)
-    environment = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_PATH": str(folder / "jupyter")}
+    environment = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_PATH": str(folder / settings)}
     ARTIFACTS.mkdir(exist_ok=True)
     with open(ARTIFACTS / "jupyterlab.log", "w") as log:
         command = [sys.executable, "-m", "jupyterlab", *options]
