@@ -12,6 +12,7 @@ MAX_BYTES = 60_000_000  # of one submission's result
 # marked: all went as usual. repaired: the notebook had to be mended first. stopped: the student's code was
 # stopped, or ended its process, before the last cell. refused: there was nothing that could be run.
 VERDICTS = ("marked", "repaired", "stopped", "refused")
+SAID = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # what every check's verdict says
 
 
 class ResultError(ValueError):
@@ -94,18 +95,47 @@ class Result:
 
 
 def _refuse(constant: str) -> float:
-    raise ValueError(f"{constant} is no number of points")
+    raise ValueError(f"{constant} is no number")
 
 
 def _check(result: Result) -> None:
-    words = (result.student, result.assignment, result.key, result.reason, *result.repairs, *result.flags)
-    if not all(isinstance(word, str) for word in words):
-        raise ValueError("names and sentences are text")
+    """Raise ValueError for values that the types above don't allow."""
+    for name in (result.student, result.assignment, *(notebook.name for notebook in result.notebooks)):
+        if not isinstance(name, str) or name in ("", ".", "..") or set(name) & set("/\0"):
+            raise ValueError(f"{name!r} can't be the name of a folder or file")
     if result.verdict not in VERDICTS:
         raise ValueError(f"the verdict is one of {', '.join(VERDICTS)}, not {result.verdict!r}")
-    for cell in (cell for notebook in result.notebooks for cell in notebook.cells):
-        numbers = (cell.points, cell.max)
-        if not all(isinstance(number, (int, float)) and not isinstance(number, bool) for number in numbers):
-            raise ValueError(f"the points of {cell.cell} are numbers")
-        if not 0 <= cell.points <= cell.max < math.inf:
-            raise ValueError(f"{cell.cell} has {cell.points:g} points of {cell.max:g}")
+    if not (isinstance(result.repairs, list) and isinstance(result.flags, list)):
+        raise ValueError("repairs and flags are lists")
+    _check_words("key, reason, repairs and flags", result.key, result.reason, *result.repairs, *result.flags)
+    _check_numbers("the timings", *result.timings.values())
+    for notebook in result.notebooks:
+        cells = notebook.notebook["cells"]
+        if not isinstance(cells, list) or not all(isinstance(cell, dict) for cell in cells):
+            raise ValueError(f"{notebook.name} holds no cells")
+        names = [cell.cell for cell in notebook.cells]
+        if len(set(names)) < len(names):
+            raise ValueError(f"a test cell of {notebook.name} has two results")
+        for cell in notebook.cells:
+            _check_cell(cell)
+
+
+def _check_cell(cell: CellResult) -> None:
+    _check_words("a cell's name, its exercise and the digests", cell.cell, cell.exercise, *cell.digests)
+    _check_numbers(f"the points of {cell.cell}", cell.points, cell.max)
+    if not 0 <= cell.points <= cell.max:
+        raise ValueError(f"{cell.cell} has {cell.points:g} points of {cell.max:g}")
+    if not isinstance(cell.needs_look, bool):
+        raise ValueError(f"{cell.cell} needs a look or doesn't")
+    for verdict in cell.verdicts:
+        _check_words(f"the verdicts of {cell.cell}", *(verdict[key] for key in SAID))
+
+
+def _check_words(what: str, *words: object) -> None:
+    if not all(isinstance(word, str) for word in words):
+        raise ValueError(f"{what} are text")
+
+
+def _check_numbers(what: str, *numbers: object) -> None:
+    if not all(type(number) in (int, float) and math.isfinite(number) for number in numbers):
+        raise ValueError(f"{what} are finite numbers")

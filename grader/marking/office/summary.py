@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from grader.diagnosis.fault import NOT_STARTED
 from grader.marking.result import CellResult, Result
 
 SLOWEST = 5
@@ -53,12 +54,16 @@ class Times:
 
 @dataclass(frozen=True)
 class Summary:
-    """All about a marked class. worth: the points of each test cell. names: what to call it."""
+    """All about a marked class. worth: the points of each test cell. names: what to call it.
+
+    unstarted: how many students did not begin an exercise, where some did not.
+    """
 
     assignment: str
     worth: Mapping[tuple[str, str], float]
     names: dict[tuple[str, str], str]
     rows: list[Row]
+    unstarted: dict[str, int]
     mistakes: list[Mistake]
     looks: list[Look]
     times: Times | None
@@ -73,9 +78,12 @@ def summarise(
     for result in ordered:
         names |= {key: cell.exercise for key, cell in cells(result) if key in names}
     titles = {key: name or key[1] for key, name in names.items()}
-    rows = [_row(result) for result in ordered]
     looks = [*_by_hand(worth, ordered), *(look for result in ordered for look in _looks(result))]
-    return Summary(assignment, worth, titles, rows, _mistakes(ordered), looks, _times(ordered))
+    every = [(result.student, cell) for result in ordered for _, cell in cells(result)]
+    unstarted = Counter(cell.exercise for _, cell in every if _unstarted(cell))
+    begun = [(student, cell) for student, cell in every if not _unstarted(cell)]
+    rows, times = [_row(result) for result in ordered], _times(ordered)
+    return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), looks, times)
 
 
 def cells(result: Result) -> Iterator[tuple[tuple[str, str], CellResult]]:
@@ -95,14 +103,17 @@ def _row(result: Result) -> Row:
     return Row(result.student, points, result.points, result.verdict, len(result.flags))
 
 
-def _mistakes(results: list[Result]) -> list[Mistake]:
+def _unstarted(cell: CellResult) -> bool:
+    return any(verdict["sentence"] == NOT_STARTED for verdict in missed(cell))
+
+
+def _mistakes(marked: list[tuple[str, CellResult]]) -> list[Mistake]:
     """Checks that were missed, the most frequent first. Words that differ in numbers alone count as one."""
     seen: dict[tuple[str, str, str], dict[str, tuple[str, str]]] = {}
-    for result in results:
-        for _, cell in cells(result):
-            for verdict in missed(cell):
-                who = seen.setdefault((cell.exercise, verdict["name"], verdict["sentence"]), {})
-                who[result.student] = (verdict["saw"], verdict["hint"])
+    for student, cell in marked:
+        for verdict in missed(cell):
+            who = seen.setdefault((cell.exercise, verdict["name"], verdict["sentence"]), {})
+            who[student] = (verdict["saw"], verdict["hint"])
     found = [
         Mistake(exercise, sentence, len(who), *_most_frequent(list(who.values())))
         for (exercise, _, sentence), who in seen.items()

@@ -13,10 +13,11 @@ td.low { background: #d6454122 } td.high { background: #16883c22 }
 """
 
 
-def as_page(summary: Summary, title: str = "") -> str:
-    """The page. title: what to call it; the assignment's name by default."""
-    name = escape(title or summary.assignment)
-    parts = [f"<h1>{name}</h1>", _points(summary), _mistakes(summary), _looks(summary), _times(summary)]
+def as_page(summary: Summary) -> str:
+    """The whole page."""
+    name = escape(summary.assignment)
+    about = (_points, _unstarted, _mistakes, _looks, _times)
+    parts = [f"<h1>{name}</h1>", *(part(summary) for part in about)]
     head = f'<meta charset="utf-8"><title>{name}</title><style>{STYLE}</style>'
     body = "\n".join(filter(None, parts))
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'
@@ -31,6 +32,11 @@ def _points(summary: Summary) -> str:
         total = _points_cell(row.total, whole)
         rows.append(_row([_cell(row.student), *points, total, _cell(row.verdict), _cell(row.flags or "")]))
     return _table(head, rows)
+
+
+def _unstarted(summary: Summary) -> str:
+    rows = [_row([_cell(exercise), _cell(count)]) for exercise, count in summary.unstarted.items()]
+    return "<h2>Not started</h2>" + _table(["exercise", "students"], rows) if rows else ""
 
 
 def _mistakes(summary: Summary) -> str:
@@ -52,7 +58,7 @@ def _times(summary: Summary) -> str:
         return ""
     times = summary.times
     said = f"A submission took {times.median:.1f} s (median), {times.longest:.1f} s at most."
-    rows = [_row([_cell(name), _cell(f"{seconds:.1f}")]) for name, seconds in times.cells]
+    rows = [_row([_cell(name), _cell(f"{seconds:.2g}")]) for name, seconds in times.cells]
     return f"<h2>Times</h2><p>{said}</p>" + (_table(["slowest cells", "seconds"], rows) if rows else "")
 
 

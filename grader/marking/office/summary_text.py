@@ -22,6 +22,9 @@ def as_text(summary: Summary, mistakes: int = MISTAKES) -> str:
 
 def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
     yield from _table(summary)
+    if summary.unstarted:
+        counts = ", ".join(f"{exercise} {count}" for exercise, count in summary.unstarted.items())
+        yield from ("", *textwrap.wrap(f"Not started by so many of {len(summary.rows)}: {counts}", WIDTH))
     if summary.mistakes:
         yield from ("", "Common mistakes")
     for mistake in summary.mistakes[:mistakes]:
@@ -37,7 +40,7 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
         times = summary.times
         yield ""
         yield f"A submission took {times.median:.1f} s (median), {times.longest:.1f} s at most."
-        slowest = ", ".join(f"{name} {seconds:.1f} s" for name, seconds in times.cells)
+        slowest = ", ".join(f"{name} {seconds:.2g} s" for name, seconds in times.cells)
         yield from textwrap.wrap(f"Slowest cells: {slowest}", WIDTH) if slowest else ()
 
 

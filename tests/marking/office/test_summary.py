@@ -5,6 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
+from grader.diagnosis.fault import NOT_STARTED
 from grader.marking.office.summary import Look, Mistake, summarise
 from grader.marking.office.summary_page import as_page
 from grader.marking.office.summary_text import as_csv, as_text
@@ -68,7 +69,7 @@ def test_the_text_says_points_mistakes_what_to_look_at_and_times(results):
         "  eve: refused: `nodes.ipynb` is empty.\n"
         "\n"
         "A submission took 0.5 s (median), 2.0 s at most.\n"
-        "Slowest cells: nodes/test_line 0.2 s, nodes/test_counter 0.2 s"
+        "Slowest cells: nodes/test_line 0.25 s, nodes/test_counter 0.25 s"
     )
 
 
@@ -87,6 +88,16 @@ def test_mistakes_are_counted_by_student_and_named_by_what_most_of_them_did():
         results[str(number)] = student(str(number), cell)
     (mistake,) = summarise("01_class", WORTH, results).mistakes
     assert mistake == Mistake("line", "It keeps time.", 3, "0.5 lines in 1e-0 s", "Look at the timer.")
+
+
+def test_who_has_not_begun_an_exercise_has_made_no_mistake_in_it(results):
+    empty = replace(lined(0), verdicts=[verdict("line", 0, 0, name="runs", sentence=NOT_STARTED)])
+    results["anna"] = student("anna", counted(1), empty)
+    summary = summarise("01_class", WORTH, results)
+    assert summary.unstarted == {"line": 1}
+    assert [(one.exercise, one.students) for one in summary.mistakes] == [("line", 2), ("counter", 1)]
+    assert "\n\nNot started by so many of 5: line 1\n\nCommon mistakes\n" in as_text(summary)
+    assert "<h2>Not started</h2>" in as_page(summary)
 
 
 def test_a_broken_check_without_words_and_a_stopped_notebook_are_looked_at():
