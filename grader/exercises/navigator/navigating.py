@@ -34,7 +34,7 @@ NEAR = 0.25  # metres; as Nav2's goal checker
 RIGHT, POOR = 1.35, 2.0  # times the shortest way: full points, no points
 SLOW = 0.15  # m/s; on the shortest way, so that there is time for turns and detours
 FEEDBACK = 2.0  # seconds between two messages at most
-TWO_THREADS = "give callback_group=ReentrantCallbackGroup(), and spin with a MultiThreadedExecutor"
+THREADS = "spin the node with a MultiThreadedExecutor"
 CANCEL_AFTER = 5.0  # seconds
 
 
@@ -188,12 +188,12 @@ def _driving_hint(recording: Recording, goal: Goal, left: float) -> str:
     if not plans:
         return (
             "No plan was published. While a goal is executed the node has to hear /tf and /map, too: "
-            f"{TWO_THREADS}."
+            f"{THREADS}."
         )
     if not any(plan.poses for plan in plans):
         return "All plans are empty. Is the start where the robot is in the map, and are both cells free?"
     if travelled(recording) < 0.05 and any(series(recording, "/cmd_vel", "angular.z")):
-        return f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {TWO_THREADS}."
+        return f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}."
     if travelled(recording) < 0.05:
         return "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop."
     if recording.contacts:
