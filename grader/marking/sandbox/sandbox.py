@@ -1,5 +1,6 @@
 """Where the inmates live: a cage made by bubblewrap, with a warm interpreter in it."""
 
+import platform
 import socket
 import threading
 from collections.abc import Sequence
@@ -8,7 +9,7 @@ from pathlib import Path
 from typing import Self
 
 from grader.marking.sandbox import cage
-from grader.marking.sandbox.errors import SandboxFailed
+from grader.marking.sandbox.errors import SandboxFailed, SandboxMissing
 from grader.marking.sandbox.inmate import Inmate
 from grader.marking.sandbox.limits import USUAL, Limits
 from grader.marking.sandbox.warm import WarmProcess
@@ -41,6 +42,11 @@ class Sandbox:
 
         Raises SandboxMissing, SandboxFailed if what it imports fails, FileNotFoundError for what is readable.
         """
+        if platform.machine() != "x86_64":
+            raise SandboxMissing(
+                "The sandbox filters system calls by their numbers on x86_64, and this machine is "
+                f"{platform.machine()}: mark on a Linux x86_64 machine."
+            )
         self._order = {
             "entry": entry,
             "preload": list(preload),

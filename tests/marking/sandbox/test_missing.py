@@ -21,6 +21,16 @@ def test_without_bubblewrap_it_says_how_to_get_it(monkeypatch, tmp_path):
     )
 
 
+def test_on_another_architecture_it_says_where_to_mark(monkeypatch):
+    monkeypatch.setattr("platform.machine", lambda: "aarch64")
+    with pytest.raises(SandboxMissing) as caught:
+        sandbox()
+    assert str(caught.value) == (
+        "The sandbox filters system calls by their numbers on x86_64, and this machine is aarch64: "
+        "mark on a Linux x86_64 machine."
+    )
+
+
 @pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, none for an inmate
 def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespaces):
     attempt = "from tests.marking.sandbox.prison import sandbox; sandbox()"
