@@ -19,8 +19,8 @@ GRADER = re.compile(r"grader")
 # What may be imported by which modules and nobody else. A path that ends with / is a whole folder.
 LAYERS = [
     pytest.param(ROS, ("sim/ros/", "grader/exercises/"), id="ROS"),
-    pytest.param(JUPYTER, ("sim/view/", "grader/score.py"), id="Jupyter"),
-    pytest.param(PICTURES, ("sim/view/", "grader/pictures.py"), id="matplotlib"),
+    pytest.param(JUPYTER, ("sim/view/", "grader/score.py", "grader/marking/"), id="Jupyter"),
+    pytest.param(PICTURES, ("sim/view/", "grader/pictures.py", "grader/marking/warm.py"), id="matplotlib"),
     pytest.param(NBGRADER, ("grader/marking/",), id="nbgrader"),
     pytest.param(GRADER, ("grader/",), id="grader"),
 ]

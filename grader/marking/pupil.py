@@ -1,0 +1,159 @@
+"""A student's process as the judge sees it: led from cell to cell, and never believed."""
+
+from __future__ import annotations
+
+import base64
+import math
+import socket
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Any
+
+from grader.exercise import Exercise
+from grader.marking.orders import Patience
+from grader.marking.outputs import Outputs
+from grader.score import Score
+from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
+
+MESSAGE = 8_000_000  # bytes of one message
+GRACE = 10.0  # s that a cell has to end after it was interrupted
+
+
+class Gone(Exception):
+    """The process can't be led any further. The text says why, as the end of a sentence."""
+
+
+class Deadline(Wire):
+    """A wire on which nobody waits for longer than until `deadline`, by the clock `monotonic`."""
+
+    deadline = math.inf
+
+    def receive(self, timeout: float | None = None) -> dict[str, Any]:
+        """As `Wire.receive`."""
+        left = self.deadline - monotonic()
+        if left <= 0:
+            raise WireTimeout("the time is over")
+        limits = [limit for limit in (left, timeout) if limit is not None and limit < math.inf]
+        return super().receive(min(limits, default=None))
+
+
+@dataclass
+class Tested:
+    """What became of a test cell.
+
+    score: None if the exercise wasn't run to its end; error: what went wrong with that on our side, if
+    anything. flags: what no honest cell does.
+    """
+
+    score: Score | None = None
+    error: Exception | None = None
+    flags: list[str] = field(default_factory=list)
+
+
+class Pupil:
+    """Leads the process at the other end of a socket through one notebook.
+
+    ending: asked when the wire breaks; how the process ended, as a sentence, or "" where that isn't known.
+    """
+
+    def __init__(self, sock: socket.socket, patience: Patience, ending: Callable[[], str]) -> None:
+        self._wire = Deadline(sock, MESSAGE)
+        self._patience, self._ending = patience, ending
+        self._over = monotonic() + patience.start
+
+    def begin(self, files: Mapping[str, bytes]) -> None:
+        """Wait until it is there, and put files beside its notebook. Raises Gone."""
+        self._wire.deadline = self._over
+        if self._hear("It did not start.") != {"ready": True}:
+            raise Gone("It began with something else than it should.")
+        self._say(files={name: base64.b64encode(data).decode() for name, data in files.items()})
+        self._over = monotonic() + self._patience.notebook
+
+    def run(self, source: str, outputs: Outputs) -> None:
+        """Run a cell. Says so in the outputs when it had to be interrupted. Raises Gone."""
+        began = monotonic()
+        self._limit(self._patience.cell + GRACE)
+        self._say(run=source, seconds=self._patience.cell)
+        self._listen(outputs)
+        self._tell_if_late(began, outputs)
+
+    def test(self, source: str, exercise: Exercise, outputs: Outputs) -> Tested:
+        """Run a test cell, and judge the nodes that it offers to this exercise. Raises Gone."""
+        began = monotonic()
+        self._limit(self._patience.cell + GRACE)
+        self._say(test=source, seconds=self._patience.cell)
+        tested = Tested()
+        while (asked := self._listen(outputs)) is not None:
+            problem = _problem(asked, exercise, tested)
+            self._say(go=not problem)
+            if problem:
+                tested.flags.append(problem)
+            else:
+                self._grade(exercise, tested)
+        if tested.score is None and tested.error is None:
+            self._tell_if_late(began, outputs)
+        return tested
+
+    def hang_up(self) -> None:
+        """Nothing is left to do: the process may end."""
+        self._wire.close()
+
+    def _grade(self, exercise: Exercise, tested: Tested) -> None:
+        self._limit(self._patience.test)
+        remote = Remote(self._wire)
+        try:
+            try:
+                tested.score = exercise.grade(remote)
+            except RemoteLost:
+                raise
+            except Exception as error:
+                tested.error = error
+            remote.end()
+        except RemoteLost as lost:
+            raise Gone(self._ending() or lost.reason) from None
+        self._limit(self._patience.cell)
+
+    def _listen(self, outputs: Outputs) -> str | None:
+        """Take outputs until the cell is done (None) or hands over nodes: then the exercise that it names."""
+        while True:
+            said = self._hear("It did not stop when it was interrupted.")
+            if said == {"done": True}:
+                return None
+            if "grade" in said:
+                return str(said["grade"])[:100]
+            outputs.take(said)
+
+    def _limit(self, seconds: float) -> None:
+        self._wire.deadline = min(monotonic() + seconds, self._over)
+
+    def _tell_if_late(self, began: float, outputs: Outputs) -> None:
+        if monotonic() - began >= self._patience.cell:
+            outputs.say(f"This cell was interrupted: it took more than {self._patience.cell:g} s.")
+
+    def _say(self, **message: Any) -> None:
+        try:
+            self._wire.send(**message)
+        except WireError:
+            raise Gone(self._ending() or "Its process ended.") from None
+
+    def _hear(self, too_late: str) -> dict[str, Any]:
+        try:
+            return self._wire.receive()
+        except WireTimeout:
+            if monotonic() < self._over:
+                raise Gone(too_late) from None
+            limit = self._patience.notebook
+            raise Gone(f"All its cells together took more than {limit:g} s.") from None
+        except WireClosed:
+            raise Gone(self._ending() or "Its process ended.") from None
+        except WireError:
+            raise Gone("Its process said something that makes no sense.") from None
+
+
+def _problem(asked: str, exercise: Exercise, tested: Tested) -> str:
+    if tested.score is not None or tested.error is not None:
+        return "graded more than once in one cell; the first time was judged"
+    if asked != exercise.name:
+        return f"handed its nodes to the exercise {asked!r} instead of {exercise.name!r}"
+    return ""

@@ -1,0 +1,228 @@
+import os
+import select
+import subprocess
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from grader.marking.orders import Patience
+from grader.marking.plan import Task
+from grader.marking.pool import Pool
+from grader.marking.result import Result
+from grader.marking.sandbox import Sandbox
+from tests.marking.pool.assignment import hand_in, release
+from tests.marking.tiny import ROOT
+
+PATIENCE = Patience(cell=30.0, test=60.0, notebook=90.0)
+SORRY = "This could not be marked; your instructor will look at it."
+
+
+@pytest.fixture(scope="module")
+def tasks(tmp_path_factory) -> list[Task]:
+    """Six submissions: all right, one answer right, none, an error, damaged, stopped."""
+    folder = tmp_path_factory.mktemp("class")
+    released = release(folder / "02_two")
+    made = {
+        "right": {},
+        "half": {"temperature": "Thermometer = None"},
+        "none": {"greeting": "Greeter = None", "temperature": "Thermometer = None"},
+        "error": {"greeting": "1 / 0"},
+        "stopped": {"temperature": "import os\nos._exit(0)"},
+        "broken": {},
+    }
+    tasks = [hand_in(folder / name, released, answers) for name, answers in made.items()]
+    (folder / "broken" / "two.ipynb").write_bytes(b"\x00")
+    return tasks
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Pool]:
+    with Pool(ROOT, 2, unsafe=True, secret="a secret", patience=PATIENCE) as pool:
+        yield pool
+
+
+@pytest.fixture
+def gate(tmp_path) -> Path:
+    """A pipe at which a cell says that it is there, and waits for somebody who reads that."""
+    os.mkfifo(tmp_path / "gate")
+    return tmp_path / "gate"
+
+
+@pytest.fixture
+def waiting(tmp_path, gate) -> Task:
+    """A submission whose cell waits at the gate."""
+    cell = f"open({str(gate)!r}, 'w').write('x')"
+    return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
+
+
+def grades(results: Iterator[Result]) -> dict[str, str]:
+    return {result.student: result.grade_json() for result in results}
+
+
+def summary(result: Result) -> tuple[str, str, float]:
+    return result.student, result.verdict, result.points
+
+
+def test_a_class_is_marked(pool, tasks):
+    results = list(pool.mark(tasks))
+    assert sorted(map(summary, results)) == [
+        ("broken", "refused", 0.0),
+        ("error", "marked", 15.0),
+        ("half", "marked", 8.0),
+        ("none", "marked", 0.0),
+        ("right", "marked", 23.0),
+        ("stopped", "stopped", 8.0),
+    ]
+    right = next(result for result in results if result.student == "right")
+    assert right.timings["memory"] > 20
+    assert {"start", "total", "computing", "two/greeting-points"} <= right.timings.keys()
+
+
+@pytest.mark.parametrize("jobs", [1, 3])
+def test_grades_are_the_same_in_any_order_with_any_number_of_jobs(pool, tasks, jobs):
+    with Pool(ROOT, jobs, unsafe=True, secret="a secret", patience=PATIENCE) as other:
+        assert grades(other.mark(reversed(tasks))) == grades(pool.mark(tasks))
+
+
+def test_a_cage_changes_no_grade(pool, tasks):
+    with Pool(ROOT, 2, secret="a secret", patience=PATIENCE) as caged:
+        assert grades(caged.mark(tasks)) == grades(pool.mark(tasks))
+
+
+def test_no_tasks_give_no_results(pool):
+    assert list(pool.mark([])) == []
+
+
+def test_tasks_may_be_relative_to_the_course(pool, tasks, monkeypatch):
+    monkeypatch.setattr(pool, "_course", tasks[0].folder.parent)
+    task = Task("right", "02_two", Path("right"), Path("02_two"), "0" * 64)
+    assert [summary(result) for result in pool.mark([task])] == [("right", "marked", 23.0)]
+
+
+def test_a_judge_that_is_killed_is_replaced_once(pool, waiting, gate):
+    with ThreadPoolExecutor(1) as thread:
+        result = thread.submit(lambda: next(pool.mark([waiting])))
+        gate.read_text()
+        kill_judges(pool)
+        gate.read_text()
+        assert summary(result.result()) == ("ann", "marked", 23.0)
+
+
+def test_a_judge_that_is_killed_twice_leaves_it_to_the_instructor(pool, waiting, gate):
+    with ThreadPoolExecutor(1) as thread:
+        result = thread.submit(lambda: next(pool.mark([waiting])))
+        for _ in range(2):
+            gate.read_text()
+            kill_judges(pool)
+        why = "The judge's process broke off. The process was killed from outside."
+        assert result.result() == Result(
+            "ann", "02_two", "0" * 64, "refused", f"{SORRY} {why}", flags=[why]
+        )
+
+
+def kill_judges(pool: Pool) -> None:
+    for process in list(pool._running):
+        if process.pid in children(pool._judges):
+            process.kill()
+
+
+def children(sandbox: Sandbox) -> list[int]:
+    """The processes that a sandbox's warm process has started."""
+    warm = sandbox._warm._process.pid
+    keepers = Path(f"/proc/{warm}/task/{warm}/children").read_text().split()
+    return [int(pid) for keeper in keepers
+            for pid in Path(f"/proc/{keeper}/task/{keeper}/children").read_text().split()]  # fmt: skip
+
+
+@pytest.mark.parametrize("which", ["_judges", "_pupils"])
+def test_a_warm_process_that_dies_is_started_again(pool, tasks, which):
+    getattr(pool, which)._warm._process.kill()
+    assert [summary(result) for result in pool.mark(tasks[:1])] == [("right", "marked", 23.0)]
+
+
+def test_others_go_on_when_a_warm_process_dies(pool, waiting, gate, tasks):
+    with ThreadPoolExecutor(1) as thread:
+        results = thread.submit(lambda: list(pool.mark([waiting, *tasks])))
+        gate.read_text()
+        pool._judges._warm._process.kill()
+        gate.read_text()
+        assert len(results.result()) == len(tasks) + 1
+        assert all(SORRY not in result.reason for result in results.result())
+
+
+@pytest.mark.parametrize(
+    ("entry", "why"),
+    [
+        ("nonsense", "The judge gave no result: this is no result of marking: 'notebooks'"),
+        ("refusal", "The test cell `x` can't be marked here."),
+        ("silent", "It took more than 1 s."),
+        ("crash", "The judge's process broke off. The process crashed: Aborted."),
+    ],
+)
+def test_a_judge_that_gives_no_result_is_reported(pool, tasks, entry, why, monkeypatch):
+    monkeypatch.setattr("grader.marking.pool.SPARE_S", 0.0)
+    monkeypatch.setattr(pool, "_patience", Patience(start=0.5, notebook=0.5))
+    with Sandbox(f"judges:{entry}", preload=(), unsafe=True, imports=[Path(__file__).parent]) as judges:
+        monkeypatch.setattr(pool, "_judges", judges)
+        [result] = pool.mark(tasks[:1])
+    assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
+
+
+def test_a_release_that_cant_be_marked_is_named(pool, tmp_path, tasks):
+    released = release(tmp_path / "02_two")
+    text = (released / "two.ipynb").read_text()
+    (released / "two.ipynb").write_text(text.replace("topics.greeting.grade(Greeter)", "assert Greeter"))
+    [result] = pool.mark([hand_in(tmp_path / "ann", released)])
+    assert result.reason.startswith(f"{SORRY} The test cell `greeting-points` can't be marked here: expected")
+
+
+def test_a_pool_that_is_closed_leaves_no_process(waiting, tasks):
+    pool = Pool(ROOT, 2, unsafe=True, patience=PATIENCE)
+    results = pool.mark([waiting, tasks[0]])
+    assert summary(next(results)) == ("right", "marked", 23.0)
+    left = [os.pidfd_open(process.pid) for process in pool._running]
+    left += [os.pidfd_open(box._warm._process.pid) for box in (pool._judges, pool._pupils)]
+    pool.close()
+    assert all(gone(pidfd) for pidfd in left)
+    assert pool._running == set()
+    pool.close()
+
+
+KILLED = """\
+import sys
+from pathlib import Path
+from grader.marking.pool import Pool
+from concurrent.futures import ThreadPoolExecutor
+from tests.marking.pool.test_pool import Task, children
+
+folder = Path(sys.argv[1])
+task = Task("ann", "02_two", folder / "ann", folder / "02_two", "0" * 64)
+with Pool(folder, 1, unsafe=True) as pool, ThreadPoolExecutor(1) as thread:
+    result = thread.submit(lambda: next(pool.mark([task])))
+    input()
+    boxes = (pool._judges, pool._pupils)
+    print(*(pid for box in boxes for pid in (box._warm._process.pid, *children(box))), flush=True)
+    result.result()
+"""
+
+
+def test_a_marker_that_is_killed_leaves_no_process(waiting, gate, tmp_path):
+    command = [sys.executable, "-c", KILLED, str(tmp_path)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, cwd=ROOT) as marker:
+        gate.read_text()
+        print(file=marker.stdin, flush=True)
+        left = [os.pidfd_open(int(pid)) for pid in marker.stdout.readline().split()]
+        marker.kill()
+    assert len(left) == 4
+    assert all(gone(pidfd) for pidfd in left)
+
+
+def gone(pidfd: int) -> bool:
+    """Whether a process ends within a minute."""
+    ended = bool(select.select([pidfd], [], [], 60.0)[0])
+    os.close(pidfd)
+    return ended
