@@ -1,5 +1,6 @@
 """Prisoners: inmates that a test commands."""
 import json
+import re
 import socket
 from pathlib import Path
 from typing import Any
@@ -49,3 +50,9 @@ class Prisoner:
 def sandbox(entry: str = "inmates:obey", **options: Any) -> Sandbox:
     """A sandbox whose inmates obey."""
     return Sandbox(entry, imports=[Path(__file__).parent], **({"preload": FEW} | options))
+
+
+def warden(box: Sandbox) -> int:
+    """The pid of the warm process of a sandbox."""
+    about = Path(f"/proc/self/fdinfo/{box._warm._pidfd}").read_text()
+    return int(re.search(r"^Pid:\s*(\d+)", about, re.M)[1])

@@ -8,7 +8,7 @@ import textwrap
 
 import pytest
 
-from tests.marking.sandbox.prison import PATIENCE, sandbox
+from tests.marking.sandbox.prison import PATIENCE, sandbox, warden
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_closing_the_sandbox_ends_all(prisoners):
 def test_when_the_warm_process_dies_a_new_one_takes_its_place(prisoners):
     with sandbox() as box:
         before = prisoners(box)
-        signal.pidfd_send_signal(box._warm._pidfd, signal.SIGKILL)
+        os.kill(warden(box), signal.SIGKILL)
         assert before.ending().detail == "The process was killed: the cage around it broke."
         after = prisoners(box)
         assert after.ask("answer = 'alive'") == "alive"

@@ -1,11 +1,8 @@
 """Systems without a sandbox, and what the marker reads there."""
-import os
-import subprocess
-import sys
-
 import pytest
 
 from grader.marking.sandbox import Sandbox, SandboxFailed, SandboxMissing, cage, warm
+from tests.marking.sandbox.machines import in_a_system_with
 from tests.marking.sandbox.prison import sandbox
 
 UNSAFE = ", or mark with `--unsafe`, which lets students' code read and change all your files."
@@ -34,9 +31,7 @@ def test_on_another_architecture_it_says_where_to_mark(monkeypatch):
 @pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, none for an inmate
 def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespaces):
     attempt = "from tests.marking.sandbox.prison import sandbox; sandbox()"
-    script = f'echo {namespaces} > /proc/sys/user/max_user_namespaces; exec "$0" -c "$1"'
-    inner = ["unshare", "--user", "--map-root-user", "sh", "-c", script, sys.executable, attempt]
-    done = subprocess.run(inner, capture_output=True, text=True)
+    done = in_a_system_with(namespaces, attempt)
     error = done.stderr.splitlines()[-1]
     assert error.startswith(
         "grader.marking.sandbox.errors.SandboxMissing: This system lets bubblewrap make no sandbox ("
@@ -96,26 +91,3 @@ def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
     with pytest.raises(SandboxFailed) as caught:
         sandbox()
     assert str(caught.value) == "The sandbox was not ready after 0.01 s: is this machine too busy?"
-
-
-def test_an_ordinary_user_has_the_same_sandbox():
-    attempt = (
-        "from tests.marking.sandbox.prison import Prisoner, sandbox\n"
-        "box = sandbox()\n"
-        "prisoner = Prisoner(box)\n"
-        "print(prisoner.ask('import os; answer = [os.getcwd(), os.getuid(), os.listdir(\"/proc\")]'))"
-    )
-    done = subprocess.run([*ordinary_user(), sys.executable, "-c", attempt], capture_output=True, text=True)
-    assert done.stdout == "['/student', 1000, ['self']]\n", done.stderr
-
-
-def ordinary_user() -> list[str]:
-    """What makes a command run as an ordinary user, who may read Python even if it lies in root's folder."""
-    if os.getuid():
-        return []
-    open_home = (
-        "mount --bind /root /mnt && mount -t tmpfs none /root && chmod 755 /root && mkdir /root/.pyenv"
-        ' && if [ -d /mnt/.pyenv ]; then mount --bind /mnt/.pyenv /root/.pyenv; fi && exec "$@"'
-    )
-    drop = ["setpriv", "--reuid", "12345", "--regid", "12345", "--clear-groups"]
-    return ["unshare", "--mount", "sh", "-c", open_home, "sh", *drop]
