@@ -1,0 +1,21 @@
+"""The instructor's commands: `python -m grader mark ASSIGNMENT`, see its --help."""
+import sys
+
+USAGE = "usage: python -m grader mark ASSIGNMENT [--help]"
+
+
+def main(arguments: list[str]) -> int:
+    """Run a command; returns the exit status."""
+    command, *rest = arguments or [""]
+    if command != "mark":
+        print(USAGE, file=sys.stdout if command in ("-h", "--help") else sys.stderr)
+        return 0 if command in ("-h", "--help") else 2
+    # jsonschema, below nbgrader, would load this to check web addresses: more than a second, for nothing.
+    sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
+    from grader.marking.office.cli import main as mark
+
+    return mark(rest)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
