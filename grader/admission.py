@@ -8,10 +8,18 @@ from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from sim import Process
+from sim.ros.remote import QUESTIONS, Remote, RemoteLost
+
+MOST_TEXT = 2_000  # characters of what another process says
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
-    """Why the first unusable one of these can't be run; None when all can."""
+    """Why the first unusable one of these can't be run; None when all can.
+
+    Raises RemoteLost where they live in another process that gives no proper answer.
+    """
+    if any(isinstance(node, Remote) for node in nodes):
+        return _remote_refusal(nodes[0])
     if not nodes:
         return _fault("nothing", "Put the name of your class between the brackets: grade(MyNode).")
     try:
@@ -19,6 +27,25 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
     except Exception as error:  # the student's own class may answer any question with an exception
         saw = f"something that raises {type(error).__name__} when it is looked at"
         return _fault(saw, "Give an ordinary class that is based on Node.")
+
+
+def _remote_refusal(remote: Remote) -> Fault | None:
+    """The same of nodes in another process, which is asked. Raises RemoteLost for no proper answer."""
+    answer = remote.ask("refusal")
+    if answer is None:
+        return None
+    if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
+        raise RemoteLost("The process with the nodes did not say whether they can be run.")
+    saw, hint = (part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer)
+    return _fault(saw, hint)
+
+
+def _answer(nodes: Sequence[Any]) -> list[str] | None:
+    fault = refusal(nodes)
+    return None if fault is None else [fault.saw, fault.hint]
+
+
+QUESTIONS["refusal"] = _answer
 
 
 def _refuse(node: Any) -> Fault | None:

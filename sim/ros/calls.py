@@ -66,7 +66,7 @@ class Calls:
         """A service took a request; gives the call that goes on with it."""
         recorder, type_ = self._recorder, type_name(service.srv_type)
         raw = canonical(f"{type_}_Request", encode(request))
-        calls = _take(service._sim_inbox, number, raw)
+        calls = self.sent(service, number, raw)
         call = calls[0] if calls and not calls[0].server else None
         if call is None:  # another server has this request too, or it was sent past rclpy's clients
             client, asked = (calls[0].client, calls[0].asked) if calls else ("", None)
@@ -77,6 +77,10 @@ class Calls:
         if recorder.open:
             call.server, call.taken = recorder.name_of(node), recorder.now
         return call
+
+    def sent(self, service: Any, number: int, raw: bytes) -> list[Call]:
+        """The calls of a request that a service's queue gave out; [] for one sent past rclpy's clients."""
+        return _take(service._sim_inbox, number, raw)
 
     @contextlib.contextmanager
     def answering(self, call: Call) -> Iterator[None]:

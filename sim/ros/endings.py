@@ -26,10 +26,15 @@ def conclusion(engine: Engine, over: int | None) -> Ended:
         return Ended("error", now, f"{first.callback} of {first.node} raised {first.type}: {first.text}")
     if over is not None:
         return Ended("finished", now, f"Every program had ended by t = {over / SECOND:g} s.")
-    blocked = _blocked_call(engine) or _blocked_coroutine(engine)
-    if blocked is not None:
-        return Ended("blocked", now, blocked)
+    waiting = blocked(engine) or engine.blocked_elsewhere
+    if waiting:
+        return Ended("blocked", now, waiting)
     return Ended("time", now, f"All {now:g} s were run.")
+
+
+def blocked(engine: Engine) -> str | None:
+    """Which callback waits for something that can't come, in a sentence; None if none does."""
+    return _blocked_call(engine) or _blocked_coroutine(engine)
 
 
 def _blocked_call(engine: Engine) -> str | None:

@@ -14,7 +14,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from sim.recording import Ended, Recording
 from sim.ros.callbacks import MAX_CALLBACKS_PER_INSTANT, Running
 from sim.ros.endings import conclusion
-from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RunOver, Scheduler, activate
+from sim.ros.fibers import SECOND, Fiber, Livelock, Nanoseconds, RemoteLost, RunOver, Scheduler, activate
 from sim.ros.guard import Guard
 from sim.ros.own import ChanceBytes, OwnRclpy
 from sim.ros.processes import Process, StudentProcess
@@ -49,6 +49,8 @@ class Engine(Scheduler):
         self.held = (0.0, 0.0)  # what a user at the keys drives by hand: forward and left, each in [-1, 1]
         self._second = (0, 0)  # when the second under way began, and the work done by then
         self._fault: Ended | None = None
+        self.link: Any = None  # to another process, in which some of the run's nodes live
+        self.blocked_elsewhere = ""  # a sentence on what these wait for in vain
 
     # -- set-up and tear-down ----------------------------------------------------------------------
 
@@ -77,6 +79,8 @@ class Engine(Scheduler):
         finally:
             for process in self.processes:
                 self._free(process)
+            if self.link is not None:
+                self.link.close()
             for executor in self.executors:
                 with contextlib.suppress(InvalidHandle):
                     executor.shutdown()
@@ -126,7 +130,7 @@ class Engine(Scheduler):
         watched, over = list(watched), None
         try:
             self.settle()
-            while self.livelock is None and self._fault is None and self.now < end:
+            while self.fault is None and self.now < end:
                 self.recording.stamp = now = self.recorder.now
                 if self.guard.interrupted:
                     return Ended("interrupted", now, INTERRUPTED)
@@ -135,21 +139,23 @@ class Engine(Scheduler):
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
-                self._check_pace()
+                self.check_pace()
                 moment = self.time.next_moment(end)
                 yield moment
                 self.time.move_to(moment)
-                self.activity += 1
-                self._callbacks_before = self._callbacks
+                self.begin_moment()
                 self.settle()
         except Livelock:
             pass  # its reason is kept
         self.recording.stamp = self.recorder.now
-        if self._fault is None and self.livelock is not None:
-            return Ended("livelock", self.recorder.now, f"{self.livelock}.")
-        return self._fault or conclusion(self, over)
+        return self.fault or conclusion(self, over)
 
-    def _check_pace(self) -> None:
+    def begin_moment(self) -> None:
+        """Time was moved: whoever spins looks again, and callbacks are counted anew."""
+        self.activity += 1
+        self._callbacks_before = self._callbacks
+
+    def check_pace(self) -> None:
         """Raise Livelock when time moves, but in steps so small that the run would never end."""
         began, work = self._second
         if self.now - began >= SECOND:
@@ -191,15 +197,18 @@ class Engine(Scheduler):
         self.rosout_wanted |= topic == "/rosout"
         if subscription.qos_profile.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
             return
-        for publisher in (p for process in self.processes for node in process.nodes for p in node.publishers):
+        for publisher in self._publishers(topic):
             profile = publisher.qos_profile
             latched = profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-            if (
-                latched
-                and profile.reliability is ReliabilityPolicy.RELIABLE
-                and publisher.topic_name == topic
-            ):
+            if latched and profile.reliability is ReliabilityPolicy.RELIABLE:
                 publisher.wait_for_all_acked(REPLAY_WAIT)
+
+    def _publishers(self, topic: str) -> Iterator[Any]:
+        for process in self.processes:
+            for node in process.nodes:
+                yield from (publisher for publisher in node.publishers if publisher.topic_name == topic)
+        if self.link is not None:
+            yield from self.link.puppets.publishers.get(topic, ())
 
     def published(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
         """A message was sent: its subscriptions have something to take."""
@@ -232,9 +241,22 @@ class Engine(Scheduler):
 
     # -- endings -----------------------------------------------------------------------------------
 
+    @property
+    def fault(self) -> Ended | None:
+        """What stops the run as soon as nothing can go on at this moment, or None."""
+        if self._fault is None and self.livelock is not None:
+            return Ended("livelock", self.recorder.now, f"{self.livelock}.")
+        return self._fault
+
+    def stop(self, fault: Ended) -> None:
+        """Let the run end with this; what was first stands."""
+        self._fault = self.fault or fault
+
     def fiber_ended(self, fiber: Fiber) -> None:
         """Judge how a fiber ended, and end its process with its main()."""
         error, process = fiber.error, fiber.process
+        if isinstance(error, RemoteLost):
+            raise error
         if self.guard.hang is not None and self.recorder.open:
             self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
         elif error is not None:

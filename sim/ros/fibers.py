@@ -40,6 +40,19 @@ class RunOver(BaseException):
     """Thrown into fibers that outlive their run. A BaseException, so that `except Exception` lets it pass."""
 
 
+class RemoteLost(BaseException):
+    """Another process, in which nodes of the run live, is gone, silent, or sends what can't be.
+
+    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a mistake of ours.
+
+    reason: one sentence that says so.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
 class Livelock(BaseException):
     """Callbacks keep calling each other and time never moves."""
 
@@ -176,16 +189,20 @@ class Scheduler:
     def settle(self) -> None:
         """Run fibers until every one of them waits for something that has not come."""
         for _ in range(MAX_ROUNDS):
-            progressed = False
-            for fiber in list(self.fibers):
-                if not fiber.done and fiber.runnable():
-                    self._switch(fiber)
-                    progressed = True
-            if not progressed:
+            if not self.round():
                 return
         self.refuse_to_go_on(
             f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time can not move on"
         )
+
+    def round(self) -> bool:
+        """Let each fiber that can go on do so once; whether there was one."""
+        progressed = False
+        for fiber in list(self.fibers):
+            if not fiber.done and fiber.runnable():
+                self._switch(fiber)
+                progressed = True
+        return progressed
 
     def _switch(self, fiber: Fiber) -> None:
         if not fiber.started:

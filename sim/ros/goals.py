@@ -7,7 +7,6 @@ from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
-from rclpy.action import ActionServer
 
 from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal
 from sim.recording import Heard
@@ -38,24 +37,28 @@ class Goals:
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
         self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
-        self._servers: dict[str, list[weakref.ref[ActionServer]]] = defaultdict(list)
+        self._servers: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
 
-    def end_made(self, end: Any, node: Any, name: str, type_: type) -> None:
+    def end_made(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
         """A node made an action server or an action client; `name` is the action's resolved name."""
-        if isinstance(end, ActionServer):
+        if serves:
             self._servers[name].append(weakref.ref(end))
         end._sim_identity = name, type_name(type_), self._recorder.name_of(node)
         end._sim_goals = {}  # of a server: those it goes on with, by id; of a client: those asked, by number
 
-    def _known(self, end: Any, goal_id: Any) -> list[Goal]:
+    def known(self, action: str, goal_id: Any) -> list[Goal]:
         """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
-        return self._by_id.setdefault((end._sim_identity[0], key(goal_id)), [])
+        return self._by_id.setdefault((action, key(goal_id)), [])
+
+    def _known(self, end: Any, goal_id: Any) -> list[Goal]:
+        return self.known(end._sim_identity[0], goal_id)
 
     def _event(self, goal: Goal | None, word: str) -> None:
         if goal is not None and self._recorder.open:
             goal.events.append((self._recorder.now, word))
 
-    def _new(self, end: Any, client: str, goal_id: Any, raw: bytes, asked: float | None) -> Goal:
+    def new(self, end: Any, client: str, goal_id: Any, raw: bytes, asked: float | None) -> Goal:
+        """Begin the record of a goal; `end` is its client, or a server that took what no client here sent."""
         action, type_, node = end._sim_identity
         self._recorder.count(node, len(raw))
         goal = Goal(action, type_, client, key(goal_id).hex(), canonical(f"{type_}_Goal", raw), asked)
@@ -69,10 +72,14 @@ class Goals:
         """A client sent a goal."""
         if self._recorder.open:
             node = client._sim_identity[2]
-            goal = self._new(client, node, goal_id, raw, self._recorder.now)
+            goal = self.new(client, node, goal_id, raw, self._recorder.now)
             client._sim_goals[number] = goal
-            servers = self._servers[goal.action]
-            goal.lost = not any((server := known()) and alive(server._handle) for known in servers)
+            goal.lost = not self.served(goal.action)
+
+    def served(self, action: str) -> bool:
+        """Whether a server takes goals of this action."""
+        servers = self._servers[action]
+        return any((server := known()) and alive(server._handle) for known in servers)
 
     def cancel_asked(self, client: Any, goal_id: Any) -> None:
         """A client asked for a goal to be canceled."""
@@ -104,7 +111,7 @@ class Goals:
         goal = next((goal for goal in known if not goal.server and not goal.lost), None)
         if goal is None:  # another server has it too, or it was sent past rclpy's clients
             client, asked = (known[0].client, known[0].asked) if known else ("", None)
-            goal = self._new(server, client, goal_id, encode(request), asked)
+            goal = self.new(server, client, goal_id, encode(request), asked)
         goal.server = server._sim_identity[2]
         if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
             server._sim_goals[key(goal_id)] = goal

@@ -6,7 +6,7 @@ import contextlib
 import os
 import sysconfig
 import traceback
-from typing import Any
+from typing import Any, NamedTuple
 
 import greenlet
 from rclpy.action import ActionClient, ActionServer
@@ -48,6 +48,18 @@ NO_FAULT = (
 _LIBRARIES = (os.path.dirname(os.path.dirname(__file__)), *sysconfig.get_paths().values(), "<frozen ")
 
 
+class OwnEnd(NamedTuple):
+    """One end of a topic, service or action that a node of this process has, with rclpy's own handles."""
+
+    kind: str
+    node: Any
+    node_name: str
+    name: str
+    type: type
+    qos: Any
+    handle: Any
+
+
 class Recorder:
     """Writes into one recording, until it is closed."""
 
@@ -55,6 +67,7 @@ class Recorder:
         self.scheduler, self.recording = scheduler, recording
         self.open = True
         self.calls, self.goals = Calls(self), Goals(self)
+        self.ends: list[OwnEnd] = []  # all that were made, ROS's own included
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
         self._printed = self._bytes = 0
         self._known: list[BaseException] = []
@@ -79,11 +92,17 @@ class Recorder:
         if self.open:
             self.recording.graph.nodes.append(name)
 
-    def endpoint(self, kind: str, node: Any, name: str, type_: type, qos: Any = None) -> None:
-        """A node declared one end of a topic, service or action."""
-        infrastructure = name in INFRASTRUCTURE_TOPICS or is_node_service(name)
-        if self.open and not infrastructure:
-            end = Endpoint(kind, self.name_of(node), name, type_name(type_), _qos(qos))
+    def endpoint(
+        self, kind: str, node: Any, name: str, type_: type, qos: Any = None, *, handle: Any = None
+    ) -> None:
+        """A node declared one end of a topic, service or action. handle: rclpy's, if it has one."""
+        if not self.open:
+            return
+        of = self.name_of(node)
+        if handle is not None:
+            self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
+        if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
+            end = Endpoint(kind, of, name, type_name(type_), _qos(qos))
             self.recording.graph.endpoints.append(end)
 
     def timer(self, node: Any, timer: Any) -> None:
@@ -163,6 +182,7 @@ class Recorder:
         """The run is over: what student code does while it is taken down is not evidence."""
         self.open = False
         self._known.clear()
+        self.ends.clear()
 
 
 def _text(error: BaseException) -> str:

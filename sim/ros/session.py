@@ -17,7 +17,7 @@ from sim.ros.engine import Engine
 from sim.ros.fibers import SECOND, Nanoseconds, active
 from sim.ros.machines import machines
 from sim.ros.own import OwnChance, OwnProcess
-from sim.ros.processes import Process, as_process
+from sim.ros.processes import Process, StudentProcess, as_process
 from sim.world import Scene, World, simulate
 
 FOREVER: Nanoseconds = 2**63
@@ -139,7 +139,11 @@ class Session:
         for spec in machines(self.scene, self.recording) if self.scene is not None else []:
             self.engine.start(spec)
         watched = [self.engine.start(spec) for spec in self._specs]
-        self._moments = self.engine.moments(round(self.recording.seconds * SECOND), self._until, watched)
+        self._moments = self._course(round(self.recording.seconds * SECOND), watched)
+
+    def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Iterator[Nanoseconds]:
+        """The moments of the run, one after the other."""
+        return self.engine.moments(end, self._until, watched)
 
     def _close(self, ended: Ended) -> None:
         self.over, self.recording.ended = True, ended

@@ -32,8 +32,10 @@ def _action_end(owner: type, kind: str) -> None:
             if run is not None:
                 run.eager = True
                 name = node.resolve_service_name(action_name)
-                run.recorder.endpoint(kind, node, name, action_type)
-                run.recorder.goals.end_made(self, node, name, action_type)
+                serves = kind == "action server"
+                handle = self._handle if serves else self._client_handle
+                run.recorder.endpoint(kind, node, name, action_type, handle=handle)
+                run.recorder.goals.end_made(self, node, name, action_type, serves=serves)
 
         return __init__
 

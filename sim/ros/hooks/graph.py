@@ -26,7 +26,9 @@ def create_publisher(original: Callable) -> Callable:
             name = publisher.topic_name
             publisher._sim_identity = (name, type_name(msg_type), run.recorder.name_of(self))
             publisher._sim_context = shared_context(self.context)
-            run.recorder.endpoint("publisher", self, name, msg_type, publisher.qos_profile)
+            run.recorder.endpoint(
+                "publisher", self, name, msg_type, publisher.qos_profile, handle=publisher.handle
+            )
             run.endpoints_changed()
         return publisher
 
@@ -42,7 +44,9 @@ def create_subscription(original: Callable) -> Callable:
             # Asked for messages when one was sent; nobody counts those that C++ code publishes.
             name = subscription._sim_topic = subscription.topic_name
             subscription._sim_seen = -1
-            run.recorder.endpoint("subscription", self, name, msg_type, subscription.qos_profile)
+            run.recorder.endpoint(
+                "subscription", self, name, msg_type, subscription.qos_profile, handle=subscription.handle
+            )
             run.subscribed(name, subscription)
         return subscription
 

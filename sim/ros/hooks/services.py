@@ -22,7 +22,9 @@ def create_service(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             name = self.resolve_service_name(srv_name)
-            run.recorder.endpoint("service", self, name, srv_type, service.qos_profile)
+            run.recorder.endpoint(
+                "service", self, name, srv_type, service.qos_profile, handle=service.handle
+            )
         return service
 
     return create_service
@@ -48,7 +50,9 @@ def create_client(original: Callable) -> Callable:
             run.has_clients = run.eager = True
             run.endpoints_changed()
             name = client._sim_name = self.resolve_service_name(srv_name)
-            run.recorder.endpoint("client", self, name, srv_type, client.qos_profile)
+            run.recorder.endpoint(
+                "client", self, name, srv_type, client.qos_profile, handle=client.handle
+            )
             run.recorder.calls.client_made(client, self, name)
         return client
 

@@ -1,0 +1,142 @@
+"""The side that leads: it stands in a run for all the nodes that live in another process."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+from typing import Any, NoReturn
+
+from sim.recording import CallbackError, Ended
+from sim.ros.fibers import SECOND, Nanoseconds, RemoteLost, engine, outside_student_code
+from sim.ros.remote.checked import Nonsense, text, whole
+from sim.ros.remote.ledger import Ledger
+from sim.ros.remote.wire import Wire, WireClosed, WireError, WireTimeout
+
+FAULTS = ("hang", "livelock")
+MOST_DETAIL = 2_000  # characters
+
+
+class Remote:
+    """What `sim.run` takes in place of nodes that another process serves: see `serve`.
+
+    It may be run again and again; `end` lets the other process go.
+
+    patience: wall seconds that it may take for one answer.
+    secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
+    errors: the exceptions that it told of in the last run.
+    """
+
+    def __init__(self, wire: Wire, patience: float = 30.0) -> None:
+        self.wire, self.patience = wire, patience
+        self.secret = b""
+        self.errors: list[CallbackError] = []
+
+    def ask(self, question: str) -> Any:
+        """Ask about the nodes themselves; the answer is plain data, and unchecked. Raises RemoteLost."""
+        return self._exchange(do="ask", question=question).get("answer")
+
+    def end(self, **message: Any) -> None:
+        """Say that all is over; `serve` returns this message. Raises RemoteLost."""
+        try:
+            self.wire.send(**message, do="end")
+        except WireError as error:
+            self._lose(error)
+
+    def __call__(self) -> None:
+        """The program that stands for the others in a run."""
+        run = engine()
+        with outside_student_code():
+            turn = _Turn(self, run)
+            self.errors = turn.ledger.errors
+            turn.take()
+        try:
+            while turn.alive:
+                run.wait("the other process", ready=turn.is_due, until=turn.next)
+                with outside_student_code():
+                    turn.take()
+        except RemoteLost:
+            raise
+        except BaseException:  # the run is over
+            with outside_student_code():
+                turn.over()
+            raise
+        with outside_student_code():
+            turn.over()
+
+    def chance(self, seed: int) -> int:
+        """The seed of the other process's own generators in a run with this seed; it doesn't tell that."""
+        digest = hmac.new(self.secret, f"chance of the nodes {seed}".encode(), hashlib.sha256).digest()
+        return int.from_bytes(digest[:4], "big")
+
+    def _exchange(self, **message: Any) -> dict[str, Any]:
+        """Send, and receive the answer. Raises RemoteLost."""
+        try:
+            self.wire.send(**message)
+            answer = self.wire.receive(self.patience)
+        except WireError as error:
+            self._lose(error)
+        if "failed" in answer:
+            raise RemoteLost(f"The nodes could not be run: {str(answer['failed'])[:MOST_DETAIL]}.")
+        return answer
+
+    def _lose(self, error: Exception) -> NoReturn:
+        if isinstance(error, WireClosed):
+            reason = "The process with the nodes has ended."
+        elif isinstance(error, WireTimeout):
+            reason = f"The process with the nodes gave no answer for {self.patience:g} s."
+        else:
+            reason = f"The process with the nodes sent what is no answer: {error}."
+        raise RemoteLost(reason) from None
+
+
+class _Turn:
+    """Taking turns with the other process, in one run."""
+
+    def __init__(self, remote: Remote, run: Any) -> None:
+        self._remote, self._run = remote, run
+        self.ledger = Ledger(run)
+        self._end = round(run.recording.seconds * SECOND)
+        self.next: Nanoseconds | None = None
+        self.alive, self._busy = True, False
+        seed = remote.chance(run.recording.seed)
+        try:
+            remote.wire.send(do="run", seconds=run.recording.seconds, seed=seed)
+        except WireError as error:
+            remote._lose(error)
+
+    def is_due(self) -> bool:
+        """Whether the other process has to know something now, or is not done with this moment."""
+        self.ledger.gather(thorough=False)
+        return self._busy or bool(self.ledger.news)
+
+    def take(self) -> None:
+        """Tell the news, let the other process go on until it waits, and enter what comes from it."""
+        run, ledger = self._run, self.ledger
+        ledger.gather()
+        answer = self._remote._exchange(do="go", now=run.now, news=ledger.take_news())
+        try:
+            ledger.enter(answer.get("news"))
+            ledger.skip("heard", "ends")
+            claims = answer.get("claims")
+            ledger.believe(claims if isinstance(claims, dict) else {})
+            self._go_on(answer)
+        except Nonsense as nonsense:
+            raise RemoteLost(f"The process with the nodes sent {nonsense}.") from None
+
+    def _go_on(self, answer: dict[str, Any]) -> None:
+        run = self._run
+        self._busy, self.alive = answer.get("busy") is True, answer.get("alive") is True
+        later = whole(answer.get("next"), "a next moment", min(run.now + 1, self._end), self._end)
+        self.next = later if later > run.now else None
+        run.blocked_elsewhere = text(answer.get("blocked"), "a reason", MOST_DETAIL)
+        fault = answer.get("fault")
+        if fault is None:
+            return
+        if not isinstance(fault, list) or len(fault) != 2 or fault[0] not in FAULTS:
+            raise Nonsense("a fault of no known kind")
+        run.stop(Ended(fault[0], run.recorder.now, text(fault[1], "a reason", MOST_DETAIL)))
+
+    def over(self) -> None:
+        """Let the other process end its programs."""
+        answer = self._remote._exchange(do="over")
+        self._run.recorder.complained(str(answer.get("stderr", "")))

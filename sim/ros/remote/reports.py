@@ -1,0 +1,178 @@
+"""The side of the nodes: what they say of themselves, for the other side's recording.
+
+The recording of this side is only a notebook: what is new in it is told, and stamped by the other side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from sim.exchanges import Call, Goal
+from sim.recording import Heard
+from sim.ros.codec import encode
+from sim.ros.remote.checked import packed
+from sim.ros.remote.link import Event, Link
+from sim.ros.remote.puppets import PuppetClient, PuppetService
+
+if TYPE_CHECKING:
+    from sim.ros.engine import Engine
+
+# Whose client and server a call has: the other side writes down itself what its own nodes do.
+INNER, ASKED_HERE, ASKED_THERE = "inner", "asked here", "asked there"
+RESULT_SERVICE = "/_action/get_result"
+MOST_PIECES = 1_000  # printed at a moment
+
+
+@dataclass
+class _OpenCall:
+    key: int
+    call: Call
+    whose: str
+    told: set[str]
+
+    def news(self) -> Iterator[Event]:
+        """What happened to the call since the last time."""
+        call, key = self.call, self.key
+        if self.whose != ASKED_HERE:
+            if call.server and self._first("taken"):
+                yield ["taken", key, call.server]
+            if call.raised and self._first("raised"):
+                yield ["raised", key, call.raised]
+        if self.whose is INNER and call.raw_response is not None and self._first("response"):
+            yield ["response", key, packed(call.raw_response)]
+        if self.whose != ASKED_THERE and call.received is not None and self._first("received"):
+            yield ["received", key]
+
+    def _first(self, word: str) -> bool:
+        new = word not in self.told
+        self.told.add(word)
+        return new
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more can happen to it."""
+        if self.whose is ASKED_THERE:
+            return self.call.answered is not None or bool(self.call.raised)
+        return self.call.lost or "received" in self.told
+
+
+@dataclass
+class _OpenGoal:
+    key: int
+    goal: Goal
+    told: set[str]
+    events: int = 0
+    feedback: int = 0
+
+    def news(self) -> Iterator[Event]:
+        """What happened to the goal since the last time."""
+        goal, key = self.goal, self.key
+        if goal.server and self._first("server"):
+            yield ["goal taken", key, goal.server]
+        for _, word in goal.events[self.events :]:
+            yield ["goal event", key, word]
+        self.events = len(goal.events)
+        if goal.server:
+            for heard in goal.feedback[self.feedback :]:
+                yield ["goal feedback", key, packed(heard.raw)]
+            self.feedback = len(goal.feedback)
+            if goal.raw_result is not None and self._first("result"):
+                yield ["goal result", key, packed(goal.raw_result)]
+        if goal.answered is not None and self._first("answered"):
+            yield ["goal answered", key]
+        if goal.received is not None and self._first("received"):
+            yield ["goal received", key]
+
+    def _first(self, word: str) -> bool:
+        new = word not in self.told
+        self.told.add(word)
+        return new
+
+
+class Reports(Link):
+    """The side in which the student's programs run."""
+
+    def __init__(self, engine: Engine) -> None:
+        super().__init__(engine, keys=1)
+        self._calls: list[_OpenCall] = []
+        self._goals: list[_OpenGoal] = []
+        self._asks: dict[int, Event] = {}  # requests to the other side, by the id of their call
+
+    def crosses(self, heard: Heard) -> bool:
+        """All do: the other side writes down what is said."""
+        return True
+
+    # -- calls and goals ---------------------------------------------------------------------------
+
+    def gather_exchanges(self) -> None:
+        """Add what happened to calls and goals: first that, for it explains the responses."""
+        self.gather_requests()
+        self._gather_calls()
+        self._gather_goals()
+        self.gather_responses()
+
+    def tell_request(self, event: Event, call: Call | None) -> None:
+        """Add a request to the news; one of a service only when its turn comes among the calls."""
+        if call is None:
+            self.news.append(event)
+        else:
+            self._asks[id(call)] = event
+
+    def _gather_calls(self) -> None:
+        for call in self.new("calls"):
+            event, whose = self._asks.pop(id(call), None), ASKED_HERE
+            if event is None:
+                about = call.service, call.type, call.client, call.asked is not None
+                event, whose = ["call", next(self.keys), *about, packed(call.raw_request), call.lost], INNER
+            self.news.append(event)
+            self._calls.append(_OpenCall(event[1], call, whose, set()))
+        for kept in self._calls:
+            self.news += kept.news()
+        self._calls = [kept for kept in self._calls if not kept.over]
+
+    def has_asked(self, key: int, client: PuppetClient, number: int) -> None:
+        """A call of the other side is under way to a service of this one."""
+        _, calls = client._sim_requests[number]
+        self._calls += [_OpenCall(key, call, ASKED_THERE, set()) for call in calls]
+        self.skip("calls")
+
+    def _gather_goals(self) -> None:
+        for goal in self.new("goals"):
+            key = next(self.keys)
+            about = goal.action, goal.type, goal.client, goal.id
+            self.news.append(["goal", key, *about, packed(goal.raw_request), goal.lost])
+            self._goals.append(_OpenGoal(key, goal, set()))
+        for kept in self._goals:
+            self.news += kept.news()
+
+    def answered(self, key: int, service: PuppetService, response: Any, raw: bytes) -> Any:
+        """Write a response down: the client that gets it here looks there."""
+        for kept in self._calls:
+            if kept.key == key:
+                self.engine.recorder.calls.answered(kept.call, raw)
+        request = super().answered(key, service, response, raw)
+        if service.name.endswith(RESULT_SERVICE):
+            action = service.name.removesuffix(RESULT_SERVICE)
+            for goal in self.engine.recorder.goals.known(action, request.goal_id):
+                goal.raw_result = goal.raw_result or encode(response.result)
+        return request
+
+    # -- what else is told -------------------------------------------------------------------------
+
+    def claims(self) -> dict[str, list[Any]]:
+        """What the nodes say of themselves, since the last time."""
+        return {
+            "nodes": self.new("nodes"),
+            "timers": [list(timer) for timer in self.new("timers")],
+            "logs": [list(line[1:]) for line in self.new("logs")],
+            "prints": self._prints(),
+            "errors": [list(error[1:]) for error in self.new("errors")],
+            "callbacks": [list(run) for run in self.new("callbacks")],
+        }
+
+    def _prints(self) -> list[str]:
+        """Each piece that was printed; as one where a loop prints without end."""
+        pieces = [piece for _, piece in self.new("prints")]
+        return pieces if len(pieces) <= MOST_PIECES else ["".join(pieces)]

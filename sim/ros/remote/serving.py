@@ -1,0 +1,94 @@
+"""The process in which the student's nodes live. It follows: the other side leads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import Any
+
+from sim.recording import Ended
+from sim.ros.endings import blocked
+from sim.ros.fibers import Livelock, Nanoseconds
+from sim.ros.processes import StudentProcess
+from sim.ros.remote.reports import Reports
+from sim.ros.remote.wire import Wire, WireBroken, WireError
+from sim.ros.session import Session
+
+MOST_WRITTEN = 100_000  # characters on stderr that are told
+
+QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
+"""What the other side may ask about the nodes before they run: a function of them that gives plain data."""
+
+
+def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
+    """Let the other end of the wire run these nodes, as often as it likes; returns its last message.
+
+    nodes: what `sim.run` takes. Raises WireError when the wire breaks.
+    """
+    while True:
+        message = wire.receive()
+        wanted = message.get("do")
+        if wanted == "end":
+            return message
+        if wanted == "ask":
+            wire.send(answer=QUESTIONS[message["question"]](nodes))
+        elif wanted == "run":
+            _run(wire, nodes, message)
+        else:
+            raise WireBroken(f"nobody knows how to do {wanted!r}")
+
+
+def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
+    try:
+        session = Follower(wire, tuple(nodes), order["seconds"], order["seed"])
+        session.advance()
+        wire.send(stderr=session.recording.stderr[:MOST_WRITTEN])
+    except WireError:
+        raise
+    except Exception as error:
+        wire.send(failed=f"{type(error).__name__}: {error}")
+
+
+class Follower(Session):
+    """A run whose time is that of the other side."""
+
+    def __init__(self, wire: Wire, nodes: tuple[Any, ...], seconds: float, seed: int) -> None:
+        super().__init__(nodes, None, seconds, seed, None, True, "grade")
+        self._wire = wire
+
+    def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Generator[Nanoseconds, None, Ended]:
+        link = Reports(self.engine)
+        while (order := self._wire.receive()).get("do") == "go":
+            self._move_to(order["now"])
+            link.enter(order["news"])
+            self._round()
+            link.gather()
+            self._wire.send(**self._answer(link, end))
+            yield order["now"]
+        return Ended("time", self.engine.recorder.now, "The other side has ended the run.")
+
+    def _move_to(self, now: Nanoseconds) -> None:
+        engine = self.engine
+        if now > engine.now:
+            engine.time.move_to(now)
+            engine.begin_moment()
+
+    def _round(self) -> None:
+        try:
+            self.engine.check_pace()
+            self.engine.round()
+        except Livelock:
+            pass  # its reason is kept
+
+    def _answer(self, link: Reports, end: Nanoseconds) -> dict[str, Any]:
+        engine = self.engine
+        left = [fiber for fiber in engine.fibers if not fiber.done]
+        fault = engine.fault
+        return {
+            "news": link.take_news(),
+            "claims": link.claims(),
+            "next": engine.time.next_moment(end),
+            "busy": fault is None and any(fiber.runnable() for fiber in left),
+            "alive": bool(left),
+            "fault": None if fault is None else [fault.reason, fault.detail],
+            "blocked": (blocked(engine) or "") if engine.now >= end else "",
+        }
