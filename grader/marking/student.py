@@ -9,6 +9,7 @@ import asyncio
 import base64
 import contextlib
 import socket
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from sim.ros.remote import Wire, WireError, serve
 
 def main(sock: socket.socket) -> None:
     """Do what the judge says over the socket, until it hangs up."""
+    sys.path.insert(0, "")  # as in a notebook, where a cell may import a module that another one wrote
     wire = Wire(sock)
     with contextlib.suppress(WireError):
         Student(wire, sock).live()

@@ -43,6 +43,11 @@ def test_a_class_of_a_cell_belongs_to_main(seat):
     assert value(seat.run("class A: pass\nA.__module__")) == "'__main__'"
 
 
+def test_a_module_that_a_cell_writes_can_be_imported(seat):
+    seat.run("%%writefile my_weather.py\nWORD = 'mild'")
+    assert value(seat.run("import my_weather\nmy_weather.WORD")) == "'mild'"
+
+
 def test_stderr_and_what_c_code_writes_show_too(seat):
     seat.run("import os, sys")
     source = "print('python', file=sys.stderr)\n_ = os.write(1, b'c one') + os.write(2, b'c two')"
