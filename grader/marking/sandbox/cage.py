@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from grader.marking.sandbox.cell import HOME
+from grader.marking.sandbox.cell import HOME, STAGE
 from grader.marking.sandbox.errors import SandboxMissing
 
 UNSAFE = "or mark with `--unsafe`, which lets students' code read and change all your files"
@@ -21,6 +21,8 @@ KNOBS = (
     ("kernel/unprivileged_userns_clone", "0", "kernel.unprivileged_userns_clone=1"),
     ("user/max_user_namespaces", "0", "user.max_user_namespaces=10000"),
 )
+# Ubuntu's; it lets bubblewrap make a sandbox and inmates none.
+PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
 
 
 def visible(extra: Sequence[Path]) -> list[str]:
@@ -78,7 +80,7 @@ def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) ->
     for name, value in environment(HOME, "/tmp", imports).items():
         words += ["--setenv", name, value]
     # What is private comes first: the course may lie in /tmp.
-    words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME]
+    words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME, "--dir", STAGE]
     for path in SYSTEM:
         if os.path.islink(path):
             words += ["--symlink", os.readlink(path), path]
@@ -91,13 +93,16 @@ def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) ->
     return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
 
-def forbidden(words: str, settings: Path = Path("/proc/sys")) -> SandboxMissing:
+def forbidden(words: str, root: Path = Path("/")) -> SandboxMissing:
     """Return the error for a system that lets bubblewrap make no sandbox; `words` are its own."""
-    for name, value, undo in KNOBS:
-        file = settings / name
-        if file.exists() and file.read_text().strip() == value:
-            way = f"Allow user namespaces with `sudo sysctl {undo}`"
-            break
-    else:
-        way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
+    undo = [
+        f"`sudo sysctl {undo}`"
+        for name, value, undo in KNOBS
+        if (file := root / "proc/sys" / name).exists() and file.read_text().strip() == value
+    ]
+    if (root / PROFILE).exists():
+        undo.append(f"`sudo apparmor_parser -R /{PROFILE}`")
+    way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
+    if undo:
+        way = f"Allow user namespaces with {' and '.join(undo)}"
     return SandboxMissing(f"This system lets bubblewrap make no sandbox ({words}). {way}, {UNSAFE}.")

@@ -1,6 +1,7 @@
 """The walls around one inmate, built by the inmate's own process before it runs anything of a student's."""
 
 import contextlib
+import fcntl
 import os
 import shutil
 import signal
@@ -15,7 +16,7 @@ from grader.marking.sandbox import limits, linux, seccomp
 from grader.marking.sandbox.limits import MB, Limits
 
 HOME = "/student"  # of an inmate in the cage, and where it starts
-WIRE, ANSWER = 3, 4  # descriptors of an inmate
+STAGE = "/scratch"  # where its file system is put together
 
 
 @dataclass(frozen=True)
@@ -60,14 +61,13 @@ def separate() -> None:
 
 def keep_only(wire: socket.socket, answer: int, stderr: IO[bytes]) -> tuple[socket.socket, int]:
     """Close every descriptor but these, let stdin and stdout lead nowhere; return the wire and the answer."""
-    kept = [os.open(os.devnull, os.O_RDWR), stderr.fileno(), wire.fileno(), answer]
-    high = [os.dup(os.dup2(descriptor, 100 + i)) for i, descriptor in enumerate(kept)]
-    nothing, errors, wire_, answer_ = high
-    for source, target in ((nothing, 0), (nothing, 1), (errors, 2), (wire_, WIRE), (answer_, ANSWER)):
-        os.dup2(source, target, inheritable=target < WIRE)
-    wire.detach()
-    os.closerange(ANSWER + 1, os.sysconf("SC_OPEN_MAX"))
-    return socket.socket(fileno=WIRE), ANSWER
+    nothing = os.open(os.devnull, os.O_RDWR)
+    kept = (nothing, nothing, stderr.fileno(), wire.detach(), answer)
+    above = [fcntl.fcntl(descriptor, fcntl.F_DUPFD, 100) for descriptor in kept]
+    for target, descriptor in enumerate(above):
+        os.dup2(descriptor, target)
+    os.closerange(len(kept), os.sysconf("SC_OPEN_MAX"))
+    return socket.socket(fileno=3), 4
 
 
 def confine(plan: Plan, home: str) -> None:
@@ -94,8 +94,8 @@ def _furnish(plan: Plan) -> None:
     linux.unshare(linux.NEW_MOUNT)
     linux.mount("", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
     options = f"mode=755,size={plan.limits.scratch_mb * MB},nr_inodes={plan.limits.scratch_files}"
-    linux.mount("scratch", HOME, "tmpfs", linux.MS_NOSUID | linux.MS_NODEV, options)
-    scratch = Path(HOME)
+    linux.mount("scratch", STAGE, "tmpfs", linux.MS_NOSUID | linux.MS_NODEV, options)
+    scratch = Path(STAGE)
     places = {"tmp": "/tmp", "shm": "/dev/shm", "terminals": "/dev/pts", "processes": "/proc", "home": HOME}
     for name in places:
         (scratch / name).mkdir()
@@ -108,6 +108,7 @@ def _furnish(plan: Plan) -> None:
                 _bind(place, scratch / name / Path(place).relative_to(private))
     for name, place in places.items():
         _bind(scratch / name, place)
+    linux.unmount(STAGE)
 
 
 def _bind(source: str | Path, target: str | Path) -> None:

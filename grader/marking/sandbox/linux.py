@@ -9,9 +9,10 @@ NEW_IPC = 0x08000000
 NEW_NET = 0x40000000
 NEW_MOUNT = 0x00020000
 
-MS_RDONLY, MS_NOSUID, MS_NODEV, MS_REMOUNT = 1, 2, 4, 32
+MS_NOSUID, MS_NODEV = 2, 4
 MS_BIND, MS_REC, MS_PRIVATE = 4096, 16384, 1 << 18
 
+_MNT_DETACH = 2
 _PR_SET_PDEATHSIG = 1
 _PR_SET_DUMPABLE = 4
 _PR_SET_SECCOMP = 22
@@ -42,6 +43,11 @@ def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str
     """Mount `source` on `target`, as mount(2) says."""
     words = [word.encode() if word else None for word in (source, target, kind)]
     _call("mount", *words, ctypes.c_ulong(flags), options.encode() if options else None)
+
+
+def unmount(target: str) -> None:
+    """Take `target` out of sight; what was bound from it to other places stays there."""
+    _call("umount2", target.encode(), _MNT_DETACH)
 
 
 def die_with_parent(signal: int) -> None:

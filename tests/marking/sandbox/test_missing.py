@@ -44,29 +44,34 @@ def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespace
 
 
 @pytest.mark.parametrize(
-    ("setting", "value", "way"),
+    ("files", "way"),
     [
         (
-            "kernel/apparmor_restrict_unprivileged_userns",
-            "1",
+            {"proc/sys/kernel/apparmor_restrict_unprivileged_userns": "1"},
             "Allow user namespaces with `sudo sysctl kernel.apparmor_restrict_unprivileged_userns=0`",
         ),
         (
-            "kernel/unprivileged_userns_clone",
-            "0",
+            {
+                "proc/sys/kernel/apparmor_restrict_unprivileged_userns": "1",
+                "etc/apparmor.d/bwrap-userns-restrict": "profile bwrap /usr/bin/bwrap {}",
+            },
+            "Allow user namespaces with `sudo sysctl kernel.apparmor_restrict_unprivileged_userns=0` and "
+            "`sudo apparmor_parser -R /etc/apparmor.d/bwrap-userns-restrict`",
+        ),
+        (
+            {"proc/sys/kernel/unprivileged_userns_clone": "0"},
             "Allow user namespaces with `sudo sysctl kernel.unprivileged_userns_clone=1`",
         ),
         (
-            "user/max_user_namespaces",
-            "10000",
+            {"proc/sys/user/max_user_namespaces": "10000"},
             "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`",
         ),
     ],
 )
-def test_the_way_out_depends_on_the_system(tmp_path, setting, value, way):
-    file = tmp_path / setting
-    file.parent.mkdir()
-    file.write_text(value + "\n")
+def test_the_way_out_depends_on_the_system(tmp_path, files, way):
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text + "\n")
     assert str(cage.forbidden("bwrap: No permission", tmp_path)) == (
         f"This system lets bubblewrap make no sandbox (bwrap: No permission). {way}{UNSAFE}"
     )
