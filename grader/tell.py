@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import textwrap
+
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import NOT_STARTED
 from sim.recording import Recording
 
+WIDTH = 100  # characters: a notebook breaks longer lines within words
 BEGIN = (
     "Not started yet: write your code where it says YOUR CODE HERE, delete the line that raises "
     "NotImplementedError, and run both cells again."
@@ -16,8 +19,13 @@ def tell(recording: Recording) -> None:
     """Print whether the run went well, or the first error with what to do about it. Gives no points."""
     fault = find_fault(recording)
     if fault is None:
-        print(f"No error. {recording.ended.detail}")
+        _say(f"No error. {recording.ended.detail}")
     elif fault.sentence == NOT_STARTED:
-        print(BEGIN)
+        _say(BEGIN)
     else:
-        print(f"{fault.saw}\nHint: {fault.hint}")
+        _say(fault.saw)
+        _say(f"Hint: {fault.hint}")
+
+
+def _say(text: str) -> None:
+    print(textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False))

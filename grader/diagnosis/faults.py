@@ -10,7 +10,7 @@ from grader.diagnosis.situations import advice_here
 from sim.recording import CallbackError, Ended, Recording
 
 # Classes of rclpy that call a student's method inside a callback of their own.
-_RCLPYS_OWN = ("ActionClient.", "ParameterService.")
+_RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
 _HINTS = {
     "error": "Read the last line of the error first: it says what Python did not like.",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
@@ -24,6 +24,10 @@ _HINTS = {
     "the same node (spin_until_future_complete, client.call): use call_async and add_done_callback, "
     "or await.",
 }
+
+_FLOOD = (
+    "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
+)
 
 
 def find_fault(recording: Recording) -> Fault | None:
@@ -56,7 +60,7 @@ def _from_end(ended: Ended) -> Fault:
     return Fault(
         expected="a run to the end",
         saw=ended.detail,
-        hint=_HINTS[ended.reason],
+        hint=_FLOOD if " messages at " in ended.detail else _HINTS[ended.reason],
         before_start=ended.stamp <= 0.0,
     )
 

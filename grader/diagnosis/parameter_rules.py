@@ -24,6 +24,15 @@ PARAMETER_RULES = (
         "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
     ),
     Rule(
+        "TypeError", r"SetParametersResult\.__init__\(\) takes 1 positional argument",
+        "The fields of a result are set by name: SetParametersResult(successful=True), or "
+        "SetParametersResult(successful=False, reason='...').",
+    ),
+    Rule(
+        "TypeError", r"takes the class, not an object of it: write \w+\((\w+)\)",
+        "The class itself is handed over, without brackets after its name: {0}, not {0}().",
+    ),
+    Rule(
         "TypeError", r"Callback must be callable",
         "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     ),

@@ -62,12 +62,25 @@ SERVICE_RULES = (
         "What stands before the brackets is a value of type {0}, not a method: leave the brackets out.",
     ),
     Rule(
+        "TypeError", r"not supported between instances of '(?:\w+\.)?(deque|list|tuple)' and '(?:int|float)'",
+        "A {0} is no number: len(...) says how many things it holds.",
+    ),
+    Rule(
         "TypeError", r"create_service\(\) missing",
         "create_service() is missing an argument: write create_service(Type, 'name', self.callback).",
     ),
     Rule(
         "TypeError", r"ActionServer\.__init__\(\) missing",
         "ActionServer() is missing an argument: write ActionServer(self, Type, 'name', self.execute).",
+    ),
+    Rule(
+        "AttributeError", r"'ServerGoalHandle' object has no attribute '((?:succ|cancel|abort|feedb)\w*)'",
+        "A goal handle has no `{0}`. It has succeed(), abort() and canceled(), publish_feedback(message), "
+        "and is_cancel_requested.",
+    ),
+    Rule(
+        "AttributeError", r"'(\w+)_Goal' object has no attribute 'request'",
+        "The goal callback gets the goal itself, and no goal handle: leave out `.request`.",
     ),
     Rule(
         "AttributeError", r"'ServerGoalHandle' object has no attribute '(\w+)'",

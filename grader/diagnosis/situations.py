@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 from sim.recording import CallbackError, Recording
@@ -11,7 +12,12 @@ _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 
 def advice_here(error: CallbackError, recording: Recording) -> str:
     """What to do about an error in its situation; "" where its words say enough."""
-    return _refusal(error, recording) or _too_early(error, recording) or _no_future(error, recording)
+    return (
+        _refusal(error, recording)
+        or _too_early(error, recording)
+        or _no_future(error, recording)
+        or _no_value(error)
+    )
 
 
 def _refusal(error: CallbackError, recording: Recording) -> str:
@@ -40,6 +46,7 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
         return ""
     sent = [(c.client, c.asked, c.received, "call_async") for c in recording.calls]
     sent += [(goal.client, goal.asked, goal.answered, "send_goal_async") for goal in recording.goals]
+    sent += [(goal.client, goal.answered, goal.received, "get_result_async") for goal in recording.goals]
     runs = [run for run in recording.callbacks if (run.node, run.callback) == (error.node, error.callback)]
     begin = max((run.stamp for run in runs if run.stamp <= error.stamp), default=0.0)
     for client, asked, heard, what in sent:
@@ -61,3 +68,13 @@ def _no_future(error: CallbackError, recording: Recording) -> str:
         return ""
     name = found[1]
     return f"A done callback is called with the future: write `def {name}(self, future):`."
+
+
+def _no_value(error: CallbackError) -> str:
+    """A parameter used in place of the value it holds."""
+    lines = [line.strip() for line in error.traceback.splitlines()]
+    own = [after for line, after in itertools.pairwise(lines) if line.startswith("File ")]
+    taken = own and re.search(r"get_parameter\([^)]*\)(?!\.)", own[-1])
+    if not taken or error.type not in ("AssertionError", "KeyError"):
+        return ""
+    return "get_parameter() gives a parameter, which holds a value: write self.get_parameter('name').value."

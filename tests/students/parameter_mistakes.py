@@ -51,6 +51,15 @@ class ChecksOneParameter(Wheel):
         return SetParametersResult(successful=parameters.value > 0)
 
 
+class SaysYesByPosition(Wheel):
+    def check(self, parameters):
+        return SetParametersResult(True)
+
+
+def launches_an_object():
+    return Process(Wheel(), parameters={"radius": 0.2})
+
+
 class TakesTheFutureForTheAnswer(Wheel):
     def change(self):
         return self.create_client(AddTwoInts, "/add").call_async(AddTwoInts.Request()).sum

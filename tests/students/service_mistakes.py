@@ -3,7 +3,7 @@
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts, SetBool
 from nav2_msgs.action import Wait
-from rclpy.action import ActionClient, ActionServer
+from rclpy.action import ActionClient, ActionServer, GoalResponse
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -96,6 +96,12 @@ class TypeAfterName(Asker):
         self.create_service("other", AddTwoInts, self.answer)
 
 
+class ComparesAListWithANumber(Asker):
+    def tick(self):
+        if [1, 2] < 3:
+            super().tick()
+
+
 class HandsOverWhatTheCallbackReturns(Asker):
     def tick(self):
         self.create_service(AddTwoInts, "other", self.answer())
@@ -147,6 +153,21 @@ class CallsAValue(Runner):
         if goal_handle.is_cancel_requested():
             goal_handle.canceled()
         return super().execute(goal_handle)
+
+
+class SaysSuccess(Runner):
+    def execute(self, goal_handle):
+        goal_handle.success()
+        return Fibonacci.Result()
+
+
+class JudgesAGoalHandle(Runner):
+    def __init__(self):
+        super().__init__()
+        self.server.register_goal_callback(self.judge)
+
+    def judge(self, goal):
+        return GoalResponse.ACCEPT if goal.request.order < 9 else GoalResponse.REJECT
 
 
 class SucceedsTwice(Runner):

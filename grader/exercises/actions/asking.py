@@ -141,7 +141,8 @@ def gives_up(recording: Recording) -> None:
         with hinting(hint):
             raise Missed(expected, "none", hint)
     if abs(wishes[0] - due) > 0.6:
-        raise Missed(expected, f"one at {wishes[0]:.3g} s", "The 8 s begin in hear_response.")
+        hint = "The 8 s begin in hear_response: self.create_timer(8.0, self.give_up), without more brackets."
+        raise Missed(expected, f"one at {wishes[0]:.3g} s", hint)
 
 
 @check(points=3, after=asks_to_drive)

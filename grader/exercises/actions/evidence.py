@@ -48,9 +48,8 @@ def picked(
     """The goals of an action that fit. Raises Missed where none was sent."""
     goals = recording.goals_of(action)
     if not goals:
-        with advising(
-            recording, "The node has to go on: main() ends with rclpy.spin(node) or executor.spin()."
-        ):
+        hint = "The node has to go on: main() ends with rclpy.spin(node), or executor.spin() with brackets."
+        with advising(recording, hint):
             raise Missed(f"a server of {action} that takes goals", "it was gone before a goal could be sent")
     found = [goal for goal in goals if where(goal)]
     if not found:

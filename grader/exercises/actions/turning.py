@@ -170,7 +170,10 @@ def _turning_hint(recording: Recording, goal: Goal, turned: float) -> str:
         )
     if over > 0.25:
         return "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly."
-    return "self.turned adds up the small steps between messages of /odom, from 0 with each goal."
+    return (
+        "self.turned adds up the small steps between messages of /odom, from 0 with each goal. After each "
+        "step hear_odometry keeps the yaw: self.yaw = yaw."
+    )
 
 
 turn = Exercise(

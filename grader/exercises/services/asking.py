@@ -28,8 +28,8 @@ def asks_the_door(recording: Recording) -> None:
     lost = [call for call in made if call.lost]
     if lost or not heard:
         hint = (
-            "A question to a service that isn't there yet is lost. Let a timer look once a second: "
-            "if self.client.service_is_ready(), then ask with self.client.call_async(Trigger.Request())."
+            "A question to a service that isn't there yet is lost. Let a timer look once a second, and ask "
+            "only when self.client.service_is_ready(), with brackets, is True."
         )
         saw = f"{len(lost)} asked too early, at {lost[0].asked:.3g} s" if lost else "no question"
         raise Missed("questions to the door, once it is there", saw, hint, credit=0.5 if heard else 0.0)

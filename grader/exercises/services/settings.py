@@ -42,8 +42,8 @@ def follows_the_setting(recording: Recording) -> None:
         if not accepted(call):
             expected = f"successful=True for {call.question}"
             hint = (
-                f"A speed from {LOW} to {HIGH}, both ends included, is fine: "
-                "return SetParametersResult(successful=True)."
+                f"A speed from {LOW} to {HIGH}, both ends included, is fine. Look at the new one, in "
+                "parameter.value, and return SetParametersResult(successful=True)."
             )
             not_so(recording, expected, call, hint)
         later = [other.asked for other in made if other.asked > call.asked]

@@ -9,6 +9,12 @@ from sim.recording import CallbackError, Ended, Recording
 from tests.students import misfits, mistakes
 
 
+class Flooding(misfits.Talker):
+    def tick(self):
+        while True:
+            super().tick()
+
+
 def fault_of(student):
     return find_fault(run(student, seconds=10, quiet=True))
 
@@ -39,6 +45,14 @@ def test_an_echo_of_itself_is_a_livelock():
         "timer with period 0. Let a timer with a period set the pace."
     )
     assert not fault.before_start
+
+
+def test_a_flood_of_messages_is_told_from_an_echo():
+    fault = fault_of(Flooding)
+    assert fault.saw == "/talker sent 20000 messages at t = 1 s without letting time move on."
+    assert fault.hint == (
+        "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
+    )
 
 
 def test_a_call_to_oneself_is_blocked():

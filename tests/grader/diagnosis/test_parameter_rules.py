@@ -16,6 +16,8 @@ ADVICE = {
     "ComputesWithTheParameter": "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
     "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
+    "SaysYesByPosition": "The fields of a result are set by name: SetParametersResult(successful=True), or SetParametersResult(successful=False, reason='...').",
+    "launches_an_object": "The class itself is handed over, without brackets after its name: Wheel, not Wheel().",
     "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `await` it first, or take `future.result().sum` in its done callback.",
 }
 

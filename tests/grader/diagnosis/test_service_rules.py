@@ -48,6 +48,10 @@ ADVICE = {
     "create_service(SetBool, '/arm', self.arm).",
     mistakes.HandsOverWhatTheCallbackReturns: "`answer` is called without what it needs. As a callback it is handed over "
     "without brackets, `self.answer`: ROS calls it, and fills in the rest.",
+    mistakes.ComparesAListWithANumber: "A list is no number: len(...) says how many things it holds.",
+    mistakes.SaysSuccess: "A goal handle has no `success`. It has succeed(), abort() and canceled(), "
+    "publish_feedback(message), and is_cancel_requested.",
+    mistakes.JudgesAGoalHandle: "The goal callback gets the goal itself, and no goal handle: leave out `.request`.",
     mistakes.CallsAValue: "What stands before the brackets is a value of type bool, not a method: leave the brackets "
     "out.",
     mistakes.ReturnsNoResult: RESULT,

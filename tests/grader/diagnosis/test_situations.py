@@ -6,6 +6,7 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from grader.diagnosis import explain, find_fault
@@ -122,6 +123,24 @@ class LooksIntoTheGoalAtOnce(Node):
             self.get_logger().info("accepted")
 
 
+class TakesTheResultOfAGoalAtOnce(LooksIntoTheGoalAtOnce):
+    def tick(self):
+        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.hear)
+
+    def hear(self, future):
+        future.result().get_result_async().result().result  # noqa: B018
+
+
+class SendsAParameter(Wheel):
+    def change(self):
+        Float64(data=self.get_parameter("radius"))
+
+
+class SendsAWrongValue(Wheel):
+    def change(self):
+        Float64(data=str(self.get_parameter("radius").value))
+
+
 class HearsWithoutTheFuture(Ticking):
     def tick(self):
         self.client.call_async(self.request()).add_done_callback(self.hear)
@@ -151,6 +170,11 @@ ADVICE = {
     (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
     (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
     (Server, LooksIntoTheGoalAtOnce): TOO_EARLY.format("send_goal_async"),
+    (Server, TakesTheResultOfAGoalAtOnce): TOO_EARLY.format("get_result_async"),
+    (SendsAParameter,): "get_parameter() gives a parameter, which holds a value: write "
+    "self.get_parameter('name').value.",
+    (SendsAWrongValue,): "`data` takes a number with a decimal point: set `msg.data = 1.0`, not `1`; `float(value)` "
+    "converts.",
     (SlowAdder, ReadsNothingWhileAskingElsewhere): "What stands before `.sum` is None: it was never set, or comes from a "
     "function without `return`.",
     (SlowAdder, HearsWithoutTheFuture): "A done callback is called with the future: write `def hear(self, future):`.",

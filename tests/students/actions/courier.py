@@ -131,6 +131,15 @@ class Impatient(Courier):
     patience = 3.0
 
 
+class GivesUpAtOnce(Courier):
+    """Brackets too many: what is handed over is what give_up returns."""
+
+    def hear_response(self, future):
+        self.goal_handle = future.result()
+        self.goal_handle.get_result_async().add_done_callback(self.hear_result)
+        self.timer = self.create_timer(8.0, self.give_up())
+
+
 class GivesUpTooLate(Courier):
     patience = 12.0
 

@@ -184,6 +184,13 @@ class NeverAdds(SpinServer):
         pass
 
 
+class NeverKeepsTheYaw(SpinServer):
+    """Each step is one from the start."""
+
+    def add(self, yaw):
+        self.turned += math.remainder(yaw, math.tau)
+
+
 class AlwaysLeft(SpinServer):
     def turn(self, speed):
         super().turn(abs(speed))

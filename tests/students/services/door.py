@@ -155,6 +155,14 @@ class AsksWithoutLooking(Visitor):
         self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
 
 
+class ReadyWithoutBrackets(Visitor):
+    """A method is always true."""
+
+    def ask(self):
+        if self.client.service_is_ready:
+            self.client.call_async(Trigger.Request()).add_done_callback(self.hear)
+
+
 class WaitsInInit(Visitor):
     """Works, but no commands go out for as long as it waits."""
 

@@ -148,6 +148,12 @@ class OnlyUpwards(Cruiser):
         return SetParametersResult(successful=True)
 
 
+class ChecksTheOldValue(Cruiser):
+    def check(self, parameters):
+        fine = 0.0 <= self.get_parameter("speed").value <= 0.5
+        return SetParametersResult(successful=fine, reason="" if fine else "out of range")
+
+
 class ReturnsNothing(Cruiser):
     """Forgets the good case."""
 
