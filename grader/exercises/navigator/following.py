@@ -109,6 +109,8 @@ def _hint(recording: Recording) -> str:
         return "The robot was never told to turn: angular.z is speed times curvature."
     if max(abs(value) for value in turns) < 0.05:
         return "It hardly turns: the curvature is 2 * sin(bearing) / distance, with the bearing in rad."
+    if len(set(turns)) <= 4 and len(set(speeds)) > 16:
+        return "The speed changes all the time, and the turn doesn't: first comes the speed, then the turn."
     if recording.contacts:
         touch = recording.contacts[0]
         return f"It drove into a {touch.what} at {touch.stamp:.3g} s. The picture shows where."

@@ -185,3 +185,11 @@ class EmptyPath(Follower):
         command = Twist()
         command.linear.x, command.angular.z = self.steer(self.path[0])
         self.publisher.publish(command)
+
+
+class TurnForSpeed(Follower):
+    """Gives the two numbers the wrong way round."""
+
+    def steer(self, point):
+        speed, turn = super().steer(point)
+        return (turn, speed) if speed else (speed, turn)
