@@ -17,6 +17,7 @@ from grader.marking.sandbox.limits import MB, Limits
 
 HOME = "/student"  # of an inmate in the cage, and where it starts
 STAGE = "/scratch"  # where its file system is put together
+DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty")
 
 
 @dataclass(frozen=True)
@@ -59,38 +60,11 @@ def separate() -> None:
     linux.set_dumpable(False)
 
 
-def keep_only(wire: socket.socket, answer: int, stderr: IO[bytes]) -> tuple[socket.socket, int]:
-    """Close every descriptor but these, let stdin and stdout lead nowhere; return the wire and the answer."""
-    nothing = os.open(os.devnull, os.O_RDWR)
-    kept = (nothing, nothing, stderr.fileno(), wire.detach(), answer)
-    above = [fcntl.fcntl(descriptor, fcntl.F_DUPFD, 100) for descriptor in kept]
-    for target, descriptor in enumerate(above):
-        os.dup2(descriptor, target)
-    os.closerange(len(kept), os.sysconf("SC_OPEN_MAX"))
-    return socket.socket(fileno=3), 4
+def furnish(plan: Plan) -> None:
+    """Give this process files of its own: one small file system behind all places that can be written.
 
-
-def confine(plan: Plan, home: str) -> None:
-    """Shut this process in: its files, its limits, its rights and its system calls."""
-    if plan.caged:
-        _furnish(plan)
-    linux.die_with_parent(signal.SIGKILL)
-    os.setsid()  # else os.kill(0, ...) would reach the warden and all inmates
-    os.chdir(home)
-    os.umask(0o077)
-    if not plan.caged:
-        os.environ |= {"HOME": home, "TMPDIR": home, "ROS_LOG_DIR": os.path.join(home, ".ros")}
-    tempfile.tempdir = None
-    limits.apply(plan.limits, own_users=plan.caged)
-    if plan.caged:
-        linux.drop_capabilities()
-    linux.set_dumpable(True)  # else its own /proc/self would be closed to it
-    Path("/proc/self/oom_score_adj").write_text("1000")  # where memory runs out, it goes first
-    linux.filter_calls(seccomp.program())
-
-
-def _furnish(plan: Plan) -> None:
-    """Give this process files of its own: one small file system behind all places that can be written."""
+    What was opened before leads to the files of others still; `keep_only` closes it.
+    """
     linux.unshare(linux.NEW_MOUNT)
     linux.mount("", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
     options = f"mode=755,size={plan.limits.scratch_mb * MB},nr_inodes={plan.limits.scratch_files}"
@@ -109,6 +83,36 @@ def _furnish(plan: Plan) -> None:
     for name, place in places.items():
         _bind(scratch / name, place)
     linux.unmount(STAGE)
+    for device in DEVICES:  # the machine's own: where root marks, an inmate could change their mode
+        linux.mount("", device, flags=linux.MS_REMOUNT | linux.MS_BIND | linux.MS_RDONLY | linux.MS_NOSUID)
+
+
+def keep_only(wire: socket.socket, answer: int, stderr: IO[bytes]) -> tuple[socket.socket, int]:
+    """Close every descriptor but these, let stdin and stdout lead nowhere; return the wire and the answer."""
+    nothing = os.open(os.devnull, os.O_RDWR)
+    kept = (nothing, nothing, stderr.fileno(), wire.detach(), answer)
+    above = [fcntl.fcntl(descriptor, fcntl.F_DUPFD, 100) for descriptor in kept]
+    for target, descriptor in enumerate(above):
+        os.dup2(descriptor, target)
+    os.closerange(len(kept), os.sysconf("SC_OPEN_MAX"))
+    return socket.socket(fileno=3), 4
+
+
+def confine(plan: Plan, home: str) -> None:
+    """Shut this process in: its limits, its rights and its system calls."""
+    linux.die_with_parent(signal.SIGKILL)
+    os.setsid()  # else os.kill(0, ...) would reach the warden and all inmates
+    os.chdir(home)
+    os.umask(0o077)
+    if not plan.caged:
+        os.environ |= {"HOME": home, "TMPDIR": home, "ROS_LOG_DIR": os.path.join(home, ".ros")}
+    tempfile.tempdir = None
+    limits.apply(plan.limits, own_users=plan.caged)
+    if plan.caged:
+        linux.drop_capabilities()
+    linux.set_dumpable(True)  # else its own /proc/self would be closed to it
+    Path("/proc/self/oom_score_adj").write_text("1000")  # where memory runs out, it goes first
+    linux.filter_calls(seccomp.program())
 
 
 def _bind(source: str | Path, target: str | Path) -> None:

@@ -118,6 +118,8 @@ def _live(
     code = 1
     try:
         try:
+            if plan.caged:
+                cell.furnish(plan)
             wire, answer = cell.keep_only(wire, answer, stderr)
             cell.confine(plan, home)
             os.write(answer, b"ready")

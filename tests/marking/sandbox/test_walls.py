@@ -87,6 +87,23 @@ def test_nothing_but_its_own_places_can_be_written(prisoner, folder):
     assert said == f"OSError: [Errno 30] Read-only file system: '{folder}/mine'"
 
 
+@pytest.mark.parametrize("path", ["/", "/usr", "/dev", "/dev/full", "/dev/null", "/proc/self", sys.prefix])
+def test_no_mode_outside_its_own_places_can_be_changed(prisoner, path):
+    before = os.stat(path).st_mode
+    said = prisoner.ask(f"import os; os.chmod({path!r}, os.stat({path!r}).st_mode)")  # harmless if it works
+    assert said in (
+        f"OSError: [Errno 30] Read-only file system: {path!r}",
+        f"PermissionError: [Errno 1] Operation not permitted: {path!r}",
+    )
+    assert os.stat(path).st_mode == before
+
+
+def test_the_devices_that_programs_need_are_there(prisoner):
+    assert prisoner.ask("answer = open('/dev/null', 'w').write('gone')") == 4
+    assert prisoner.ask("answer = len(open('/dev/urandom', 'rb').read(8))") == 8
+    assert prisoner.ask("import os; os.fchmod(0, 0o666)") == "OSError: [Errno 30] Read-only file system"
+
+
 @pytest.mark.parametrize("folder", ["/tmp", "/dev/shm", "/student"])
 def test_what_one_leaves_behind_no_other_finds(cage, prisoners, folder):
     first, second = prisoners(cage), prisoners(cage)
