@@ -144,7 +144,7 @@ class Exercise:
             return offer(self, nodes)
         for node in nodes:
             if isinstance(node, Remote):
-                node.secret = os.environ.get(SECRET, "").encode()
+                node.secret, node.preparation = os.environ.get(SECRET, "").encode(), ""
         with quiet_stderr():
             refused = refusal(nodes)
             if refused:

@@ -12,6 +12,7 @@ from rclpy.node import Node
 
 from grader.exercise import Scenario
 from sim.recording import Recording
+from sim.ros.remote import PREPARATIONS, Remote
 
 LOGGER, OBSERVER = "after_main", "observer"
 
@@ -21,6 +22,9 @@ class AfterMain(Scenario):
 
     def run(self, nodes: Sequence[Any], seed: int) -> Recording:
         """As Scenario.run."""
+        for node in nodes:
+            if isinstance(node, Remote):  # there, where main() runs, it is looked around
+                node.preparation = LOGGER
         return super().run([_observed(node) for node in nodes], seed)
 
 
@@ -43,7 +47,7 @@ def trace_of(recording: Recording) -> Trace | None:
 
 def _observed(main: Any) -> Any:
     """The same main(), which then looks around before its program is over. Anything else stays as it is."""
-    if isinstance(main, type) or not callable(main):
+    if isinstance(main, type | Remote) or not callable(main):
         return main
 
     @functools.wraps(main)
@@ -58,6 +62,9 @@ def _observed(main: Any) -> Any:
         return result
 
     return main_and_look
+
+
+PREPARATIONS[LOGGER] = _observed
 
 
 def _look(raised: str) -> None:

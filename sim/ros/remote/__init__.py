@@ -6,10 +6,11 @@ serves the student's nodes; it hears what they may hear, when they may hear it.
 
 from sim.ros.fibers import RemoteLost
 from sim.ros.remote.remote import Remote
-from sim.ros.remote.serving import QUESTIONS, serve
+from sim.ros.remote.serving import PREPARATIONS, QUESTIONS, serve
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireError, WireTimeout
 
 __all__ = [
+    "PREPARATIONS",
     "QUESTIONS",
     "Remote",
     "RemoteLost",

@@ -205,10 +205,14 @@ class Link:
         publisher = self.puppets.publisher(node, topic)
         if publisher is None:
             raise Nonsense(f"a message on {topic!r}, where {node!r} has no publisher")
-        _, bytes_ = message(raw, publisher.type, f"a message on {topic}")
+        bytes_ = self.unpacked(raw, publisher)
         publisher.handle.publish_raw(bytes_)
         if not publisher.of_action:
             self.published(publisher, bytes_)
+
+    def unpacked(self, raw: Any, publisher: PuppetPublisher) -> bytes:
+        """The bytes of a message."""
+        return message(raw, publisher.type, f"a message on {publisher.name}")[1]
 
     def published(self, publisher: PuppetPublisher, raw: bytes) -> None:
         """A message of the other side is out: its subscriptions have something to take."""

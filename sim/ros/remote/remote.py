@@ -23,12 +23,13 @@ class Remote:
 
     patience: wall seconds that it may take for one answer.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
+    preparation: the name of one of the other process's `PREPARATIONS`, which its nodes need; "" for none.
     errors: the exceptions that it told of in the last run.
     """
 
     def __init__(self, wire: Wire, patience: float = 30.0) -> None:
         self.wire, self.patience = wire, patience
-        self.secret = b""
+        self.secret, self.preparation = b"", ""
         self.errors: list[CallbackError] = []
 
     def ask(self, question: str) -> Any:
@@ -100,7 +101,9 @@ class _Turn:
         self.alive, self._busy = True, False
         seed = remote.chance(run.recording.seed)
         try:
-            remote.wire.send(do="run", seconds=run.recording.seconds, seed=seed)
+            remote.wire.send(
+                do="run", seconds=run.recording.seconds, seed=seed, preparation=remote.preparation
+            )
         except WireError as error:
             remote._lose(error)
 

@@ -5,6 +5,7 @@ The recording of this side is only a notebook: what is new in it is told, and st
 
 from __future__ import annotations
 
+from base64 import b64decode
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ from sim.recording import Heard
 from sim.ros.codec import encode
 from sim.ros.remote.checked import packed
 from sim.ros.remote.link import Event, Link
-from sim.ros.remote.puppets import PuppetClient, PuppetService
+from sim.ros.remote.puppets import PuppetClient, PuppetPublisher, PuppetService
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
@@ -103,6 +104,10 @@ class Reports(Link):
     def crosses(self, heard: Heard) -> bool:
         """All do: the other side writes down what is said."""
         return True
+
+    def unpacked(self, raw: Any, publisher: PuppetPublisher) -> bytes:
+        """The bytes of a message: the other side is believed, and a look into each takes time."""
+        return b64decode(raw)
 
     # -- calls and goals ---------------------------------------------------------------------------
 

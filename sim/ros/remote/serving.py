@@ -18,6 +18,9 @@ MOST_WRITTEN = 100_000  # characters on stderr that are told
 QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
 """What the other side may ask about the nodes before they run: a function of them that gives plain data."""
 
+PREPARATIONS: dict[str, Callable[[Any], Any]] = {}
+"""What the other side may want to be run in place of a node: a function of the node that gives it."""
+
 
 def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
     """Let the other end of the wire run these nodes, as often as it likes; returns its last message.
@@ -26,20 +29,22 @@ def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
     """
     while True:
         message = wire.receive()
-        wanted = message.get("do")
+        wanted, question = message.get("do"), message.get("question")
         if wanted == "end":
             return message
-        if wanted == "ask":
-            wire.send(answer=QUESTIONS[message["question"]](nodes))
+        if wanted == "ask" and question in QUESTIONS:
+            wire.send(answer=QUESTIONS[question](nodes))
         elif wanted == "run":
             _run(wire, nodes, message)
         else:
-            raise WireBroken(f"nobody knows how to do {wanted!r}")
+            raise WireBroken(f"nobody here knows how to {wanted} {question or ''}".strip())
 
 
 def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
     try:
-        session = Follower(wire, tuple(nodes), order["seconds"], order["seed"])
+        prepare = PREPARATIONS.get(order["preparation"], lambda node: node)
+        programs = tuple(prepare(node) for node in nodes)
+        session = Follower(wire, programs, order["seconds"], order["seed"])
         session.advance()
         wire.send(stderr=session.recording.stderr[:MOST_WRITTEN])
     except WireError:

@@ -37,7 +37,7 @@ class Wire:
 
     def __init__(self, sock: socket.socket, limit: int = 64_000_000, patience: float = 60.0) -> None:
         self._socket, self._limit, self._patience = sock, limit, patience
-        self._received = bytearray()  # of the message under way
+        self._received = bytearray()  # of the message under way, and what came behind it
 
     def send(self, **message: Any) -> None:
         """Send one JSON object; bytes have no place in it.
@@ -69,8 +69,8 @@ class Wire:
         if size > self._limit:
             raise WireBroken(f"a message of {size} bytes is too long: {self._limit} are allowed")
         self._fill(_LENGTH.size + size, deadline, timeout)
-        body = bytes(self._received[_LENGTH.size :])
-        self._received.clear()
+        body = bytes(self._received[_LENGTH.size : _LENGTH.size + size])
+        del self._received[: _LENGTH.size + size]
         try:
             message = json.loads(body, parse_constant=_no_number)
         except (ValueError, RecursionError):
@@ -84,14 +84,14 @@ class Wire:
         self._socket.close()
 
     def _fill(self, size: int, deadline: float | None, timeout: float | None) -> None:
-        """Receive until there are `size` bytes of the message under way, and no more."""
+        """Receive until there are `size` bytes of the message under way."""
         while len(self._received) < size:
             left = None if deadline is None else deadline - monotonic()
             try:
                 if left is not None and left <= 0:
                     raise TimeoutError
                 self._socket.settimeout(left)
-                piece = self._socket.recv(min(size - len(self._received), _PIECE))
+                piece = self._socket.recv(_PIECE)
             except TimeoutError:
                 raise WireTimeout(f"nothing whole came for {timeout:g} s") from None
             except OSError:

@@ -1,0 +1,87 @@
+"""The score tables of all assignments through two processes.
+
+python -m tests.sim.ros.remote.tables [ASSIGNMENT ...]    every node; shows where words or points differ
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import sys
+import time
+
+from grader import Exercise
+from sim.ros.remote import RemoteLost
+from tests.exercises.score_tables import page, shown, students
+from tests.sim.ros.remote.apart import Apart
+
+ASSIGNMENTS = ("nodes", "topics", "services", "actions", "sensing", "navigator")
+# They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
+DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")
+
+
+def exercises() -> list[tuple[str, str]]:
+    """The assignment and the name of every exercise that has a table."""
+    modules = [(name, importlib.import_module(f"grader.exercises.{name}")) for name in ASSIGNMENTS]
+    return [
+        (assignment, name)
+        for assignment, module in modules
+        for name, item in vars(module).items()
+        if isinstance(item, Exercise)
+    ]
+
+
+def judge(assignment: str, exercise: str) -> Exercise:
+    """The exercise of this name."""
+    return getattr(importlib.import_module(f"grader.exercises.{assignment}"), exercise)
+
+
+def right(assignment: str, exercise: str) -> list[str]:
+    """The nodes that earn everything."""
+    most = judge(assignment, exercise).points
+    return [name for name, text in page(assignment, exercise).items() if text == f"{name}: {most:g}"]
+
+
+def wrong(assignment: str, exercise: str) -> list[str]:
+    """The nodes that miss something, as far as their words depend on no chance."""
+    good = right(assignment, exercise)
+    names = [name for name in page(assignment, exercise) if name not in good]
+    return [name for name in names if name not in DRAWING]
+
+
+def earned(apart: Apart, assignment: str, exercise: str, name: str) -> str:
+    """What a node gets that lives in the other process, as a table's page says it."""
+    remote = apart.serving(f"tests.students.{assignment}.{exercise}", name)
+    score = judge(assignment, exercise).grade(remote)
+    remote.end()
+    return shown(name, score)
+
+
+def main() -> None:
+    """Compare every node's words with its page."""
+    for assignment, exercise in exercises():
+        if assignment not in (sys.argv[1:] or ASSIGNMENTS):
+            continue
+        begin, differing, apart = time.monotonic(), 0, Apart()
+        names = list(students(assignment, exercise))
+        for name in names:
+            wanted = page(assignment, exercise)[name]
+            try:
+                found = earned(apart, assignment, exercise, name)
+            except RemoteLost as lost:
+                found = f"{name}: {lost.reason}"
+                apart.close()
+                apart = Apart()
+            if found != wanted:
+                differing += 1
+                lines = difflib.unified_diff(
+                    wanted.splitlines(), found.splitlines(), name, "apart", "", "", 0, ""
+                )
+                print("\n".join(lines))
+        apart.close()
+        spent = time.monotonic() - begin
+        print(f"{assignment} {exercise}: {len(names)} nodes, {differing} differ, {spent:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,21 @@
+"""Nodes that live in another process get the points and the words that they get in one."""
+
+import pytest
+
+from tests.exercises.score_tables import page
+from tests.sim.ros.remote.tables import earned, exercises, judge, right, wrong
+
+
+@pytest.mark.parametrize(("assignment", "exercise"), exercises())
+def test_a_right_node_earns_everything_with_private_seeds(apart, assignment, exercise, monkeypatch):
+    monkeypatch.setenv("COURSE_SECRET", "a secret of this test")
+    name = right(assignment, exercise)[0]
+    most = judge(assignment, exercise).points
+    assert earned(apart, assignment, exercise, name) == f"{name}: {most:g}"
+
+
+@pytest.mark.parametrize(("assignment", "exercise"), exercises())
+def test_a_wrong_node_gets_the_words_of_its_table(apart, assignment, exercise):
+    names = wrong(assignment, exercise)
+    name = names[len(names) // 2]
+    assert earned(apart, assignment, exercise, name) == page(assignment, exercise)[name]
