@@ -45,6 +45,9 @@ class Link:
         self._own: dict[int, OwnEnd] = {}  # ends of this side, as long as they live
         self._latched: set[str] = set()  # topics on which a late joiner gets earlier messages
         self._answering: dict[int, PuppetService] = {}  # requests of this side without a response yet
+        self._repeated: list[
+            tuple[str, Any]
+        ] = []  # the other side's requests to a service that both sides have
         self._seen: dict[str, int] = {}  # how much of each list of the recording is news no more
         self._topology = -1
         engine.link = self
@@ -128,8 +131,10 @@ class Link:
                 taken = service.take()
                 if taken is None:
                     break
-                request, header = taken
-                self.asked(service, request, header)
+                if (service.name, taken[0]) in self._repeated:  # it came from there: don't send it back
+                    self._repeated.remove((service.name, taken[0]))
+                else:
+                    self.asked(service, *taken)
 
     def asked(self, service: PuppetService, request: Any, header: Any) -> None:
         """A client of this side asks a service of the other."""
@@ -226,6 +231,8 @@ class Link:
         if client is None:
             raise Nonsense(f"a request to {service!r}, of which {node!r} has no client")
         request, bytes_ = message(raw, client.type.Request, f"a request to {service}")
+        if any(end.name == service for end in self.puppets.services):  # which gets it, too
+            self._repeated.append((service, request))
         number = client.ask(key, request)
         if not client.of_action:
             self.engine.recorder.calls.asked(client, number, bytes_)

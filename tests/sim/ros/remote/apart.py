@@ -5,11 +5,13 @@ python -m tests.sim.ros.remote.apart FD    serves the nodes that it is told of o
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import grader.exercises.nodes  # noqa: F401  (it knows what to answer and to prepare)
@@ -22,6 +24,9 @@ class Apart:
     """The process, and our end of the wire to it."""
 
     def __init__(self) -> None:
+        self._begin()
+
+    def _begin(self) -> None:
         ours, theirs = socket.socketpair()
         command = [sys.executable, "-m", "tests.sim.ros.remote.apart", str(theirs.fileno())]
         environment = {name: value for name, value in os.environ.items() if name != "COURSE_SECRET"}
@@ -29,10 +34,18 @@ class Apart:
         theirs.close()
         self.wire = Wire(ours)
 
-    def serving(self, module: str, *names: str, patience: float = 30.0) -> Remote:
-        """What stands here for nodes of a module, until its `end`."""
+    @contextlib.contextmanager
+    def serving(self, module: str, *names: str, patience: float = 30.0) -> Iterator[Remote]:
+        """What stands here for nodes of a module; after an error there is a new process."""
         self.wire.send(module=module, names=names)
-        return Remote(self.wire, patience)
+        remote = Remote(self.wire, patience)
+        try:
+            yield remote
+            remote.end()
+        except BaseException:
+            self.close()
+            self._begin()
+            raise
 
     def close(self) -> None:
         """Let it go."""

@@ -51,9 +51,8 @@ def wrong(assignment: str, exercise: str) -> list[str]:
 
 def earned(apart: Apart, assignment: str, exercise: str, name: str) -> str:
     """What a node gets that lives in the other process, as a table's page says it."""
-    remote = apart.serving(f"tests.students.{assignment}.{exercise}", name)
-    score = judge(assignment, exercise).grade(remote)
-    remote.end()
+    with apart.serving(f"tests.students.{assignment}.{exercise}", name) as remote:
+        score = judge(assignment, exercise).grade(remote)
     return shown(name, score)
 
 
@@ -70,8 +69,6 @@ def main() -> None:
                 found = earned(apart, assignment, exercise, name)
             except RemoteLost as lost:
                 found = f"{name}: {lost.reason}"
-                apart.close()
-                apart = Apart()
             if found != wanted:
                 differing += 1
                 lines = difflib.unified_diff(

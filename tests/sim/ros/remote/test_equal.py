@@ -1,0 +1,120 @@
+"""A run in two processes leaves the recording that the same run leaves in one."""
+
+import importlib
+from dataclasses import asdict
+
+import pytest
+
+from sim import Recording, run
+
+ENGINE = "tests.students.engine"
+ALONE = {
+    "mains": (
+        "classic", "with_finally", "own_executor", "two_nodes_one_executor", "spin_once_loop",
+        "spin_once_polling", "busy_ok_loop", "shuts_itself_down", "raises_to_leave_spin", "init_again",
+        "own_context", "only_a_node", "makes_one_with_init",
+    ),
+    "threads": (
+        "spin_in_a_thread", "executor_in_a_thread", "thread_subclass", "thread_made_by_the_node",
+        "lock_across_sleeps", "all_primitives", "queues", "pool", "two_groups_in_parallel",
+    ),
+    "errors": (
+        "InTimer", "InSubscription", "InInit", "WithoutSuper", "InService", "InCoroutine", "InTask",
+        "in_thread", "in_parallel_callback", "in_main", "chained", "init_twice", "without_init",
+        "shutdown_twice", "publish_after_shutdown", "sys_exit", "os_exit", "asks_the_keyboard",
+        "spins_nothing", "starts_a_run", "wrong_qos", "bad_topic_name", "needs_argument",
+    ),
+    "services": (
+        "late_adder", "until_future_complete", "done_callback", "many_calls", "nobody_answers",
+        "spin_in_a_callback", "parameter_services",
+    ),
+    "callers": (
+        "two_servers", "asks_with_text", "calls_from_a_thread", "goes_away", "gives_up", "never_spins",
+        "OwnCall",
+    ),
+    "actions": ("waiting_client", "blocking_client", "late_server"),
+    "goals": ("two_servers", "sends_text", "asks_nobody", "sends_again"),
+    "output": ("logs_at_every_level", "logs_debug_lines", "odd_texts"),
+    "hangs": ("PingPong", "ZeroTimer", "EventNobodySets", "JoinsItself", "GuardCondition"),
+}  # fmt: skip
+# Ours in this process, the student's in the other one.
+TOGETHER = [
+    (("services", "Adder"), ("services", "Customer")),
+    (("services", "Customer"), ("services", "Adder")),
+    (("services", "Customer"), ("callers", "Raises")),
+    (("services", "Customer"), ("callers", "ReturnsText")),
+    (("callers", "Flood"), ("services", "SlowAdder")),
+    (("services", "SlowAdder"), ("callers", "Flood")),
+    (("callers", "Flood"), ("callers", "ShortMemory")),
+    (("callers", "ShortMemory"), ("callers", "Flood")),
+    (("services", "Customer"), ("callers", "DestroysItsService")),
+    (("services", "Wheel"), ("services", "parameter_services")),
+    (("actions", "Client"), ("actions", "Server")),
+    (("actions", "Server"), ("actions", "Client")),
+    (("actions", "Impatient"), ("actions", "Server")),
+    (("actions", "Server"), ("actions", "Impatient")),
+    (("actions", "Server"), ("actions", "Greedy")),
+    (("actions", "Client"), ("actions", "Raising")),
+    (("actions", "Client"), ("actions", "Coroutine")),
+    (("actions", "Impatient"), ("goals", "IgnoresCancel")),
+    (("goals", "CancelsTwice"), ("goals", "AlwaysRejectsCancel")),
+    (("goals", "AlwaysRejectsCancel"), ("goals", "CancelsTwice")),
+    (("actions", "Client"), ("goals", "JudgeRaises")),
+    (("goals", "Later"), ("actions", "Client")),
+    (("actions", "Server"), ("goals", "AsksForNoResult")),
+]
+
+
+def found(module: str, name: str):
+    return getattr(importlib.import_module(f"{ENGINE}.{module}"), name)
+
+
+def evidence(recording: Recording) -> dict:
+    """All of it, but for the ids of goals: they are drawn."""
+    plain = asdict(recording) | {"seed": 0}
+    for goal in plain["goals"]:
+        goal["id"] = ""
+    return plain
+
+
+@pytest.mark.parametrize(("module", "name"), [(m, name) for m, names in ALONE.items() for name in names])
+def test_a_program_that_lives_elsewhere_is_recorded_as_here(apart, module, name):
+    with apart.serving(f"{ENGINE}.{module}", name) as remote:
+        there = run(remote, seconds=6, quiet=True)
+    assert evidence(there) == evidence(run(found(module, name), seconds=6, quiet=True))
+
+
+@pytest.mark.parametrize(("ours", "theirs"), TOGETHER)
+def test_what_both_sides_say_to_each_other_is_recorded_as_in_one(apart, ours, theirs):
+    with apart.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
+        there = run(found(*ours), remote, seconds=8, quiet=True)
+    assert evidence(there) == evidence(run(found(*ours), found(*theirs), seconds=8, quiet=True))
+
+
+def test_several_nodes_of_a_student_live_in_one_process(apart):
+    with apart.serving(f"{ENGINE}.callers", "First", "Second") as remote:
+        there = run(found("services", "SlowAdder"), remote, seconds=8, quiet=True)
+    names = [found("callers", name) for name in ("First", "Second")]
+    assert evidence(there) == evidence(run(found("services", "SlowAdder"), *names, seconds=8, quiet=True))
+
+
+def test_a_service_that_both_sides_offer_is_asked_on_both(apart):
+    with apart.serving(f"{ENGINE}.callers", "First", "OtherAdder") as remote:
+        there = run(found("services", "SlowAdder"), remote, seconds=8, quiet=True)
+    assert there.ended.reason == "time"
+    assert {call.server for call in there.calls_of("/add")} == {"/adder"}
+
+
+def test_an_action_that_both_sides_offer_is_asked_on_both(apart):
+    with apart.serving(f"{ENGINE}.actions", "Client", "Server") as remote:
+        there = run(found("actions", "Server"), remote, seconds=8, quiet=True)
+    assert there.ended.reason == "time"
+    assert "succeeded" in {goal.status for goal in there.goals}
+
+
+def test_a_drive_is_the_same_to_the_last_bit(apart):
+    from tests.bench.avoider import main
+
+    with apart.serving("tests.bench.avoider", "main") as remote:
+        there = [run(remote, world="room", seconds=10, quiet=True) for _ in range(2)]
+    assert [drive.digest for drive in there] == [run(main, world="room", seconds=10, quiet=True).digest] * 2
