@@ -1,6 +1,8 @@
 """The instructor's commands: `python -m grader mark ASSIGNMENT`, see its --help."""
 import sys
 
+# jsonschema, below nbgrader, would load this to check web addresses: more than a second, for nothing.
+sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
 USAGE = "usage: python -m grader mark ASSIGNMENT [--help]"
 
 
@@ -10,8 +12,6 @@ def main(arguments: list[str]) -> int:
     if command != "mark":
         print(USAGE, file=sys.stdout if command in ("-h", "--help") else sys.stderr)
         return 0 if command in ("-h", "--help") else 2
-    # jsonschema, below nbgrader, would load this to check web addresses: more than a second, for nothing.
-    sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
     from grader.marking.office.cli import main as mark
 
     return mark(rest)

@@ -1,6 +1,11 @@
 """The students' pages, by nbgrader's own `generate_feedback`, for what was marked anew."""
 import contextlib
-from collections.abc import Collection
+import os
+import signal
+from collections.abc import Collection, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from itertools import repeat
+from multiprocessing import get_context
 from pathlib import Path
 
 from nbgrader.converters import GenerateFeedback
@@ -8,7 +13,9 @@ from nbgrader.converters.base import NbGraderException
 from nbgrader.utils import temp_attrs
 
 from grader.marking.office.course import Course
+from grader.marking.sandbox.linux import die_with_parent
 
+FEW = 10  # students whose pages are made in the time that a process takes to start
 END = b"</html>"
 
 
@@ -22,15 +29,36 @@ class _Feedback(GenerateFeedback):
         self.assignments, self.notebooks = self.chosen, []
 
 
-def make_feedback(course: Course, assignment: str, students: Collection[str]) -> list[str]:
-    """Make the pages of these students anew; return those whose page could not be made."""
+def make_feedback(course: Course, assignment: str, students: Sequence[str], jobs: int = 1) -> list[str]:
+    """Make the pages of these students anew, in up to `jobs` processes; return whose could not be made."""
+    shares = [students[first : first + FEW] for first in range(0, len(students), FEW)]
+    if jobs == 1 or len(shares) < 2:
+        _make(course, assignment, students)
+    else:
+        workers = ProcessPoolExecutor(min(jobs, len(shares)), get_context("spawn"), initializer=_begin)
+        with workers:
+            list(workers.map(_make_apart, repeat(course.root), repeat(assignment), shares))
+    return [student for student in students if is_stale(course, assignment, student)]
+
+
+def _make(course: Course, assignment: str, students: Sequence[str]) -> None:
     with temp_attrs(course.directory, assignment_id=assignment):
         converter = _Feedback(coursedir=course.directory, parent=course.app)
         converter.force = True
         converter.choose([course.autograded(student, assignment) for student in students])
         with contextlib.suppress(NbGraderException):  # it goes on to the end and raises then
             converter.start()
-    return [student for student in students if is_stale(course, assignment, student)]
+
+
+def _begin() -> None:
+    """A worker leaves Ctrl-C to the process that it works for, and ends with it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    die_with_parent(signal.SIGKILL)
+
+
+def _make_apart(root: Path, assignment: str, students: Sequence[str]) -> None:
+    os.chdir(root)
+    _make(Course(root), assignment, students)
 
 
 def is_stale(course: Course, assignment: str, student: str) -> bool:

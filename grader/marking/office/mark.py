@@ -88,7 +88,7 @@ def mark(course: Course, assignment: str, settings: Settings, open_pool: OpenPoo
                     desk.mark(pool)
             desk.write_late()
             if settings.feedback:
-                desk.give_feedback(assignment)
+                desk.give_feedback(assignment, settings.jobs)
         except KeyboardInterrupt:
             outcome.interrupted = True
     outcome.seconds = time.monotonic() - begin
@@ -159,9 +159,9 @@ class _Desk:
                 self.outcome.problems.append(f"{error}. {left}.")
                 return
 
-    def give_feedback(self, assignment: str) -> None:
+    def give_feedback(self, assignment: str, jobs: int) -> None:
         """Make the pages that are missing or older than the marks."""
         stale = [name for name in sorted(self.outcome.results) if is_stale(self.course, assignment, name)]
-        for student in make_feedback(self.course, assignment, stale) if stale else ():
+        for student in make_feedback(self.course, assignment, stale, jobs) if stale else ():
             why = f"`nbgrader generate_feedback {assignment} --force --student {student}` says why"
             self.outcome.problems.append(f"the page of {student} could not be made: {why}")
