@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+from time import monotonic
 from typing import Any, NoReturn
 
 from sim.recording import CallbackError, Ended
@@ -21,14 +22,15 @@ class Remote:
 
     It may be run again and again; `end` lets the other process go.
 
-    patience: wall seconds that it may take for one answer.
+    patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
     preparation: the name of one of the other process's `PREPARATIONS`, which its nodes need; "" for none.
     errors: the exceptions that it told of in the last run.
     """
 
-    def __init__(self, wire: Wire, patience: float = 30.0) -> None:
-        self.wire, self.patience = wire, patience
+    def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
+        self.wire, self.patience, self.total = wire, patience, total
+        self._waited = 0.0
         self.secret, self.preparation = b"", ""
         self.errors: list[CallbackError] = []
 
@@ -46,6 +48,7 @@ class Remote:
     def __call__(self) -> None:
         """The program that stands for the others in a run."""
         run = engine()
+        self._waited = 0.0
         with outside_student_code():
             turn = _Turn(self, run)
             self.errors = turn.ledger.errors
@@ -71,11 +74,15 @@ class Remote:
 
     def _exchange(self, **message: Any) -> dict[str, Any]:
         """Send, and receive the answer. Raises RemoteLost."""
+        begin = monotonic()
         try:
             self.wire.send(**message)
             answer = self.wire.receive(self.patience)
         except WireError as error:
             self._lose(error)
+        self._waited += monotonic() - begin
+        if self._waited > self.total:
+            raise RemoteLost(f"The process with the nodes took more than {self.total:g} s for one run.")
         if "failed" in answer:
             raise RemoteLost(f"The nodes could not be run: {str(answer['failed'])[:MOST_DETAIL]}.")
         return answer

@@ -1,0 +1,103 @@
+"""Students' nodes that try to change what they can't: they live in the other process."""
+
+import contextlib
+import gc
+import os
+import signal
+import sys
+
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from sim import Recording
+from sim.ros.fibers import active
+from sim.world import MobileRobot, Simulation
+
+
+class Honest(Node):
+    """Says "hello" ten times a second, and never moves the robot."""
+
+    def __init__(self):
+        super().__init__("honest")
+        self.publisher = self.create_publisher(String, "chat", 10)
+        self.create_publisher(Twist, "cmd_vel", 10)
+        self.ticks = 0
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        self.ticks += 1
+        self.publisher.publish(String(data="hello"))
+        if self.ticks == 5:
+            self.try_it()
+
+    def try_it(self):
+        """What it tries."""
+
+
+class Teleporter(Honest):
+    """Looks for the robot in memory."""
+
+    def try_it(self):
+        for thing in gc.get_objects():
+            if isinstance(thing, MobileRobot | Simulation):
+                self.get_logger().error("found the robot")
+
+
+class Forger(Honest):
+    """Changes all recordings that it finds."""
+
+    def try_it(self):
+        for thing in gc.get_objects():
+            if type(thing) is Recording:
+                thing.heard[:] = [heard._replace(stamp=0.0) for heard in thing.heard]
+                thing.path.append(None)
+                thing.ended = None
+
+
+class Hurried(Honest):
+    """Turns its own clock on by a minute."""
+
+    def try_it(self):
+        active().now += 60_000_000_000
+
+
+class Lazy(Honest):
+    """Lets its clock stand."""
+
+    def try_it(self):
+        type(active()).now = property(lambda self: 0, lambda self, now: None)
+
+
+class Spy(Honest):
+    """Tells the seed that it finds, and what it draws."""
+
+    def try_it(self):
+        import random
+
+        found = [str(thing.seed) for thing in gc.get_objects() if type(thing) is Recording]
+        self.get_logger().info(f"{','.join(found)} {random.random()} {os.environ.get('COURSE_SECRET')}")
+
+
+class Killed(Honest):
+    def try_it(self):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+class Stopped(Honest):
+    def try_it(self):
+        os.kill(os.getpid(), signal.SIGSTOP)
+
+
+class Exits(Honest):
+    def try_it(self):
+        sys.exit(3)
+
+
+class Scribbler(Honest):
+    """Writes into every socket it has."""
+
+    def try_it(self):
+        for descriptor in range(3, 64):
+            with contextlib.suppress(OSError):
+                os.write(descriptor, b"\0\0\0\2{}")

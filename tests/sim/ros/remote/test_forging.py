@@ -1,0 +1,80 @@
+"""Nodes in the other process can't reach what is believed; and a process that is lost is named."""
+
+import pytest
+
+from sim import run
+from sim.ros.remote import RemoteLost
+
+FORGERS = "tests.sim.ros.remote.forgers"
+
+
+def drive(apart, name: str, **settings):
+    with apart.serving(FORGERS, name) as remote:
+        return run(remote, world="room", seconds=2, quiet=True, **settings)
+
+
+def hellos(recording) -> list[tuple[float, str]]:
+    return [(heard.stamp, heard.message.data) for heard in recording.messages("/chat")]
+
+
+@pytest.mark.parametrize("name", ["Honest", "Teleporter", "Forger"])
+def test_what_was_sent_and_where_the_robot_is_stays_as_it_was(apart, name):
+    recording = drive(apart, name)
+    assert hellos(recording) == [(round(0.1 * tick, 1), "hello") for tick in range(1, 21)]
+    assert {pose[1:] for pose in recording.path} == {recording.path[0][1:]}
+    assert recording.logs == []
+    assert (recording.ended.reason, recording.ended.stamp) == ("time", 2.0)
+
+
+@pytest.mark.parametrize("name", ["Hurried", "Lazy"])
+def test_a_message_has_the_time_at_which_it_came(lost, name):
+    try:
+        stamps = [stamp for stamp, _ in hellos(drive(lost, name))]
+    except RemoteLost:  # such a clock may also lead to answers that can't be
+        return
+    assert stamps == sorted(stamps)
+    assert stamps[:5] == [0.1, 0.2, 0.3, 0.4, 0.5]
+    assert all(stamp <= 2.0 for stamp in stamps)
+
+
+def test_the_seed_of_the_run_and_the_secret_stay_here(apart, monkeypatch):
+    monkeypatch.setenv("COURSE_SECRET", "a secret of this test")
+    told = [drive(apart, "Spy", seed=seed).logs[0].text for seed in (7, 7, 8)]
+    assert told[0] == told[1] != told[2]
+    seed, _, secret = told[0].split(" ")
+    assert "7" not in seed.split(",")
+    assert secret == "None"
+
+
+def test_the_secret_changes_what_the_nodes_draw(apart):
+    with apart.serving(FORGERS, "Spy") as remote:
+        run(remote, seconds=1, quiet=True)
+        drawn = {remote.chance(7)}
+        remote.secret = b"a secret"
+        assert remote.chance(7) not in drawn
+
+
+@pytest.mark.parametrize(
+    ("name", "patience", "reason"),
+    [
+        ("Killed", 30.0, "The process with the nodes has ended."),
+        ("Stopped", 1.0, "The process with the nodes gave no answer for 1 s."),
+        ("Scribbler", 30.0, "The process with the nodes sent events that are no list."),
+    ],
+)
+def test_a_process_that_is_lost_midway_is_named(lost, name, patience, reason):
+    with pytest.raises(RemoteLost) as found, lost.serving(FORGERS, name, patience=patience) as remote:
+        run(remote, world="room", seconds=2, quiet=True)
+    assert found.value.reason == reason
+
+
+def test_a_program_that_exits_takes_no_process_with_it(apart):
+    recording = drive(apart, "Exits")
+    assert recording.ended.reason == "finished"
+    assert len(hellos(recording)) == 5
+
+
+def test_after_a_lost_process_the_next_run_is_well(lost):
+    with pytest.raises(RemoteLost), lost.serving(FORGERS, "Killed") as remote:
+        run(remote, world="room", seconds=2, quiet=True)
+    assert len(hellos(drive(lost, "Honest"))) == 20

@@ -1,0 +1,307 @@
+"""What the other process must not send: it ends the run with one sentence, and nothing of it is believed."""
+
+import base64
+import contextlib
+import socket
+import threading
+
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from grader import Exercise, check
+from sim import run
+from sim.ros.codec import encode
+from sim.ros.remote import Remote, RemoteLost, Wire, WireError
+
+END = 1_000_000_000  # ns
+QUIET = {"news": [], "claims": {}, "next": END, "busy": False, "alive": True, "fault": None, "blocked": ""}
+QOS = [10, 1, 2, 1, 0, 0, 0, 0]
+
+
+def packed(message) -> str:
+    return base64.b64encode(encode(message)).decode()
+
+
+TWIST = packed(Twist())
+TALKS = ["end", 1, 3, "/talker", "publisher", "/chat", "std_msgs/msg/String", QOS]
+ASKS = ["end", 5, 3, "/talker", "client", "/add", "example_interfaces/srv/AddTwoInts", QOS]
+ACTS = ["end", 7, 3, "/talker", "action client", "/fib", "example_interfaces/action/Fibonacci", None]
+CALL = ["call", 9, "/add", "example_interfaces/srv/AddTwoInts", "/talker", True, TWIST, False]
+ID = "00" * 16
+
+
+@contextlib.contextmanager
+def answering(*answers, after=QUIET):
+    """What a wire leads to whose other side says this and no more, turn by turn; then all is quiet."""
+    near, far = socket.socketpair()
+    wire, left = Wire(far), list(answers)
+
+    def answer():
+        with contextlib.suppress(WireError):
+            while True:
+                do = wire.receive()["do"]
+                if do in ("go", "ask"):
+                    wire.send(**(left.pop(0) if left else after))
+                elif do == "over":
+                    wire.send(stderr="")
+
+    thread = threading.Thread(target=answer)
+    thread.start()
+    remote = Remote(Wire(near), patience=5.0)
+    try:
+        yield remote
+    finally:
+        remote.wire.close()
+        thread.join()
+        wire.close()
+
+
+def loses(*answers) -> str:
+    """Why the process was given up that answered so."""
+    with answering(*answers) as remote, pytest.raises(RemoteLost) as lost:
+        run(remote, seconds=1, quiet=True)
+    return lost.value.reason
+
+
+def news(*events) -> dict:
+    return QUIET | {"news": list(events)}
+
+
+def claims(**claimed) -> dict:
+    return QUIET | {"claims": claimed}
+
+
+def sent(reason: str) -> str:
+    return f"The process with the nodes sent {reason}."
+
+
+def test_who_says_nothing_new_is_fine():
+    with answering() as remote:
+        recording = run(remote, seconds=1, quiet=True)
+    assert (recording.ended.reason, recording.ended.stamp) == ("time", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("events", "words"),
+    [
+        ([["dance"]], "an event of no known kind"),
+        ([[]], "an event of no known kind"),
+        ([5], "an event of no known kind"),
+        ([[["end"]]], "an event of no known kind"),
+        ([["end", 1]], "the event 'end' with 1 parts, not 7"),
+        ([TALKS, TALKS], "the end '/chat' of '/talker', which can't be"),
+        ([[*TALKS[:3], "talker", *TALKS[4:]]], "the end '/chat' of 'talker', which can't be"),
+        ([[*TALKS[:3], "/tal ker", *TALKS[4:]]], "the name '/chat' or '/tal ker', which ROS does not allow"),
+        ([[*TALKS[:5], "/ch at", *TALKS[6:]]], "the name '/ch at' or '/talker', which ROS does not allow"),
+        ([["end", "1", *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
+        ([["end", True, *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
+        ([[*TALKS[:4], "robot", *TALKS[5:]]], "an end of no known kind"),
+        ([[*TALKS[:4], ["client"], *TALKS[5:]]], "an end of no known kind"),
+        ([[*TALKS[:6], "os/msg/Path", QOS]], "the type os/msg/Path, which is not installed here"),
+        ([[*TALKS[:6], "std_msgs/msg/Nope", QOS]], "the type std_msgs/msg/Nope, which is not installed here"),
+        ([[*TALKS[:6], "tests/msg/String", QOS]], "the type tests/msg/String, which is not installed here"),
+        ([[*TALKS[:6], "../x", QOS]], "the type '../x', which is no name of a msg type"),
+        (
+            [[*TALKS[:6], "std_srvs/srv/SetBool", QOS]],
+            "the type 'std_srvs/srv/SetBool', which is no name of a msg type",
+        ),
+        ([[*TALKS[:7], None]], "a QoS profile that are no list"),
+        ([[*TALKS[:7], [10]]], "a QoS profile with parts missing"),
+        ([[*TALKS[:7], [10, 99, *QOS[2:]]]], "the reliability 99, which there is none of"),
+        ([[*TALKS[:7], [-1, *QOS[1:]]]], "a depth that is no whole number from 0 to 100000"),
+        ([["gone", [77]]], "the end of something that there is not"),
+        ([["gone", 77]], "numbers that are no list"),
+        ([["message", "/talker", "/chat", TWIST]], "a message on '/chat', where '/talker' has no publisher"),
+        (
+            [TALKS, ["message", "/robot", "/chat", TWIST]],
+            "a message on '/chat', where '/robot' has no publisher",
+        ),
+        ([TALKS, ["message", "/talker", "/chat", "AA"]], "a message on /chat that is no std_msgs/msg/String"),
+        ([TALKS, ["message", "/talker", "/chat", 5]], "a message on /chat that is no std_msgs/msg/String"),
+        ([TALKS, ["message", "/talker", "/chat", "é"]], "a message on /chat that is no std_msgs/msg/String"),
+        (
+            [TALKS, ["message", "/talker", "/chat", base64.b64encode(b"\0\1\0\0\xff\xff\xff\xff").decode()]],
+            "a message on /chat that is no std_msgs/msg/String",
+        ),
+        ([["ask", 11, "/add", "/talker", TWIST]], "a request to '/add', of which '/talker' has no client"),
+        (
+            [ASKS, ["ask", 11, "/add", "/talker", "AAEAAA=="]],
+            "a request to /add that is no example_interfaces/srv/AddTwoInts_Request",
+        ),
+        ([["answer", 2, TWIST]], "a response to a request that nobody has made"),
+        ([[*CALL[:6], "", False]], "a request that is no example_interfaces/srv/AddTwoInts_Request"),
+        ([["call", 8, *CALL[2:]]], "a key that it may not choose"),
+        ([CALL, CALL], "a key that it may not choose"),
+        ([["taken", 9, "/adder"]], "news of a call that there is not"),
+        (
+            [CALL, ["response", 9, "AAEAAA=="]],
+            "a response that is no example_interfaces/srv/AddTwoInts_Response",
+        ),
+        ([["received", 9]], "news of a call that there is not"),
+        (
+            [["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False]],
+            "a goal of '/fib', of which '/talker' has no client",
+        ),
+        ([["goal", 9, "/fib", ACTS[6], "", ID, TWIST, False]], "a goal that nobody has sent"),
+        ([["goal", 9, "/fib", ACTS[6], "", "xyz", TWIST, False]], "a goal's id that is none"),
+        ([["goal", 9, "/fib", ACTS[6], "", "00", TWIST, False]], "a goal's id that is none"),
+        (
+            [ACTS, ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False], ["goal event", 9, "succeeded"]],
+            "a goal's event that can't be",
+        ),
+        (
+            [ACTS, ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False], ["goal result", 9, TWIST]],
+            "news of a goal that its server did not take",
+        ),
+        (
+            [
+                ACTS,
+                ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
+                ["goal taken", 9, "/a"],
+                ["goal taken", 9, "/b"],
+            ],
+            "a goal that another server has taken",
+        ),
+        ([["goal answered", 9]], "news of a goal that there is not"),
+    ],
+)  # fmt: skip
+def test_an_event_that_can_t_be_ends_the_run(events, words):
+    assert loses(news(*events)) == sent(words)
+
+
+@pytest.mark.parametrize(
+    ("claimed", "words"),
+    [
+        ({"logs": 5}, "logs that are no list"),
+        ({"logs": [["INFO", "talker"]]}, "logs that are not lists of 3"),
+        ({"logs": [["LOUD", "talker", "hi"]]}, "a log line of no known level"),
+        ({"logs": [["INFO", "talker", 5]]}, "a log line that is no text"),
+        ({"prints": [5]}, "a print that is no text"),
+        ({"nodes": [5]}, "a node's name that is no text"),
+        ({"errors": [["/a", "b", "c", "d", None]]}, "an error that is no text"),
+        ({"timers": [["/a", -1, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
+        ({"timers": [["/a", True, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
+        ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of no known kind"),
+        (
+            {"callbacks": [[0.5, 0, "/a", "b", "timer"]]},
+            "the beginning of a callback that is no number from 0 to 0",
+        ),
+        (
+            {"callbacks": [[0, 9, "/a", "b", "timer"]]},
+            "a callback's duration that is no number from 0 to 1e-09",
+        ),
+        ({"prints": [""] * 100_001}, "100001 prints at once; 100000 are allowed"),
+    ],
+)  # fmt: skip
+def test_a_claim_that_can_t_be_ends_the_run(claimed, words):
+    assert loses(claims(**claimed)) == sent(words)
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ({}, "events that are no list"),
+        (QUIET | {"next": 0}, "a next moment that is no whole number from 1 to 1000000000"),
+        (QUIET | {"next": END + 1}, "a next moment that is no whole number from 1 to 1000000000"),
+        (QUIET | {"next": None}, "a next moment that is no whole number from 1 to 1000000000"),
+        (QUIET | {"blocked": 5}, "a reason that is no text"),
+        (QUIET | {"fault": ["goal", "well done"]}, "a fault of no known kind"),
+        (QUIET | {"fault": "hang"}, "a fault of no known kind"),
+        (QUIET | {"fault": ["hang", 5]}, "a reason that is no text"),
+    ],
+)
+def test_an_answer_that_can_t_be_ends_the_run(answer, words):
+    assert loses(answer) == sent(words)
+
+
+def test_a_moment_that_has_passed_can_t_come_again():
+    assert loses(QUIET | {"next": END // 2}, QUIET | {"next": END // 4}) == sent(
+        "a next moment that is no whole number from 500000001 to 1000000000"
+    )
+
+
+def test_who_is_never_done_with_a_moment_is_given_up():
+    with answering(after=QUIET | {"busy": True}) as remote, pytest.raises(RemoteLost) as lost:
+        remote.total = 0.1
+        run(remote, seconds=1, quiet=True)
+    assert lost.value.reason == "The process with the nodes took more than 0.1 s for one run."
+
+
+def test_who_floods_gets_a_livelock():
+    hello = ["message", "/talker", "/chat", packed(String(data="hello"))]
+    with answering(news(TALKS, *[hello] * 20_001)) as remote:
+        recording = run(remote, seconds=1, quiet=True)
+    assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time move on.")
+
+
+def test_long_texts_are_cut_and_odd_ones_made_writable():
+    with answering(claims(logs=[["INFO", "a" * 999, "b" * 99_999], ["WARN", "x", "\ud800"]])) as remote:
+        recording = run(remote, seconds=1, quiet=True)
+    assert [(line.node, line.text) for line in recording.logs] == [("a" * 255, "b" * 20_000), ("x", "?")]
+
+
+def test_a_process_that_could_not_run_the_nodes_says_why():
+    assert loses({"failed": "TypeError: no"}) == "The nodes could not be run: TypeError: no."
+
+
+def test_what_is_no_json_ends_the_run():
+    near, far = socket.socketpair()
+    with near, far, pytest.raises(RemoteLost) as lost:
+        far.sendall(b"\0\0\0\1?")
+        run(Remote(Wire(near)), seconds=1, quiet=True)
+    assert lost.value.reason == ("The process with the nodes sent what is no answer: what came is no JSON.")
+
+
+def test_who_hung_up_before_the_run_is_gone():
+    near, far = socket.socketpair()
+    far.close()
+    with near, pytest.raises(RemoteLost) as lost:
+        run(Remote(Wire(near)), seconds=1, quiet=True)
+    assert lost.value.reason == "The process with the nodes has ended."
+
+
+# -- and the grader ----------------------------------------------------------------------------------
+
+
+class Companion(Node):
+    """Ours, and without a mistake."""
+
+    def __init__(self):
+        super().__init__("companion")
+
+
+@check(points=5)
+def talks(recording):
+    """The node talks."""
+    assert recording.messages("/chat"), "this check would be broken"
+
+
+TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Companion])
+
+
+def test_an_error_that_is_made_up_is_no_mistake_of_ours():
+    made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
+    with answering({"answer": None}, claims(errors=[made_up])) as remote:
+        score = TALKING.grade(remote)
+    assert (float(score), score.broken) == (0.0, [])
+
+
+def test_a_lost_process_is_no_mistake_of_ours():
+    with answering({"answer": None}, {"failed": "no"}) as remote, pytest.raises(RemoteLost):
+        TALKING.grade(remote)
+
+
+@pytest.mark.parametrize("answer", [5, ["saw"], ["saw", 5], {}, [["saw"], "hint"]])
+def test_a_refusal_that_can_t_be_is_a_lost_process(answer):
+    with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
+        TALKING.grade(remote)
+    assert lost.value.reason == "The process with the nodes did not say whether they can be run."
+
+
+def test_a_refusal_is_told_in_its_own_words():
+    with answering({"answer": ["None", "Write your class."]}) as remote:
+        score = TALKING.grade(remote)
+    assert float(score) == 0.0
+    assert (score.verdicts[0].saw, score.verdicts[0].hint) == ("None", "Write your class.")
