@@ -12,7 +12,7 @@ from typing import Any
 
 from grader.exercise import Exercise
 from grader.marking.orders import Patience
-from grader.marking.outputs import Outputs
+from grader.marking.outputs import Outputs, Screen
 from grader.score import Score
 from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
 
@@ -68,6 +68,7 @@ class Pupil:
         if self._hear("It did not start.") != {"ready": True}:
             raise Gone("It began with something else than it should.")
         self._say(files={name: base64.b64encode(data).decode() for name, data in files.items()})
+        self._listen(Outputs(Screen()))
         self._over = monotonic() + self._patience.notebook
 
     def run(self, source: str, outputs: Outputs) -> None:

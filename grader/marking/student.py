@@ -34,9 +34,9 @@ class Student:
     """Runs cells.
 
     Hears {"files": {name: base64}} once, then {"run": source, "seconds": limit} or {"test": source,
-    "seconds": limit} for each cell, until the judge hangs up. Says what `Outputs.take` takes, and {"done":
-    true} after each cell; in a test cell {"grade": name} when it calls `Exercise.grade`. If that is answered
-    by {"go": true}, the wire is the run's until it is over.
+    "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after each of these.
+    Before that it says what a cell shows, as `Outputs.take` takes it, and in a test cell {"grade": name} when
+    that calls `Exercise.grade`. If the answer is {"go": true}, the wire is the run's until that is over.
     """
 
     def __init__(self, wire: Wire, sock: socket.socket) -> None:
@@ -63,9 +63,10 @@ class Student:
                     for name, content in files.items():
                         Path(name).parent.mkdir(parents=True, exist_ok=True)
                         Path(name).write_bytes(base64.b64decode(content))
+                    self._wire.send(done=True)
 
     async def _called(self) -> None:
-        """Let what cells have left running go on until the judge speaks."""
+        """Let what cells have left running go on until the judge speaks, who speaks when nothing is open."""
         speaks = asyncio.Event()
         self._loop.add_reader(self._sock, speaks.set)
         try:
