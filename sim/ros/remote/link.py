@@ -1,9 +1,11 @@
 """One side of a run in two processes: what its nodes did goes out as news, the other side's news come in.
 
 Both sides have an engine with the same clock and take turns at each moment. What crosses is what nodes can
-hear of each other: which ends they declare, messages, requests and responses. An event is a list, its first
-item a word of `Link.EVENTS`. Numbers of ends and keys of requests are chosen by the side that begins to use
-them.
+hear of each other: which ends they declare, messages, requests and responses. Not /rosout: who listens there
+hears the nodes of its own side.
+
+An event is a list, its first item a word of `Link.EVENTS`. Numbers of ends and keys of requests are chosen by
+the side that begins to use them.
 """
 
 from __future__ import annotations

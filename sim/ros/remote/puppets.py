@@ -33,11 +33,18 @@ class PuppetNode:
         with context:
             self.handle = _rclpy.Node(name, namespace, context, None, False, False)
         self.name = self.handle.get_fully_qualified_name()
+        # Every node has this service, made by C++ where no hook sees it. Nobody answers at this one.
+        self._description = _rclpy.TypeDescriptionService(self.handle)
         self.ends: set[int] = set()
 
     def get_fully_qualified_name(self) -> str:
         """As rclpy's nodes."""
         return self.name
+
+    def destroy(self) -> None:
+        """Take it out of the graph."""
+        _destroy(self._description)
+        _destroy(self.handle)
 
 
 class Part:
@@ -245,7 +252,7 @@ class Puppets:
         for key, node in list(self.nodes.items()):
             node.ends.discard(number)
             if not node.ends:
-                _destroy(self.nodes.pop(key).handle)
+                self.nodes.pop(key).destroy()
         self._engine.endpoints_changed()
 
     def publisher(self, node: str, topic: str) -> PuppetPublisher | None:

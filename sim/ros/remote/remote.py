@@ -48,6 +48,8 @@ class Remote:
     def __call__(self) -> None:
         """The program that stands for the others in a run."""
         run = engine()
+        if run.link is not None:
+            raise RemoteLost("Only one other process can have nodes in a run.")
         self._waited = 0.0
         with outside_student_code():
             turn = _Turn(self, run)

@@ -10,7 +10,7 @@ from sim.ros.endings import blocked
 from sim.ros.fibers import Livelock, Nanoseconds
 from sim.ros.processes import StudentProcess
 from sim.ros.remote.reports import Reports
-from sim.ros.remote.wire import Wire, WireBroken, WireError
+from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
 from sim.ros.session import Session
 
 MOST_WRITTEN = 100_000  # characters on stderr that are told
@@ -47,7 +47,7 @@ def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
         session = Follower(wire, programs, order["seconds"], order["seed"])
         session.advance()
         wire.send(stderr=session.recording.stderr[:MOST_WRITTEN])
-    except WireError:
+    except (WireClosed, WireTimeout):
         raise
     except Exception as error:
         wire.send(failed=f"{type(error).__name__}: {error}")

@@ -79,6 +79,20 @@ class Spy(Honest):
         self.get_logger().info(f"{','.join(found)} {random.random()} {os.environ.get('COURSE_SECRET')}")
 
 
+class Garbage(Honest):
+    """Publishes bytes that are no message."""
+
+    def try_it(self):
+        self.publisher.publish(b"\0\1\0\0\xff\xff\xff\xff")
+
+
+class Heavy(Honest):
+    """Publishes more than the wire takes at once."""
+
+    def try_it(self):
+        self.publisher.publish(String(data="x" * 60_000_000))
+
+
 class Killed(Honest):
     def try_it(self):
         os.kill(os.getpid(), signal.SIGKILL)

@@ -6,6 +6,7 @@ from dataclasses import asdict
 import pytest
 
 from sim import Recording, run
+from tests.sim.ros.remote import observers
 
 ENGINE = "tests.students.engine"
 ALONE = {
@@ -65,6 +66,19 @@ TOGETHER = [
 ]
 
 
+OBSERVERS = "tests.sim.ros.remote.observers"
+LOOKING = [
+    ("Burst", "ShortListener"),
+    ("ShortListener", "Burst"),
+    ("LateTalker", "LateListener"),
+    ("LateListener", "LateTalker"),
+    ("PickyListener", "SloppyTalker"),
+    ("SloppyTalker", "PickyListener"),
+    ("Setter", "Gossip"),
+    ("Gossip", "Setter"),
+]
+
+
 def found(module: str, name: str):
     return getattr(importlib.import_module(f"{ENGINE}.{module}"), name)
 
@@ -89,6 +103,30 @@ def test_what_both_sides_say_to_each_other_is_recorded_as_in_one(apart, ours, th
     with apart.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
         there = run(found(*ours), remote, seconds=8, quiet=True)
     assert evidence(there) == evidence(run(found(*ours), found(*theirs), seconds=8, quiet=True))
+
+
+@pytest.mark.parametrize(("ours", "theirs"), LOOKING)
+def test_topics_of_all_kinds_are_as_in_one(apart, ours, theirs):
+    with apart.serving(OBSERVERS, theirs) as remote:
+        there = run(getattr(observers, ours), remote, seconds=5.5, quiet=True)
+    here = run(getattr(observers, ours), getattr(observers, theirs), seconds=5.5, quiet=True)
+    assert evidence(there) == evidence(here)
+    assert there.logs or there.messages("/answer")
+
+
+def test_a_node_elsewhere_sees_the_graph_as_it_is(apart):
+    ours = found("services", "Adder"), found("actions", "Server"), observers.PickyListener
+    with apart.serving(OBSERVERS, "Observer") as remote:
+        there = run(*ours, remote, world="room", seconds=2, quiet=True)
+    here = run(*ours, observers.Observer, world="room", seconds=2, quiet=True)
+    assert [line.text for line in there.logs] == [line.text for line in here.logs]
+
+
+def test_a_node_elsewhere_is_seen_as_it_is(apart):
+    with apart.serving(f"{ENGINE}.actions", "Server") as remote:
+        there = run(observers.Observer, remote, seconds=2, quiet=True)
+    here = run(observers.Observer, found("actions", "Server"), seconds=2, quiet=True)
+    assert [line.text for line in there.logs] == [line.text for line in here.logs]
 
 
 def test_several_nodes_of_a_student_live_in_one_process(apart):

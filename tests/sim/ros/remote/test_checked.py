@@ -1,0 +1,73 @@
+"""Bytes from the other process: whatever they are, they are a message or they are refused."""
+
+import base64
+import random
+
+import pytest
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from rcl_interfaces.msg import Parameter, ParameterEvent
+from rclpy.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_best_available,
+    qos_profile_parameter_events,
+    qos_profile_sensor_data,
+)
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+
+from sim.ros.codec import encode
+from sim.ros.remote.checked import Nonsense, message, packed, plain_qos, qos
+
+MESSAGES = (
+    String(data="hello world"),
+    LaserScan(ranges=[1.0] * 360),
+    Odometry(),
+    Path(poses=[PoseStamped()] * 5),
+    OccupancyGrid(data=[0] * 500),
+    ParameterEvent(new_parameters=[Parameter(name="speed")]),
+)
+
+
+@pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)
+def test_a_message_comes_as_it_was(original):
+    found, raw = message(packed(encode(original)), type(original), "a message")
+    assert found == original
+    assert message(packed(raw), type(original), "a message")[0] == original
+
+
+@pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)
+def test_spoilt_bytes_are_another_message_or_none(original):
+    chance = random.Random(5)
+    refused = 0
+    for _ in range(500):
+        raw = bytearray(encode(original))
+        cut = chance.randrange(len(raw))
+        if chance.random() < 0.5:
+            raw = raw[:cut] + chance.randbytes(chance.randrange(20))
+        else:
+            raw[cut : cut + 4] = chance.choice(
+                (b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", chance.randbytes(4))
+            )
+        try:
+            _, written = message(base64.b64encode(raw).decode(), type(original), "a message")
+        except Nonsense:
+            refused += 1
+        else:
+            message(packed(written), type(original), "a message")
+    assert refused > 0
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [
+        QoSProfile(depth=7),
+        qos_profile_sensor_data,
+        qos_profile_action_status_default,
+        qos_profile_parameter_events,
+        qos_profile_best_available,
+    ],
+)
+def test_a_qos_profile_crosses_whole(profile):
+    assert qos(plain_qos(profile)) == profile

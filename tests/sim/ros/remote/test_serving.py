@@ -1,0 +1,113 @@
+"""The process with the nodes: what it does when it is told, and who judges there."""
+
+import socket
+import threading
+
+import pytest
+from rclpy.node import Node
+
+import grader.exercise
+from grader import Exercise, check
+from sim import Process, run
+from sim.ros.remote import Remote, RemoteLost, Wire, WireBroken, WireClosed, WireTimeout, serve
+
+
+@check(points=5)
+def is_there(recording):
+    """The node is there."""
+    assert recording.graph.nodes
+
+
+BEING = Exercise("being", "Being there", [is_there], seconds=1)
+
+
+class Idle(Node):
+    def __init__(self):
+        super().__init__("idle")
+
+
+@pytest.fixture
+def wires():
+    near, far = socket.socketpair()
+    with near, far:
+        yield Wire(near), Wire(far)
+
+
+def test_the_last_message_is_what_serve_returns(wires):
+    Remote(wires[0]).end(points=5, text="well done")
+    assert serve(wires[1], [Idle]) == {"do": "end", "points": 5, "text": "well done"}
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [
+        ({"do": "dance"}, "nobody here knows how to dance"),
+        ({"do": "ask", "question": "why"}, "nobody here knows how to ask why"),
+        ({}, "nobody here knows how to None"),
+    ],
+)
+def test_what_it_does_not_know_it_does_not_do(wires, order, words):
+    wires[0].send(**order)
+    with pytest.raises(WireBroken, match=f"^{words}$"):
+        serve(wires[1], [Idle])
+
+
+def test_it_ends_with_the_wire(wires):
+    wires[0].close()
+    with pytest.raises(WireClosed):
+        serve(wires[1], [Idle])
+
+
+@pytest.mark.parametrize("nodes", [[None], [5], ["Idle"]])
+def test_it_tells_whether_there_is_something_to_run(wires, nodes):
+    wires[0].send(do="ask", question="refusal")
+    Remote(wires[0]).end()
+    serve(wires[1], nodes)
+    saw, hint = wires[0].receive(1)["answer"]
+    assert saw
+    assert hint
+
+
+def test_nodes_that_can_t_be_run_are_told_of(wires):
+    wires[0].send(do="run", seconds=1.0, seed=0, preparation="")
+    Remote(wires[0]).end()
+    serve(wires[1], [5])
+    assert wires[0].receive(1) == {
+        "failed": "TypeError: grade() takes Node classes, functions that return a node, or main() functions;"
+        " this is 5."
+    }
+
+
+def test_where_another_process_judges_a_test_cell_only_offers_its_nodes(monkeypatch):
+    offered = []
+    monkeypatch.setattr(grader.exercise, "offer", lambda *offer: offered.append(offer) or "judged elsewhere")
+    assert BEING.grade(Idle, Process) == "judged elsewhere"
+    assert offered == [(BEING, (Idle, Process))]
+
+
+def test_only_one_other_process_takes_part(wires):
+    def answer():
+        far, quiet = wires[1], {"news": [], "claims": {}, "next": 10**9, "busy": False, "alive": True}
+        for _ in range(2):
+            far.receive()
+        far.send(**quiet, fault=None, blocked="")
+        far.receive()
+        far.send(stderr="")
+
+    thread = threading.Thread(target=answer)
+    thread.start()
+    with pytest.raises(RemoteLost) as lost:
+        run(Remote(wires[0]), Remote(wires[0]), seconds=1, quiet=True)
+    thread.join()
+    assert lost.value.reason == "Only one other process can have nodes in a run."
+
+
+def test_a_process_that_does_not_let_go_is_given_up(wires):
+    remote = Remote(Wire(wires[0]._socket, patience=0.05))
+    with pytest.raises(RemoteLost) as lost:
+        remote.end(text="x" * 5_000_000)
+    assert lost.value.reason == "The process with the nodes gave no answer for 30 s."
+
+
+def test_the_wire_s_errors_are_of_one_family():
+    assert issubclass(WireTimeout, WireBroken.__base__)
