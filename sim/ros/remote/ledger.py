@@ -18,7 +18,7 @@ from sim.ros.fibers import SECOND
 from sim.ros.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.checked import MOST_TEXT, Nonsense, interface, message, number, rows, text, whole
 from sim.ros.remote.link import MOST_NAME, Event, Link
-from sim.ros.remote.puppets import PuppetClient, PuppetNode, PuppetPublisher
+from sim.ros.remote.parts import PuppetClient, PuppetNode, PuppetPublisher
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine

@@ -22,7 +22,8 @@ from sim.ros.cdr import canonical
 from sim.ros.codec import encode, type_name
 from sim.ros.recorder import OwnEnd
 from sim.ros.remote.checked import Nonsense, interface, message, packed, plain_qos, qos, rows, text, whole
-from sim.ros.remote.puppets import ACTIONS, PuppetClient, PuppetPublisher, Puppets, PuppetService
+from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
+from sim.ros.remote.puppets import ACTIONS, Puppets
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine

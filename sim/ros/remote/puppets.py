@@ -1,7 +1,6 @@
 """Puppets: they stand in this process for the nodes of another one, and for what these have declared.
 
-They are made below rclpy's classes: no callback of theirs runs here, and no hook takes them for nodes of this
-process. An action is made of what ROS makes it of: three services and two topics.
+An action is made of what ROS makes it of: three services and two topics.
 """
 
 from __future__ import annotations
@@ -11,129 +10,25 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from rclpy.exceptions import InvalidHandle
-from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import (
     QoSProfile,
     qos_profile_action_status_default,
     qos_profile_services_default,
 )
 
+from sim.ros.remote.parts import (
+    Part,
+    PuppetClient,
+    PuppetNode,
+    PuppetPublisher,
+    PuppetService,
+    PuppetSubscription,
+    RCLError,
+    destroy,
+)
+
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
-
-RCLError = _rclpy.RCLError
-
-
-class PuppetNode:
-    """A node of the other side; in the ROS graph of this one it has the same name."""
-
-    def __init__(self, engine: Engine, namespace: str, name: str) -> None:
-        context = engine.context.handle
-        with context:
-            self.handle = _rclpy.Node(name, namespace, context, None, False, False)
-        self.name = self.handle.get_fully_qualified_name()
-        # Every node has this service, made by C++ where no hook sees it. Nobody answers at this one.
-        self._description = _rclpy.TypeDescriptionService(self.handle)
-        self.ends: set[int] = set()
-
-    def get_fully_qualified_name(self) -> str:
-        """As rclpy's nodes."""
-        return self.name
-
-    def destroy(self) -> None:
-        """Take it out of the graph."""
-        _destroy(self._description)
-        _destroy(self.handle)
-
-
-class Part:
-    """One publisher, subscription, service or client of a node of the other side."""
-
-    made_by: Any
-
-    def __init__(self, node: PuppetNode, type_: type, name: str, profile: QoSProfile) -> None:
-        self.node, self.type, self.name, self.qos_profile = node, type_, name, profile
-        with node.handle:
-            self.handle = self.made_by(node.handle, type_, name, profile.get_c_qos_profile())
-
-    @property
-    def of_action(self) -> bool:
-        """Whether it is a part of an action, of which rclpy's classes show nothing."""
-        return "/_action/" in self.name
-
-
-class PuppetPublisher(Part):
-    """Publishes here what the other side's publisher has published."""
-
-    made_by = _rclpy.Publisher
-
-    @property
-    def topic_name(self) -> str:
-        """As rclpy's publishers."""
-        return self.name
-
-    def wait_for_all_acked(self, timeout: Any) -> bool:
-        """As rclpy's publishers."""
-        return self.handle.wait_for_all_acked(timeout._duration_handle)
-
-
-class PuppetSubscription(Part):
-    """Makes publishers here find who listens on the other side."""
-
-    made_by = _rclpy.Subscription
-
-    def take(self) -> bytes | None:
-        """The next message's bytes."""
-        taken = self.handle.take_message(self.type, True)
-        return None if taken is None else taken[0]
-
-
-class PuppetService(Part):
-    """Takes the requests that are made here, and gives the other side's responses."""
-
-    made_by = _rclpy.Service
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self.srv_type, self.service_name = self.type, self.name
-        self.waiting: dict[int, tuple[Any, Any]] = {}  # by key on the wire: a request's header, the request
-
-    def take(self) -> tuple[Any, Any] | None:
-        """The next request and its header."""
-        request, header = self.handle.service_take_request(self.type.Request)
-        return None if header is None else (request, header.request_id)
-
-    def answer(self, key: int, response: Any) -> Any:
-        """Send the response to a request, which is given back."""
-        header, request = self.waiting.pop(key)
-        with contextlib.suppress(RCLError):  # the client may have gone away
-            self.handle.service_send_response(response, header)
-        return request
-
-
-class PuppetClient(Part):
-    """Asks services here what the other side's client has asked."""
-
-    made_by = _rclpy.Client
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self.srv_type = self.type
-        self.asked: dict[int, int] = {}  # a request's number here, and its key on the wire
-
-    def ask(self, key: int, request: Any) -> int:
-        """Send a request; gives its number."""
-        number = self.handle.send_request(request)
-        self.asked[number] = key
-        return number
-
-    def take(self) -> tuple[int, Any] | None:
-        """The next response, and the key of its request."""
-        header, response = self.handle.take_response(self.type.Response)
-        if header is None:
-            return None
-        return self.asked.pop(header.request_id.sequence_number, None), response
 
 
 class PuppetAction:
@@ -247,7 +142,7 @@ class Puppets:
                 self.listening.remove(part)
             else:
                 self.wanted[part.name] -= 1
-            _destroy(part.handle)
+            destroy(part.handle)
         self.actions.pop(number, None)
         for key, node in list(self.nodes.items()):
             node.ends.discard(number)
@@ -274,8 +169,3 @@ class Puppets:
         """Destroy all."""
         for number in list(self._ends):
             self.remove(number)
-
-
-def _destroy(handle: Any) -> None:
-    with contextlib.suppress(InvalidHandle):
-        handle.destroy_when_not_in_use()

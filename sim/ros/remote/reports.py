@@ -15,7 +15,7 @@ from sim.recording import Heard
 from sim.ros.codec import encode
 from sim.ros.remote.checked import packed
 from sim.ros.remote.link import Event, Link
-from sim.ros.remote.puppets import PuppetClient, PuppetPublisher, PuppetService
+from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
