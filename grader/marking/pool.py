@@ -101,8 +101,7 @@ class Pool:
                 why = str(reason)
             if self._closed:
                 break
-        words = "This could not be marked; your instructor will look at it."
-        return Result(task.student, task.assignment, task.key, "refused", f"{words} {why}", flags=[why])
+        return refused(task, why)
 
     def _once(self, task: Task) -> Result:
         """Mark in fresh processes. Raises Failed and SandboxFailed."""
@@ -127,7 +126,7 @@ class Pool:
                             return _with_use(Result.from_json(text), judge, pupils)
                         case {"failed": why}:
                             raise Failed(why)
-            except (WireTimeout, TimeoutError):
+            except WireTimeout:
                 raise Failed(f"It took more than {self._longest(task):g} s.") from None
             except (WireError, OSError):
                 raise Failed(f"The judge's process broke off. {_ending(judge)}") from None
@@ -155,6 +154,12 @@ class Pool:
         self._running.discard(process)
 
 
+def refused(task: Task, why: str) -> Result:
+    """The result of a submission that could not be marked, for no fault that anybody knows of."""
+    words = "This could not be marked; your instructor will look at it."
+    return Result(task.student, task.assignment, task.key, "refused", f"{words} {why}", flags=[why])
+
+
 def _ending(process: Inmate) -> str:
     """How a process ended that has hung up, as a sentence; "" if it hasn't ended."""
     try:
@@ -165,7 +170,9 @@ def _ending(process: Inmate) -> str:
 
 def _with_use(result: Result, judge: Inmate, pupils: list[Inmate]) -> Result:
     """The result with what its processes used: seconds of computing, and memory of the student's, in MB."""
-    endings = [process.wait(END_S) for process in (judge, *pupils)]
+    processes = (judge, *pupils)
+    for process in processes:
+        process.kill()  # a student's may still be in a cell that nobody could interrupt
+    computing = sum(process.wait().cpu_s for process in processes)
     memory = max((pupil.memory() for pupil in pupils), default=0.0)
-    used = {"computing": sum(ending.cpu_s for ending in endings), "memory": memory}
-    return replace(result, timings=result.timings | used)
+    return replace(result, timings=result.timings | {"computing": computing, "memory": memory})

@@ -15,9 +15,8 @@ from grader.marking import testcells
 from grader.marking.office.course import Course, CourseError
 from grader.marking.plan import Task
 from grader.marking.submission import submission_key
+from grader.marking.version import code_version
 
-CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim")
 REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
 
 
@@ -40,7 +39,8 @@ def tasks(course: Course, assignment: str, chosen: Collection[str] = (), secret:
             here = course.submitted(student, assignment)
             advice = _near(student, found) or f"{len(found)} students have handed it in"
             raise CourseError(f"{student} has not handed in {assignment}, {here} is missing: {advice}")
-    release, fingerprint, version = course.release(assignment), _digest(secret.encode()), code_version()
+    fingerprint = hashlib.sha256(secret.encode()).hexdigest()
+    release, version = course.release(assignment), code_version()
     return [
         Task(student, assignment, folder, release, submission_key(folder, release, fingerprint, version))
         for student, folder in sorted(found.items())
@@ -74,15 +74,6 @@ def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str
             raise CourseError(f"the test cell {cell} of {notebook}.ipynb {gives}: {REMAKE}")
 
 
-def code_version() -> str:
-    """A digest of the code that marks: with other code, submissions are marked again."""
-    files = (path for package in PACKAGES for path in (CODE / package).rglob("*") if path.is_file())
-    parts: list[bytes] = []
-    for path in sorted(path for path in files if "__pycache__" not in path.parts):
-        parts += [str(path.relative_to(CODE)).encode(), path.read_bytes()]
-    return _digest(*parts)
-
-
 def _check_tests(notebook: NotebookNode) -> None:
     try:
         testcells.graded(notebook)
@@ -111,10 +102,3 @@ def _content(notebook: NotebookNode) -> list[tuple[str, str, Any]]:
 def _near(name: str, names: Iterable[str]) -> str:
     near = difflib.get_close_matches(name, list(names), n=1)
     return f"did you mean {near[0]}?" if near else ""
-
-
-def _digest(*parts: bytes) -> str:
-    whole = hashlib.sha256()
-    for part in parts:
-        whole.update(len(part).to_bytes(8) + part)
-    return whole.hexdigest()

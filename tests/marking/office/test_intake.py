@@ -5,7 +5,7 @@ import pytest
 
 from grader.marking.office.course import CourseError
 from grader.marking.office.gradebook import Book
-from grader.marking.office.intake import check_release, code_version, tasks
+from grader.marking.office.intake import check_release, tasks
 from tests.marking.classroom import ASSIGNMENT, POINTS, WRITTEN, release_again
 
 REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
@@ -49,11 +49,6 @@ def test_the_key_changes_with_submission_release_and_secret_and_with_nothing_els
     assert [new == old for new, old in zip(keys(), before, strict=True)] == [True, False, True]
     edit(course.release(ASSIGNMENT) / "nodes.ipynb", test_line="nodes.line.grade(Other)")
     assert not set(keys()) & set(before)
-
-
-def test_the_version_is_that_of_the_code():
-    assert code_version() == code_version()
-    assert len(code_version()) == 64
 
 
 def test_an_assignment_that_is_not_there_is_named_with_the_nearest(course):
