@@ -50,11 +50,25 @@ class StudentStream:
         return getattr(self._original, name)
 
 
+_streams: dict[str, StudentStream] = {}  # the last ones, by channel
+
+
+def _student_stream(original: Any, channel: str) -> StudentStream:
+    """The same for the same original: print() in another thread may still be using it when a run is over, and
+    Python can crash if it is gone by then.
+    """
+    last = _streams.get(channel)
+    if last is None or last._original is not original:
+        _streams[channel] = last = StudentStream(original, channel)
+    return last
+
+
 @contextlib.contextmanager
 def student_streams() -> Iterator[None]:
     """Redirect Python's stdout and stderr for the time of a run to its `printed` and `complained`."""
     stdout, stderr = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = StudentStream(stdout, "printed"), StudentStream(stderr, "complained")
+    sys.stdout = _student_stream(stdout, "printed")
+    sys.stderr = _student_stream(stderr, "complained")
     held = [*_hold(stdout, "printed"), *_hold(stderr, "complained")]
     try:
         yield

@@ -115,3 +115,29 @@ def test_a_kept_reference_to_stdout_is_followed_too(capsys):
     assert "".join(text for _, text in recording.prints) == "straight\n"
     print("after", file=kept)
     assert capsys.readouterr().out == "after\n"
+
+
+PRINTS_ALWAYS = """
+import os, sys, threading
+from rclpy.node import Node
+from sim import run
+
+class Out:
+    def write(self, text): return len(text)
+    def flush(self): pass
+
+def haunt():
+    while True:
+        print("x")
+
+sys.stdout = Out()
+threading.Thread(target=haunt, daemon=True).start()
+for _ in range(5):
+    run(lambda: Node("quiet"), seconds=1)
+os._exit(0)
+"""
+
+
+def test_a_thread_that_prints_all_the_time_outlives_runs():
+    done = subprocess.run([sys.executable, "-c", PRINTS_ALWAYS], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
