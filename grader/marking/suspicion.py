@@ -75,7 +75,7 @@ METHODS = {
     "_repr_mimebundle_": "decides how it is shown",
     "_ipython_display_": "decides how it is shown",
 }
-SECRETS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/")
+WORDS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/", "<script", "onerror=", "javascript:")
 SHELL = ("system", "getoutput")  # what IPython makes of !command
 
 
@@ -131,7 +131,7 @@ def _judge(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
     elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name in METHODS:
         yield f"defines `{node.name}`, which {METHODS[node.name]}"
     elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (f"speaks of `{word}`" for word in SECRETS if word in node.value)
+        yield from (f"speaks of `{word}`" for word in WORDS if word in node.value)
 
 
 def _imported(module: str) -> Iterator[str]:

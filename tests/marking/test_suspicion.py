@@ -96,7 +96,6 @@ def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
         "nasty_class",
         "print_flood",
         "printed_score",
-        "script_in_html",
         "shuts_rclpy_down",
         "thread_bomb",
     }

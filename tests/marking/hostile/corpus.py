@@ -16,12 +16,16 @@ import copy
 import json
 import re
 import shutil
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import nbformat
 from nbformat import NotebookNode
 
+from grader.marking.orders import Patience
+from grader.marking.plan import Task
+from grader.marking.pool import Pool
 from grader.marking.release import release
 from grader.marking.result import Result
 from grader.marking.samples import submission
@@ -31,14 +35,15 @@ PAGE = Path(__file__).with_name("corpus.txt")
 ASSIGNMENT, NAME = "02_small", "topics.ipynb"
 SECRET = "a secret of this test"
 HONEST = {"honest_right": 1.0, "honest_half": 0.5, "honest_starter": 0.0}
-KEPT = re.compile(r"title|set-?up|temperature|square|intro|imports")
+KEPT = re.compile(r"setup|(temperature|square)(-points)?")
+QUICK = Patience(cell=4.0, test=15.0)
 
 
 def course(folder: Path) -> Path:
     """Write a course with one assignment, two exercises of 02_topics, and release it."""
     shutil.copy(ROOT / "nbgrader_config.py", folder)
     notebook = nbformat.read(ROOT / "solutions" / "02_topics" / NAME, 4)
-    notebook.cells = [cell for cell in notebook.cells if KEPT.match(cell.id)]
+    notebook.cells = [cell for cell in notebook.cells if KEPT.fullmatch(cell.id)]
     source = folder / "solutions" / ASSIGNMENT / NAME
     source.parent.mkdir(parents=True)
     nbformat.write(notebook, source)
@@ -84,6 +89,15 @@ def with_trick(notebook: NotebookNode, text: str) -> NotebookNode:
         else:
             notebook.cells.insert(index + 1, nbformat.v4.new_code_cell(source.strip(), id="extra"))
     return notebook
+
+
+def mark(folder: Path, names: Sequence[str], jobs: int = 2) -> dict[str, Result]:
+    """Mark those who handed in; name to result."""
+    submitted, released = folder / "class" / "submitted", folder / "exercises" / ASSIGNMENT
+    tasks = [Task(name, ASSIGNMENT, submitted / name / ASSIGNMENT, released, "00") for name in names]
+    with Pool(folder, jobs, secret=SECRET, patience=QUICK) as pool:
+        found = {result.student: result for result in pool.mark(tasks)}
+    return {name: found[name] for name in names}
 
 
 def block(result: Result) -> str:
@@ -208,7 +222,7 @@ def linked_secret(place: Path, notebook: NotebookNode) -> None:
 def huge_outputs(place: Path, notebook: NotebookNode) -> None:
     """The notebook was saved with 30 MB of output."""
     output = nbformat.v4.new_output("stream", name="stdout", text="x" * 30_000_000)
-    _cell(notebook, "temperature-see").outputs = [output]
+    _cell(notebook, "temperature").outputs = [output]
     nbformat.write(notebook, place / NAME)
 
 
@@ -240,3 +254,15 @@ DAMAGES = (
     huge_outputs,
     other_types,
 )
+
+
+def write_page() -> None:
+    """Mark everybody, and write down what each gets."""
+    with tempfile.TemporaryDirectory() as folder:
+        names = submit(course(Path(folder)))
+        results = mark(Path(folder), names)
+    PAGE.write_text("\n\n".join(map(block, results.values())) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write_page()
