@@ -23,6 +23,7 @@ from grader.marking.pupil import Gone, Pupil
 from grader.marking.rebuild import Mended, mend
 from grader.marking.result import CellResult, NotebookResult, Result
 from grader.marking.submission import Release, load
+from grader.marking.suspicion import suspicions
 from grader.marking.testcells import graded, is_test
 from grader.marking.testcells import load as load_exercise
 from grader.marking.words import Unusable, quoted
@@ -89,10 +90,11 @@ def _notebook(marking: Marking, name: str, files: Mapping[str, bytes], pupils: P
     if rebuilt is None:
         marking.stops.append(marking.mended.missing[name])
     else:
+        marking.flags += _tricks(notebook, marking.release.notebooks[name])
         _Desk(marking, name, exercises, results).work(notebook, files, pupils)
     done = {result.cell for result in results}
-    missed = [cell for cell in notebook.cells if is_test(cell) and _grade_id(cell) not in done]
-    results += [_nothing(cell, exercises[_grade_id(cell)]) for cell in missed]
+    missed = [cell for cell in notebook.cells if is_test(cell) and _name(cell) not in done]
+    results += [_nothing(cell, exercises[_name(cell)]) for cell in missed]
     return NotebookResult(name, notebook, results)
 
 
@@ -143,7 +145,7 @@ class _Desk:
 
     def _test(self, pupil: Pupil, cell: NotebookNode, number: int, shown: Outputs) -> list[dict[str, Any]]:
         """Judge what a test cell hands over; returns the cell's outputs, which are the judge's own."""
-        grade_id = _grade_id(cell)
+        grade_id = _name(cell)
         exercise = self._exercises[grade_id]
         tested = pupil.test(cell.source, exercise, shown)
         self._flag(cell, tested.flags)
@@ -166,25 +168,35 @@ class _Desk:
         """Our own mistake: the instructor has to look."""
         last = traceback.format_exception_only(error)[-1].strip()
         self._flag(cell, [f"could not be judged, by a mistake of the course: {last}"])
-        self._results.append(replace(_nothing(cell, self._exercises[_grade_id(cell)]), needs_look=True))
+        self._results.append(replace(_nothing(cell, self._exercises[_name(cell)]), needs_look=True))
         words = "This cell could not be judged, by a mistake of the course. Your instructor will look at it."
         return [{"output_type": "stream", "name": "stdout", "text": words + "\n"}]
 
     def _flag(self, cell: NotebookNode, problems: Sequence[str]) -> None:
-        name = f"The test cell {quoted(_grade_id(cell))}"
+        name = f"The test cell {quoted(_name(cell))}"
         self._marking.flags += [f"{name}: {plain(problem)}." for problem in problems]
 
 
+def _tricks(notebook: NotebookNode, release: NotebookNode) -> list[str]:
+    """A sentence for each suspicious thing in it that the release doesn't do itself."""
+    ours = set(suspicions(_sources(release)))
+    return [trick for trick in suspicions(_sources(notebook)) if trick not in ours]
+
+
+def _sources(notebook: NotebookNode) -> list[tuple[str, str]]:
+    return [(_name(cell) or cell.id, cell.source) for cell in notebook.cells if cell.cell_type == "code"]
+
+
 def _nothing(cell: NotebookNode, exercise: Exercise) -> CellResult:
-    return CellResult(_grade_id(cell), exercise.name, 0.0, float(cell.metadata.nbgrader.points))
+    return CellResult(_name(cell), exercise.name, 0.0, float(cell.metadata.nbgrader.points))
 
 
-def _grade_id(cell: NotebookNode) -> str:
-    return cell.metadata.nbgrader.grade_id
+def _name(cell: NotebookNode) -> str:
+    return cell.metadata.get("nbgrader", {}).get("grade_id", "")
 
 
 def _called(cell: NotebookNode, number: int) -> str:
-    name = cell.metadata.get("nbgrader", {}).get("grade_id")
+    name = _name(cell)
     return f"its cell {quoted(name)}" if name else f"its code cell {number}"
 
 

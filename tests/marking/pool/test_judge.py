@@ -166,7 +166,7 @@ def test_who_grades_twice_in_a_cell_is_judged_by_the_first_time(marked):
     bad = "type('Bad', (Node,), {'__init__': lambda self: Node.__init__(self, 'bad')})"
     result = marked(greeting_see=TRICK.format(body=f"honest(self, {bad})\n    return honest(self, *nodes)"))
     assert points(result)["greeting-points"] < 8
-    assert result.flags[0] == (
+    assert result.flags[-2] == (
         "The test cell `greeting-points`: graded more than once in one cell; the first time was judged."
     )
 
@@ -245,6 +245,14 @@ def test_files_that_the_release_brings_along_are_limited(tmp_path, seats, monkey
     (released / "map.txt").write_text("wall")
     with pytest.raises(ValueError, match="have 0 MB; expected 3e-06 at most"):
         mark(hand_in(tmp_path / "ann", released), "", seats)
+
+
+def test_what_only_a_trick_needs_is_flagged_where_it_stands(marked):
+    result = marked(greeting_see="import os, gc\nrun(Greeter, seconds=1)")
+    assert result.flags == [
+        "The cell `greeting-see` imports `gc`, which finds objects that it was not given."
+    ]
+    assert result.points == 23
 
 
 def test_half_characters_of_a_student_reach_nobody(marked):
