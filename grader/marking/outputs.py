@@ -13,12 +13,16 @@ from typing import Any
 MOST = 1_000_000  # characters that one cell shows
 MOST_OF_ALL = 20_000_000  # that all cells of a submission show
 MOST_OUTPUTS = 1_000  # of one cell
+MOST_LINES = 1_000  # of a traceback
+MOST_WORDS = 1_000  # characters that tell of a picture
+MOST_NAME = 200  # characters of a display_id
 LEFT_OUT = "\n[This cell showed more than a notebook can hold. The rest is left out.]\n"
 
 SHOWN = (
     "text/plain", "text/html", "text/markdown", "text/latex", "image/png", "image/jpeg", "image/svg+xml",
 )  # fmt: skip
 SIZES = ("width", "height")  # of a picture, in pixels
+MOST_PIXELS = 100_000
 
 
 class Outputs:
@@ -44,15 +48,22 @@ class Outputs:
         if event.get("update"):
             self._screen.update(identity, output)
         elif self._has_room(output):
-            self._begin()
             self._join(output)
-            if isinstance(identity, str):
-                self._screen.shown(identity, output)
+            if isinstance(identity, str) and "data" in output:
+                self._screen.shown(identity, self, output)
 
     def say(self, text: str) -> None:
         """Add a line of ours. It is there however much the cell showed."""
         self._begin()
         self._join({"output_type": "stream", "name": "stdout", "text": text.rstrip("\n") + "\n"})
+
+    def grow(self, more: int) -> bool:
+        """Take so much more room for an output of the cell, or give it back; whether there is that much."""
+        if self._used + more > MOST or more > self._screen.room:
+            return False
+        self._used += more
+        self._screen.room -= more
+        return True
 
     @property
     def printed(self) -> list[dict[str, Any]]:
@@ -63,6 +74,7 @@ class Outputs:
     def _begin(self) -> None:
         if self._clear:
             self.list.clear()
+            self._screen.forget(self)
             self._screen.room += self._used
             self._used, self._full, self._clear = 0, False, False
 
@@ -96,20 +108,24 @@ class Screen:
 
     def __init__(self) -> None:
         self.room = MOST_OF_ALL
-        self._displays: dict[str, list[dict[str, Any]]] = {}
+        self._displays: dict[str, list[tuple[Outputs, dict[str, Any]]]] = {}
 
-    def shown(self, identity: str, output: dict[str, Any]) -> None:
-        """Remember an output by its display_id."""
+    def shown(self, identity: str, cell: Outputs, output: dict[str, Any]) -> None:
+        """Remember an output of a cell by its display_id."""
         if len(self._displays) < MOST_OUTPUTS:
-            self._displays.setdefault(identity, []).append(output)
+            self._displays.setdefault(identity[:MOST_NAME], []).append((cell, output))
 
     def update(self, identity: Any, output: dict[str, Any]) -> None:
         """Let an output take the place of those with this display_id, if there are any."""
-        for old in self._displays.get(identity, ()) if isinstance(identity, str) else ():
-            more = size(output) - size(old)
-            if size(output) <= MOST and more <= self.room:
-                self.room -= more
-                old.update({key: output[key] for key in ("data", "metadata") if key in output})
+        known = self._displays.get(identity[:MOST_NAME], ()) if isinstance(identity, str) else ()
+        for cell, old in known if "data" in output else ():
+            if cell.grow(size(output) - size(old)):
+                old.update(data=output["data"], metadata=output["metadata"])
+
+    def forget(self, cell: Outputs) -> None:
+        """The outputs of a cell are gone."""
+        left = {name: [it for it in known if it[0] is not cell] for name, known in self._displays.items()}
+        self._displays = {name: known for name, known in left.items() if known}
 
 
 def made(output: Any) -> dict[str, Any] | None:
@@ -118,7 +134,7 @@ def made(output: Any) -> dict[str, Any] | None:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
             return {"output_type": "stream", "name": name, "text": plain(text)}
         case {"output_type": "error", "ename": str(name), "evalue": str(value), "traceback": [*lines]}:
-            lines = [plain(line) for line in lines if isinstance(line, str)]
+            lines = [plain(line) for line in lines[:MOST_LINES] if isinstance(line, str)]
             return {"output_type": "error", "ename": plain(name), "evalue": plain(value), "traceback": lines}
         case {"output_type": "display_data" | "execute_result" as kind, "data": dict(data)}:
             shown = {mime: plain(data[mime]) for mime in SHOWN if isinstance(data.get(mime), str)}
@@ -150,14 +166,22 @@ def _sizes(metadata: Any) -> dict[str, Any]:
     kept = {}
     for mime, settings in metadata.items() if isinstance(metadata, Mapping) else ():
         if mime in SHOWN and isinstance(settings, Mapping):
-            sizes = {key: settings[key] for key in SIZES if type(settings.get(key)) is int}
-            words = {"alt": plain(settings["alt"])} if isinstance(settings.get("alt"), str) else {}
-            if sizes or words:
-                kept[mime] = sizes | words
+            found = {key: settings[key] for key in SIZES if _is_size(settings.get(key))}
+            if isinstance(settings.get("alt"), str):
+                found["alt"] = plain(settings["alt"][:MOST_WORDS])
+            if found:
+                kept[mime] = found
     return kept
+
+
+def _is_size(value: Any) -> bool:
+    return type(value) is int and 0 < value < MOST_PIXELS
 
 
 def size(output: dict[str, Any]) -> int:
     """How much room an output takes, in characters."""
-    parts = [output.get("text", ""), *output.get("data", {}).values(), *output.get("traceback", ())]
-    return sum(map(len, (*parts, output.get("ename", ""), output.get("evalue", "")))) + 50
+    lines = output.get("traceback", ())
+    about = [settings.get("alt", "") for settings in output.get("metadata", {}).values()]
+    parts = [output.get("text", ""), *output.get("data", {}).values(), *lines, *about]
+    words = output.get("ename", ""), output.get("evalue", "")
+    return sum(map(len, (*parts, *words))) + 50 * (1 + len(lines))

@@ -83,6 +83,44 @@ def test_updates_have_the_same_limit():
     assert first == [picture("a")]
 
 
+def test_displays_that_were_cleared_are_forgotten():
+    screen = Screen()
+    cell = Outputs(screen)
+    for number in range(3):
+        cell.take({"output": picture(str(number)), "display_id": "x"})
+        cell.take({"clear": False})
+    assert (screen.room, screen._displays) == (outputs.MOST_OF_ALL, {})
+
+
+def test_updates_win_no_room():
+    screen = Screen()
+    cell = Outputs(screen)
+    for _ in range(5):
+        cell.take({"output": picture("x" * 900_000), "display_id": "x"})
+        cell.take({"output": picture(""), "display_id": "x", "update": True})
+        cell.take({"clear": False})
+    assert screen.room == outputs.MOST_OF_ALL
+
+
+def test_updates_can_t_fill_a_cell_beyond_its_limit():
+    frames = [{"output": picture(""), "display_id": name} for name in "abc"]
+    updates = [{"output": picture("x" * 600_000), "display_id": name, "update": True} for name in "abc"]
+    assert [len(output["data"]["text/plain"]) for output in shown(*frames, *updates)] == [600_000, 0, 0]
+
+
+def test_text_with_a_display_id_stays_text():
+    update = {"output": picture("p"), "display_id": "x", "update": True}
+    assert shown({"output": stream("a"), "display_id": "x"}, update) == [stream("a")]
+
+
+def test_lines_of_an_error_and_words_of_a_picture_are_limited_and_counted():
+    error = made({"output_type": "error", "ename": "", "evalue": "", "traceback": [""] * 10_000})
+    assert (len(error["traceback"]), outputs.size(error)) == (1_000, 50_050)
+    words = {"image/png": {"alt": "x" * 10_000, "width": 10**9, "height": True}}
+    output = made({"output_type": "display_data", "data": {"image/png": ""}, "metadata": words})
+    assert (output["metadata"], outputs.size(output)) == ({"image/png": {"alt": "x" * 1_000}}, 1_050)
+
+
 def test_words_of_ours_stand_even_in_a_full_cell():
     cell = Outputs(Screen())
     cell.take({"output": stream("x" * 2 * MOST)})
