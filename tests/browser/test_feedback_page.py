@@ -1,12 +1,17 @@
-"""The pages that nbgrader makes of a submission: ours plays in them, and nothing of the student's runs."""
+"""The pages that are made of a submission: ours plays in them, and nothing of the student's runs."""
+
+import contextlib
+import re
 
 import nbformat
 import pytest
 
+from grader.__main__ import main
 from grader.marking.demo import mark_samples
 from sim.view.replay import PLAYER_SCRIPT
 from tests.browser.lab import ROOT, server
 from tests.browser.pictures import Picture, watch
+from tests.marking.hostile import corpus
 from tests.marking.tiny import answer, course, grade
 
 pytestmark = pytest.mark.browser
@@ -87,4 +92,41 @@ def test_the_formgrader_plays_the_replay_and_nothing_of_the_submission(browser, 
         notebooks = f"{address}/formgrader/api/submitted_notebooks/01_tiny/tiny"
         right = next(one for one in page.request.get(notebooks).json() if one["student"] == "right")
         check_page(page, f"{address}/formgrader/submissions/{right['id']}/", "formgrader")
+        page.close()
+
+
+@pytest.fixture(scope="module")
+def marked_class(tmp_path_factory):
+    """A class marked by `python -m grader mark`: anna drives in circles, and shows a hostile page."""
+    folder = corpus.course(tmp_path_factory.mktemp("marked"))
+    starter = nbformat.read(folder / "exercises" / corpus.ASSIGNMENT / corpus.NAME, 4)
+    driver = re.sub("twist.linear.x = .*", "twist.linear.x, twist.angular.z = 0.3, 0.3", NODE)
+    driver = driver.replace("TooShort", "SquareDriver")
+    notebook = corpus.with_trick(starter, f"# %% square\n{driver}\n# %% after square-points\n{HOSTILE}")
+    notebook.cells.append(nbformat.v4.new_markdown_cell(f"<script>{STEAL}</script>", id="words"))
+    place = folder / "class" / "submitted" / "anna" / corpus.ASSIGNMENT
+    place.mkdir(parents=True)
+    nbformat.write(notebook, place / corpus.NAME)
+    with contextlib.chdir(folder):
+        assert main(["mark", corpus.ASSIGNMENT, "--jobs", "1"]) == 0
+    return folder
+
+
+def test_a_page_of_the_class_marker_plays_the_replay_and_tells_no_secret(browser, marked_class):
+    path = marked_class / "class" / "feedback" / "anna" / corpus.ASSIGNMENT / "topics.html"
+    page = browser.new_page(viewport={"width": 1100, "height": 900})
+    check_page(page, path.as_uri(), "feedback-of-mark")
+    assert page.get_by_text("Expected:").count() > 0
+    page.close()
+    text = path.read_text()
+    assert [word for word in (corpus.SECRET, str(marked_class), "site-packages") if word in text] == []
+
+
+def test_the_formgrader_plays_the_replay_of_the_class_marker(browser, marked_class):
+    with server(marked_class, "--allow-root") as address:
+        page = browser.new_page(viewport={"width": 1100, "height": 900})
+        notebooks = f"{address}/formgrader/api/submitted_notebooks/{corpus.ASSIGNMENT}/topics"
+        (anna,) = page.request.get(notebooks).json()
+        assert (anna["student"], anna["max_score"]) == ("anna", 33)
+        check_page(page, f"{address}/formgrader/submissions/{anna['id']}/", "formgrader-of-mark")
         page.close()
