@@ -19,6 +19,7 @@ from rclpy.type_support import check_for_type_support
 from sim.ros.codec import encode, message_class, type_name
 
 MOST_TEXT = 20_000  # characters of a log line and the like that are kept
+MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {
@@ -39,6 +40,11 @@ def text(value: Any, what: str, most: int = MOST_TEXT) -> str:
     if not isinstance(value, str):
         raise Nonsense(f"{what} that is no text")
     return value[:most].encode("utf-8", "replace").decode()
+
+
+def printable(words: str, most: int) -> str:
+    """Words for a sentence of ours: on one line, cut to so many characters, harmless to a terminal."""
+    return "".join(letter if letter.isprintable() else "?" for letter in " ".join(words[:most].split()))
 
 
 def whole(value: Any, what: str, low: int = 0, high: int = 2**63 - 1) -> int:

@@ -78,7 +78,8 @@ class Ledger(Link):
     def _call(self, key: Any, service: Any, type_: Any, client: Any, asked: Any, raw: Any, lost: Any) -> None:
         cls = interface(text(type_, "a type", MOST_NAME), "srv")
         _, bytes_ = message(raw, cls.Request, "a request")
-        service, client = text(service, "a service", MOST_NAME), self._node(client)
+        service = text(service, "a service", MOST_NAME)
+        client = self._caller(client, service, type_name(cls), canonical(f"{type_name(cls)}_Request", bytes_))
         self.engine.recorder.count(client, len(bytes_))
         bytes_ = canonical(f"{type_name(cls)}_Request", bytes_)
         call = Call(service, type_name(cls), client, bytes_, self._now if asked else None, lost=bool(lost))
@@ -87,7 +88,7 @@ class Ledger(Link):
 
     def _call_taken(self, key: Any, server: Any) -> None:
         call = self._known(key, self._calls, "a call")
-        call.server, call.taken = self._node(server), self._now
+        call.server, call.taken = self._theirs(server), self._now
 
     def _call_raised(self, key: Any, error: Any) -> None:
         self._known(key, self._calls, "a call").raised = text(error, "an error", MOST_NAME)
@@ -132,7 +133,7 @@ class Ledger(Link):
         goal = self._known(key, self._goals, "a goal")
         if goal.server:
             raise Nonsense("a goal that another server has taken")
-        goal.server = self._node(server)
+        goal.server = self._theirs(server)
         self._taken.add(key)
 
     def _goal_event(self, key: Any, word: Any) -> None:
@@ -202,6 +203,21 @@ class Ledger(Link):
 
     def _node(self, name: Any) -> str:
         return text(name, "a node's name", MOST_NAME)
+
+    def _theirs(self, name: Any) -> str:
+        """The name of a node of the other side: for ours it can't speak."""
+        name = self._node(name)
+        if name not in self.puppets.names:
+            raise Nonsense(f"news of the node {name!r}, which it does not have")
+        return name
+
+    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> str:
+        """Who made a call: a node of the other side, nobody that is known, or one of ours that did so."""
+        name = self._node(name)
+        if not name or name in self.puppets.names:
+            return name
+        asked = [(it.client, it.service, it.type, it.raw_request) for it in self.recording.calls]
+        return name if (name, service, type_, raw) in asked else self._theirs(name)
 
     def _name(self, name: Any) -> str:
         return text(name, "a name", MOST_NAME)

@@ -83,6 +83,11 @@ class Puppets:
     def __len__(self) -> int:
         return len(self._ends)
 
+    @property
+    def names(self) -> set[str]:
+        """Of the other side's nodes."""
+        return {node.name for node in self.nodes.values()}
+
     def node(self, number: int, namespace: str, name: str) -> PuppetNode:
         """The node of this number; the first time it is made. Raises ValueError for an impossible name."""
         if number not in self.nodes:

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from sim.recording import CallbackError, Ended
 from sim.ros.fibers import SECOND, Nanoseconds, RemoteLost, engine, outside_student_code
-from sim.ros.remote.checked import Nonsense, text, whole
+from sim.ros.remote.checked import MOST_WRITTEN, Nonsense, printable, text, whole
 from sim.ros.remote.ledger import Ledger
 from sim.ros.remote.wire import Wire, WireClosed, WireError, WireTimeout
 
@@ -86,7 +86,7 @@ class Remote:
         if self._waited > self.total:
             raise RemoteLost(f"The process with the nodes took more than {self.total:g} s for one run.")
         if "failed" in answer:
-            raise RemoteLost(f"The nodes could not be run: {str(answer['failed'])[:MOST_DETAIL]}.")
+            raise RemoteLost(f"The nodes could not be run: {printable(str(answer['failed']), MOST_DETAIL)}.")
         return answer
 
     def _lose(self, error: Exception) -> NoReturn:
@@ -151,4 +151,7 @@ class _Turn:
     def over(self) -> None:
         """Let the other process end its programs."""
         answer = self._remote._exchange(do="over")
-        self._run.recorder.complained(str(answer.get("stderr", "")))
+        try:
+            self._run.recorder.complained(text(answer.get("stderr"), "a stderr", MOST_WRITTEN))
+        except Nonsense as nonsense:
+            raise RemoteLost(f"The process with the nodes sent {nonsense}.") from None

@@ -9,11 +9,10 @@ from sim.recording import Ended
 from sim.ros.endings import blocked
 from sim.ros.fibers import Livelock, Nanoseconds
 from sim.ros.processes import StudentProcess
+from sim.ros.remote.checked import MOST_WRITTEN
 from sim.ros.remote.reports import Reports
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
 from sim.ros.session import Session
-
-MOST_WRITTEN = 100_000  # characters on stderr that are told
 
 QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
 """What the other side may ask about the nodes before they run: a function of them that gives plain data."""

@@ -17,6 +17,7 @@ from sim.ros.remote import Remote, RemoteLost, Wire, WireError
 
 END = 1_000_000_000  # ns
 QUIET = {"news": [], "claims": {}, "next": END, "busy": False, "alive": True, "fault": None, "blocked": ""}
+ENDED = {"stderr": ""}
 QOS = [10, 1, 2, 1, 0, 0, 0, 0]
 
 
@@ -33,7 +34,7 @@ ID = "00" * 16
 
 
 @contextlib.contextmanager
-def answering(*answers, after=QUIET):
+def answering(*answers, after=QUIET, over=ENDED):
     """What a wire leads to whose other side says this and no more, turn by turn; then all is quiet."""
     near, far = socket.socketpair()
     wire, left = Wire(far), list(answers)
@@ -45,7 +46,7 @@ def answering(*answers, after=QUIET):
                 if do in ("go", "ask"):
                     wire.send(**(left.pop(0) if left else after))
                 elif do == "over":
-                    wire.send(stderr="")
+                    wire.send(**over)
 
     thread = threading.Thread(target=answer)
     thread.start()
@@ -58,9 +59,9 @@ def answering(*answers, after=QUIET):
         wire.close()
 
 
-def loses(*answers) -> str:
+def loses(*answers, over=ENDED) -> str:
     """Why the process was given up that answered so."""
-    with answering(*answers) as remote, pytest.raises(RemoteLost) as lost:
+    with answering(*answers, over=over) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
     return lost.value.reason
 
@@ -132,11 +133,13 @@ def test_who_says_nothing_new_is_fine():
         ),
         ([["answer", 2, TWIST]], "a response to a request that nobody has made"),
         ([[*CALL[:6], "", False]], "a request that is no example_interfaces/srv/AddTwoInts_Request"),
-        ([["call", 8, *CALL[2:]]], "a key that it may not choose"),
-        ([CALL, CALL], "a key that it may not choose"),
+        ([ASKS, ["call", 8, *CALL[2:]]], "a key that it may not choose"),
+        ([CALL], "news of the node '/talker', which it does not have"),
+        ([ASKS, CALL, CALL], "a key that it may not choose"),
         ([["taken", 9, "/adder"]], "news of a call that there is not"),
+        ([ASKS, CALL, ["taken", 9, "/adder"]], "news of the node '/adder', which it does not have"),
         (
-            [CALL, ["response", 9, "AAEAAA=="]],
+            [ASKS, CALL, ["response", 9, "AAEAAA=="]],
             "a response that is no example_interfaces/srv/AddTwoInts_Response",
         ),
         ([["received", 9]], "news of a call that there is not"),
@@ -159,10 +162,18 @@ def test_who_says_nothing_new_is_fine():
             [
                 ACTS,
                 ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
-                ["goal taken", 9, "/a"],
-                ["goal taken", 9, "/b"],
+                ["goal taken", 9, "/talker"],
+                ["goal taken", 9, "/talker"],
             ],
             "a goal that another server has taken",
+        ),
+        (
+            [
+                ACTS,
+                ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
+                ["goal taken", 9, "/fibber"],
+            ],
+            "news of the node '/fibber', which it does not have",
         ),
         ([["goal answered", 9]], "news of a goal that there is not"),
     ],
@@ -244,6 +255,16 @@ def test_long_texts_are_cut_and_odd_ones_made_writable():
 
 def test_a_process_that_could_not_run_the_nodes_says_why():
     assert loses({"failed": "TypeError: no"}) == "The nodes could not be run: TypeError: no."
+
+
+def test_what_it_says_of_a_failure_is_one_line_that_a_terminal_can_show():
+    assert loses({"failed": "a\x1b[2J\nb\u202e\ud800" + "c" * 9_999}) == (
+        "The nodes could not be run: a?[2J b??" + "c" * 1_991 + "."
+    )
+
+
+def test_a_stderr_that_is_no_text_ends_the_run():
+    assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is no text")
 
 
 def test_what_is_no_json_ends_the_run():
