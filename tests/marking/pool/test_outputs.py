@@ -1,7 +1,11 @@
+import base64
+import sysconfig
+
 import pytest
 
 from grader.marking import outputs
 from grader.marking.outputs import LEFT_OUT, MOST, Outputs, Screen, bundle, made
+from tests.marking.tiny import ROOT
 
 
 def stream(text: str, name: str = "stdout") -> dict:
@@ -178,3 +182,19 @@ def test_half_a_character_becomes_a_question_mark():
 def test_bytes_of_pictures_become_base64():
     data = {"image/png": b"\x89PNG", "text/plain": "p", "application/pdf": b"x"}
     assert bundle(data, None) == {"data": {"image/png": "iVBORw==", "text/plain": "p"}, "metadata": {}}
+
+
+def test_folders_of_the_machine_that_marks_are_not_told():
+    library = f"{sysconfig.get_paths()['purelib']}/rclpy/node.py"
+    words = f"{library}:12 and {ROOT}/sim/play.py"
+    png = base64.b64encode(words.encode()).decode()
+    assert made({"output_type": "stream", "name": "stderr", "text": words})["text"] == (
+        "rclpy/node.py:12 and sim/play.py"
+    )
+    error = {"output_type": "error", "ename": "OSError", "evalue": library, "traceback": [library]}
+    assert made(error)["traceback"] == [made(error)["evalue"]] == ["rclpy/node.py"]
+    data = {"text/html": f"<b>{library}</b>", "image/png": png}
+    assert made({"output_type": "display_data", "data": data})["data"] == {
+        "text/html": "<b>rclpy/node.py</b>",
+        "image/png": png,
+    }
