@@ -212,7 +212,8 @@ with Pool(folder, 1, unsafe=True) as pool, ThreadPoolExecutor(1) as thread:
 def test_a_marker_that_is_killed_leaves_no_process(waiting, gate, tmp_path):
     command = [sys.executable, "-c", KILLED, str(tmp_path)]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, cwd=ROOT) as marker:
+    place = {**os.environ, "TMPDIR": str(tmp_path)}
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, cwd=ROOT, env=place) as marker:
         gate.read_text()
         print(file=marker.stdin, flush=True)
         left = [os.pidfd_open(int(pid)) for pid in marker.stdout.readline().split()]
