@@ -28,6 +28,7 @@ from grader.marking.testcells import graded, is_test
 from grader.marking.testcells import load as load_exercise
 from grader.marking.words import Unusable, quoted
 
+THREADS = "A thread of the notebook {} still ran when its last cell was over."
 DATA = 20_000_000  # bytes of the files that a release may bring along
 
 Pupils = Callable[[], Pupil]  # gives a fresh process, for one notebook
@@ -119,6 +120,8 @@ class _Desk:
                 number += bool(cell.source.strip())  # as Jupyter counts
                 where = f"in {_called(cell, number)}"
                 self._run(pupil, cell, number)
+            if pupil.threads:
+                self._marking.flags.append(THREADS.format(quoted(self._name)))
         except Gone as gone:
             self._marking.stops.append(f"The notebook {quoted(self._name)} stopped {where}. {gone}")
         finally:

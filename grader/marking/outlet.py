@@ -62,14 +62,22 @@ class Outlet:
     @contextlib.contextmanager
     def closed(self) -> Iterator[None]:
         """For a while nothing goes out: the wire is needed for something else. Then all of it does."""
-        self.flush()
-        self._kept = []
+        with self._lock:
+            self.flush()
+            self._kept = []
         try:
             yield
         finally:
-            kept, self._kept = self._kept, None
-            for event in kept:
-                self._send(event)
+            with self._lock:
+                kept, self._kept = self._kept, None
+                for event in kept:
+                    self._send(event)
+
+    def done(self, **claims: Any) -> None:
+        """Say that the cell is over, behind all that it showed."""
+        with self._lock:
+            self.flush()
+            self._wire.send(done=True, **claims)
 
     def _send(self, event: dict[str, Any]) -> None:
         output = event.get("output", {})

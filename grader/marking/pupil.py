@@ -17,6 +17,7 @@ from grader.score import Score
 from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
 
 MESSAGE = 8_000_000  # bytes of one message
+MOST_FLAGS = 5  # of one cell
 GRACE = 10.0  # s that a cell has to end after it was interrupted
 
 
@@ -54,6 +55,7 @@ class Tested:
 class Pupil:
     """Leads the process at the other end of a socket through one notebook.
 
+    threads: whether threads of the notebook still ran when its last cell was over, as the process says.
     ending: asked when the wire breaks; how the process ended, as a sentence, or "" where that isn't known.
     """
 
@@ -61,6 +63,7 @@ class Pupil:
         self._wire = Deadline(sock, MESSAGE)
         self._patience, self._ending = patience, ending
         self._over = monotonic() + patience.start
+        self.threads = False
 
     def begin(self, files: Mapping[str, bytes]) -> None:
         """Wait until it is there, and put files beside its notebook. Raises Gone."""
@@ -89,7 +92,7 @@ class Pupil:
             problem = _problem(asked, exercise, tested)
             self._say(go=not problem)
             if problem:
-                tested.flags.append(problem)
+                tested.flags += [problem] * (problem not in tested.flags and len(tested.flags) < MOST_FLAGS)
             else:
                 self._grade(exercise, tested)
         if tested.score is None and tested.error is None:
@@ -119,7 +122,8 @@ class Pupil:
         """Take outputs until the cell is done (None) or hands over nodes: then the exercise that it names."""
         while True:
             said = self._hear("It did not stop when it was interrupted.")
-            if said == {"done": True}:
+            if said.get("done") is True:
+                self.threads = said.get("threads") is True
                 return None
             if "grade" in said:
                 return str(said["grade"])[:100]

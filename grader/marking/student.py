@@ -10,6 +10,7 @@ import base64
 import contextlib
 import socket
 import sys
+import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,8 @@ class Student:
     """Runs cells.
 
     Hears {"files": {name: base64}} once, then {"run": source, "seconds": limit} or {"test": source,
-    "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after each of these.
+    "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after each of these, and
+    with "threads" whether threads of the notebook go on.
     Before that it says what a cell shows, as `Outputs.take` takes it, and in a test cell {"grade": name} when
     that calls `Exercise.grade`. If the answer is {"go": true}, the wire is the run's until that is over.
     """
@@ -45,6 +47,7 @@ class Student:
         self._descriptors = Descriptors(self._outlet)
         self._shell: Shell = shell(self._outlet)
         self._patience = Patience()
+        self._threads = threading.active_count()
 
     def live(self) -> None:
         """Answer until a cell says `quit()`. Raises WireError when the judge has hung up."""
@@ -63,7 +66,7 @@ class Student:
                     for name, content in files.items():
                         Path(name).parent.mkdir(parents=True, exist_ok=True)
                         Path(name).write_bytes(base64.b64decode(content))
-                    self._wire.send(done=True)
+                    self._outlet.done(threads=False)
 
     async def _called(self) -> None:
         """Let what cells have left running go on until the judge speaks, who speaks when nothing is open."""
@@ -86,8 +89,7 @@ class Student:
         self._descriptors.show()
         if not cell.cancelled() and cell.exception() is not None:  # the student has broken IPython itself
             self._outlet.show(output=error_output(cell.exception(), {}))
-        self._outlet.flush()
-        self._wire.send(done=True)
+        self._outlet.done(threads=threading.active_count() > self._threads)
 
     @contextlib.contextmanager
     def _offering(self) -> Iterator[None]:

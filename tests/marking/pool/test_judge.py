@@ -171,6 +171,21 @@ def test_who_grades_twice_in_a_cell_is_judged_by_the_first_time(marked):
     )
 
 
+def test_who_hands_over_nodes_without_end_is_flagged_a_few_times(marked):
+    body = "[honest(topics.temperature if n % 2 else self, *nodes) for n in range(1000)]"
+    result = marked(greeting_see=TRICK.format(body=body))
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert len(result.flags) < 10
+
+
+def test_a_thread_that_is_left_over_costs_nothing_and_is_flagged(marked):
+    thread = "import threading\ndef haunt():\n    while True: print('boo' * 1000)\n"
+    result = marked(greeting_see=f"{thread}threading.Thread(target=haunt, daemon=True).start()")
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert result.verdict == "marked"
+    assert result.flags == ["A thread of the notebook `two` still ran when its last cell was over."]
+
+
 def test_a_check_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch):
     @check(points=8)
     def greets(recording):
