@@ -216,7 +216,7 @@ class Ledger(Link):
         name = self._node(name)
         if not name or name in self.puppets.names:
             return name
-        asked = [(it.client, it.service, it.type, it.raw_request) for it in self.recording.calls]
+        asked = ((it.client, it.service, it.type, it.raw_request) for it in self.recording.calls)
         return name if (name, service, type_, raw) in asked else self._theirs(name)
 
     def _name(self, name: Any) -> str:

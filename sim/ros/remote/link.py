@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 MOST_EVENTS = 100_000  # in one message
 MOST_ENDS = 2_000  # alive at a time
+ALL_ENDS = 5_000  # made in a run: some take 10 ms
 MOST_NAME = 255  # characters, as in ROS
 INTERFACES = {"publisher": "msg", "subscription": "msg", "service": "srv", "client": "srv"}
 
@@ -53,6 +54,7 @@ class Link:
         ] = []  # the other side's requests to a service that both sides have
         self._seen: dict[str, int] = {}  # how much of each list of the recording is news no more
         self._topology = -1
+        self._made = 0  # ends of the other side
         engine.link = self
 
     def close(self) -> None:
@@ -189,6 +191,9 @@ class Link:
             raise Nonsense(f"the end {name!r} of {of!r}, which can't be")
         if len(self.puppets) >= MOST_ENDS:
             raise Nonsense(f"more than {MOST_ENDS} ends of topics, services and actions")
+        self._made += 1
+        if self._made > ALL_ENDS:
+            raise Nonsense(f"more than {ALL_ENDS} ends of topics, services and actions, one after the other")
         cls = interface(text(type_, "a type", MOST_NAME), INTERFACES.get(kind, "action"))
         settings = None if kind in ACTIONS else qos(profile)
         namespace, _, short = of.rpartition("/")

@@ -267,6 +267,13 @@ def test_a_stderr_that_is_no_text_ends_the_run():
     assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is no text")
 
 
+def test_who_makes_and_destroys_without_end_is_given_up():
+    again = [TALKS, ["gone", [1]]] * 5_000 + [TALKS]
+    assert loses(news(*again)) == sent(
+        "more than 5000 ends of topics, services and actions, one after the other"
+    )
+
+
 def test_what_is_no_json_ends_the_run():
     near, far = socket.socketpair()
     with near, far, pytest.raises(RemoteLost) as lost:
