@@ -32,6 +32,7 @@ from sim.ros.fibers import SECOND, Livelock, RunOver, Scheduler
 from sim.ros.goals import Goals
 
 MAX_MESSAGES_PER_INSTANT = 20_000
+MAX_MESSAGES = 1_000_000  # of a run
 MAX_MESSAGE_BYTES = 500_000_000  # of a run
 MAX_LOG_LINES = 100_000
 MAX_PRINTED = 1_000_000  # characters
@@ -69,7 +70,7 @@ class Recorder:
         self.calls, self.goals = Calls(self), Goals(self)
         self.ends: list[OwnEnd] = []  # all that were made, ROS's own included
         self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
-        self._printed = self._bytes = 0
+        self._printed = self._bytes = self._all = 0
         self._known: list[BaseException] = []
         self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
@@ -123,6 +124,11 @@ class Recorder:
             self.scheduler.refuse_to_go_on(
                 f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
                 " without letting time move on"
+            )
+        self._all += 1
+        if self._all > MAX_MESSAGES:
+            self.scheduler.refuse_to_go_on(
+                f"the nodes sent more than {MAX_MESSAGES} messages by t = {self.now:g} s"
             )
         self._bytes += size
         if self._bytes > MAX_MESSAGE_BYTES:

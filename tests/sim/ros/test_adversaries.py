@@ -178,6 +178,13 @@ def test_a_flood_of_bytes_is_stopped(monkeypatch):
     assert len(recording.messages("/image")) == 9
 
 
+def test_a_flood_of_small_messages_is_stopped(monkeypatch):
+    monkeypatch.setattr(recorder, "MAX_MESSAGES", 9)
+    recording = run(adversaries.Camera, seconds=3, quiet=True)
+    assert why(recording) == ("livelock", 0.8, "the nodes sent more than 9 messages by t = 0.8 s.")
+    assert len(recording.heard) == 9
+
+
 def test_an_asyncio_loop_is_stopped(monkeypatch):
     """It waits in the operating system, for real time."""
     monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
