@@ -5,6 +5,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+from grader.marking.far import Far, FarError
 from grader.marking.office.course import Course, CourseError
 from grader.marking.office.durable import write_whole
 from grader.marking.office.journal import Journal
@@ -38,6 +39,7 @@ def parser() -> argparse.ArgumentParser:
     add("--no-feedback", action="store_true", help="make no pages for students")
     add("--csv", default="", metavar="FILE", help="write the points there, a row per student and exercise")
     add("--html", default="", metavar="FILE", help="write the summary there, as a page")
+    add("--dask", default="", metavar="ADDRESS", help="mark on the workers of this Dask scheduler")
     return made
 
 
@@ -54,9 +56,9 @@ def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) 
         print(said if said.endswith((".", "?")) else f"{said}.", file=sys.stderr)
         return 1
     except OSError as error:
-        said = f"Stopped: {error.filename or 'a file'} could not be written ({error.strerror})"
-        print(f"{said}. What is marked is kept: repair this, then {_again(options)}.", file=sys.stderr)
-        return 1
+        return _stopped(f"{error.filename or 'a file'} could not be written ({error.strerror})", options)
+    except FarError as error:
+        return _stopped(str(error), options)
     return INTERRUPTED if outcome.interrupted else int(bool(outcome.problems))
 
 
@@ -71,19 +73,27 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
         not options.no_feedback,
         options.csv,
         options.html,
+        options.dask,
     )
     if not options.resume:
         return given
-    if given != Settings(jobs=jobs):
-        raise CourseError("--resume takes the options of the last run: give none beside it but --jobs")
+    if given != Settings(jobs=jobs, dask=options.dask):
+        beside = "give none beside it but --jobs and --dask"
+        raise CourseError(f"--resume takes the options of the last run: {beside}")
     kept = Journal(course.journal(options.assignment)).settings()
     if kept is None:
         raise CourseError(f"there is no run of {options.assignment} to go on with: leave --resume out")
-    return replace(Settings(**kept), **({"jobs": jobs} if options.jobs else {}))
+    anew = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
+    return replace(Settings(**kept), **anew)
 
 
 def _open_pool(course: Course) -> OpenPool:
-    return lambda settings, secret: Pool(course.root, settings.jobs, settings.unsafe, secret)
+    def opened(settings: Settings, secret: str) -> Pool | Far:
+        if settings.dask:
+            return Far(settings.dask, course.root, settings.unsafe, secret)
+        return Pool(course.root, settings.jobs, settings.unsafe, secret)
+
+    return opened
 
 
 def _report(options: argparse.Namespace, settings: Settings, outcome: Outcome) -> None:
@@ -101,6 +111,11 @@ def _report(options: argparse.Namespace, settings: Settings, outcome: Outcome) -
     if outcome.interrupted or outcome.problems:
         done = f"{len(outcome.results)} of {outcome.total} submissions are marked and kept"
         print(f"Stopped. {done}: {_again(options)}.", file=sys.stderr)
+
+
+def _stopped(why: str, options: argparse.Namespace) -> int:
+    print(f"Stopped: {why}. What is marked is kept: repair this, then {_again(options)}.", file=sys.stderr)
+    return 1
 
 
 def _again(options: argparse.Namespace) -> str:

@@ -34,6 +34,7 @@ class Settings:
 
     students: only these, if any. force: mark again what is marked already. jobs: submissions at a time.
     unsafe: without the sandbox. feedback: make the students' pages. csv, html: files for the summary, or "".
+    dask: the address of a Dask scheduler whose workers mark; "" to mark here.
     """
 
     students: list[str] = field(default_factory=list)
@@ -43,6 +44,7 @@ class Settings:
     feedback: bool = True
     csv: str = ""
     html: str = ""
+    dask: str = ""
 
 
 OpenPool = Callable[[Settings, str], AbstractContextManager[Pool]]  # from settings and secret

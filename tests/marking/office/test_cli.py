@@ -79,7 +79,8 @@ def refused(command, capsys, *options):
 def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
     nothing = f"Not marked: there is no run of {ASSIGNMENT} to go on with: leave --resume out.\n"
     assert refused(command, capsys, "--resume") == nothing
-    beside = "Not marked: --resume takes the options of the last run: give none beside it but --jobs.\n"
+    none = "give none beside it but --jobs and --dask"
+    beside = f"Not marked: --resume takes the options of the last run: {none}.\n"
     assert refused(command, capsys, "--resume", "--force") == beside
 
 

@@ -1,0 +1,66 @@
+"""A Dask scheduler with workers, all real processes on this machine."""
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import psutil
+from distributed import Client
+
+from tests.marking.tiny import ROOT
+
+
+class Cluster:
+    """A scheduler at `address`; what its processes say goes to files in `folder`."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir()
+        self.folder, self.processes = folder, []
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        self.address = f"tcp://127.0.0.1:{port}"
+        self.scheduler = self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
+
+    def worker(self, **environment: str) -> subprocess.Popen:
+        """Start a worker; nobody starts it again."""
+        place = str(self.folder / "dask")
+        options = ("--no-nanny", "--nthreads", "1", "--local-directory", place)
+        return self._start("dask_worker", self.address, *options, **environment)
+
+    def with_workers(self, number: int) -> None:
+        """See to it that so many are there, at least."""
+        with Client(self.address, timeout=60, set_as_default=False) as client:
+            for _ in range(number - len(client.nthreads())):
+                self.worker()
+            client.wait_for_workers(number, timeout=60)
+
+    def children(self) -> list[psutil.Process]:
+        """The processes that the workers have started, with theirs."""
+        return [child for pid in self._pids().values() for child in psutil.Process(pid).children(True)]
+
+    def kill(self, address: str) -> None:
+        """End the worker at this address at once."""
+        os.kill(self._pids()[address], signal.SIGKILL)
+
+    def close(self) -> None:
+        # The scheduler last: a worker that is told to end by both at once may hang.
+        for some in (self.processes[1:], self.processes[:1]):
+            for process in some:
+                process.terminate()
+            for process in some:
+                process.wait(60)
+
+    def _pids(self) -> dict[str, int]:
+        with Client(self.address, timeout=60, set_as_default=False) as client:
+            return client.run(os.getpid)
+
+    def _start(self, program: str, *options: str, **environment: str) -> subprocess.Popen:
+        command = [sys.executable, "-m", f"distributed.cli.{program}", *options, "--no-dashboard"]
+        with open(self.folder / f"{len(self.processes)}.log", "w") as log:
+            everything = {**os.environ, "PYTHONPATH": str(ROOT), **environment}
+            process = subprocess.Popen(command, cwd=self.folder, env=everything, stdout=log, stderr=log)
+        self.processes.append(process)
+        return process
