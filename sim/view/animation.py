@@ -12,21 +12,36 @@ from PIL import Image, ImageDraw
 from sim.recording import Pose, Recording
 from sim.view.figure import KINDS, PATH
 from sim.view.geometry import body_tracks, index_at, placed
-from sim.view.scene import scene
+from sim.view.scene import scene, ways
 from sim.world import Body
 
 SMOOTH = 2  # frames are drawn so many times larger, then scaled down
 COLOURS = 32
 
 
-class MovingPicture(bytes):
-    """The bytes of an animated PNG; Jupyter shows it playing."""
+class MovingPicture:
+    """An animated PNG that is drawn when somebody wants to see it: Jupyter, or `bytes(picture)`."""
+
+    def __init__(self, recording: Recording, speed: float, frames_per_second: int) -> None:
+        self._recording, self._speed, self._rate = recording, speed, frames_per_second
 
     def __repr__(self) -> str:
-        return f"<MovingPicture of {len(self) / 1024:.0f} KiB>"  # notebooks keep this text beside the picture
+        return f"<MovingPicture of {self._recording.stamp:g} s>"  # notebooks keep this beside the picture
 
     def _repr_png_(self) -> bytes:
         return bytes(self)
+
+    def __bytes__(self) -> bytes:
+        stage, speed, rate = _Stage(self._recording), self._speed, self._rate
+        count = max(1, math.ceil(stage.end * rate / speed))
+        frames = [stage.frame(min(stage.end, index * speed / rate)) for index in range(count + 1)]
+        palette = frames[-1].quantize(COLOURS, dither=Image.Dither.NONE)
+        small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+        durations = [1000 // rate] * count + [1500]  # ms; the last frame stays for a while
+        more = {"append_images": small[1:], "duration": durations, "loop": 0}
+        buffer = io.BytesIO()
+        small[0].save(buffer, "PNG", save_all=True, optimize=True, **more)
+        return buffer.getvalue()
 
 
 def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int = 8) -> MovingPicture:
@@ -37,18 +52,8 @@ def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int 
     """
     if not (speed > 0 and frames_per_second > 0):
         raise ValueError("speed and frames_per_second must be above 0")
-    stage = _Stage(recording)
-    end = stage.end
-    count = max(1, math.ceil(end * frames_per_second / speed))
-    frames = [stage.frame(min(end, index * speed / frames_per_second)) for index in range(count + 1)]
-    palette = frames[-1].quantize(COLOURS, dither=Image.Dither.NONE)
-    small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
-    durations = [1000 // frames_per_second] * count + [1500]  # ms; the last frame stays for a while
-    buffer = io.BytesIO()
-    small[0].save(
-        buffer, "PNG", save_all=True, append_images=small[1:], duration=durations, loop=0, optimize=True
-    )
-    return MovingPicture(buffer.getvalue())
+    ways(recording)
+    return MovingPicture(recording, speed, frames_per_second)
 
 
 class _Stage:

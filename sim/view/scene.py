@@ -44,15 +44,20 @@ def plot_path(recording: Recording) -> Plot:
     return figure
 
 
+def ways(recording: Recording) -> list[list[Pose]]:
+    """The poses of each body of the run's world. Raises ValueError for a run in which nothing moves."""
+    tracks = body_tracks(recording)
+    if not tracks or not all(tracks):
+        raise ValueError('this run has no robot to draw: give run() a world, such as world="yard"')
+    return tracks
+
+
 def scene(recording: Recording) -> tuple[Plot, Axes]:
     """The world of a run without what moves in it; axes that hold the world and all ways.
 
     Raises ValueError for a run in which nothing moves.
     """
-    world = recording.world
-    tracks = body_tracks(recording)
-    if world is None or not tracks or not all(tracks):
-        raise ValueError('this run has no robot to draw: give run() a world, such as world="yard"')
+    world, tracks = recording.world, ways(recording)
     figure, axes = plot(6.4, 4.8)
     draw_world(axes, world)
     left, bottom, right, top = world.bounds

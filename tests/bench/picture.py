@@ -28,5 +28,5 @@ if __name__ == "__main__":
         ("navigator.png", navigator_run(), 4),
     ):
         picture = IMAGES / name
-        picture.write_bytes(animate(recording, speed=speed))
+        picture.write_bytes(bytes(animate(recording, speed=speed)))
         print(f"{picture}: {picture.stat().st_size / 1000:.0f} kB")

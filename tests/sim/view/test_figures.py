@@ -101,7 +101,8 @@ def test_a_run_without_a_robot_is_refused(draw):
 
 def test_a_moving_picture_shows_a_machine_too():
     turn = [Pose(stamp, 0.0, 0.0, stamp) for stamp in (0.0, 1.0)]
-    moving = Image.open(io.BytesIO(animate(Recording(world=World.load("joint"), tracks={"link": turn}))))
+    recording = Recording(world=World.load("joint"), tracks={"link": turn})
+    moving = Image.open(io.BytesIO(bytes(animate(recording))))
     first = np.asarray(moving.convert("RGB"), dtype=int)
     moving.seek(moving.n_frames - 1)
     last = np.asarray(moving.convert("RGB"), dtype=int)
@@ -224,7 +225,7 @@ assert "matplotlib.pyplot" not in sys.modules
 
 
 def test_the_moving_picture_shows_the_robot_going_its_way():
-    moving = Image.open(io.BytesIO(animate(driven(), speed=1.0, frames_per_second=2)))
+    moving = Image.open(io.BytesIO(bytes(animate(driven(), speed=1.0, frames_per_second=2))))
     assert (moving.n_frames, moving.format) == (11, "PNG")
     moving.seek(0)
     first = np.asarray(moving.convert("RGB"), dtype=int)
@@ -244,9 +245,9 @@ def test_twenty_seconds_are_a_small_picture_that_is_always_the_same():
         pose._replace(x=2 * np.cos(pose.stamp), y=2 * np.sin(pose.stamp)) for pose in recording.path
     ]
     moving = animate(recording)
-    assert len(moving) < 200_000
-    assert moving == animate(recording)
-    assert moving._repr_png_() == bytes(moving)
+    assert len(bytes(moving)) < 200_000
+    assert bytes(moving) == bytes(animate(recording)) == moving._repr_png_()
+    assert repr(moving) == "<MovingPicture of 20 s>"
 
 
 @pytest.mark.parametrize("pace", [{"speed": 0}, {"frames_per_second": -1}])
