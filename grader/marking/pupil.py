@@ -74,12 +74,16 @@ class Pupil:
         self._listen(Outputs(Screen()))
         self._over = monotonic() + self._patience.notebook
 
-    def run(self, source: str, outputs: Outputs) -> None:
-        """Run a cell. Says so in the outputs when it had to be interrupted. Raises Gone."""
+    def run(self, source: str, outputs: Outputs, pictures: bool = True) -> None:
+        """Run a cell. Says so in the outputs when it had to be interrupted. Raises Gone.
+
+        pictures: whether to draw what the cell shows; else its name stands there.
+        """
         began = monotonic()
         self._limit(self._patience.cell + GRACE)
-        self._say(run=source, seconds=self._patience.cell)
-        self._listen(outputs)
+        self._say(run=source, seconds=self._patience.cell, pictures=pictures)
+        while self._listen(outputs) is not None:
+            pass  # nobody has asked for nodes
         self._tell_if_late(began, outputs)
 
     def test(self, source: str, exercise: Exercise, outputs: Outputs) -> Tested:

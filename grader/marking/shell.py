@@ -6,12 +6,14 @@ await, and what it left running goes on while other cells wait.
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import io
 import os
 import sys
 import tempfile
 import warnings
+from collections.abc import Iterator
 from typing import Any, BinaryIO
 
 from IPython.core.compilerop import CachingCompiler
@@ -105,6 +107,16 @@ class Shell(InteractiveShell):
     def _format_exception_for_storage(self, *_: Any, **__: Any) -> list[str]:
         """Nobody reads that, and to make it takes longer than most cells."""
         return []
+
+    @contextlib.contextmanager
+    def drawing(self, pictures: bool) -> Iterator[None]:
+        """For a cell whose pictures are drawn, or only named: to draw one takes longer than most runs."""
+        formatter = self.display_formatter.formatters["image/png"]
+        formatter.enabled = pictures
+        try:
+            yield
+        finally:
+            formatter.enabled = True
 
     async def execute(self, source: str) -> None:
         """Run one cell; what comes out of it, errors too, goes to the outlet."""
