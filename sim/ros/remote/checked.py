@@ -19,6 +19,7 @@ from rclpy.type_support import check_for_type_support
 from sim.ros.codec import encode, message_class, type_name
 
 MOST_TEXT = 20_000  # characters of a log line and the like that are kept
+ALL_TEXT = 300_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
@@ -40,6 +41,21 @@ def text(value: Any, what: str, most: int = MOST_TEXT) -> str:
     if not isinstance(value, str):
         raise Nonsense(f"{what} that is no text")
     return value[:most].encode("utf-8", "replace").decode()
+
+
+class Texts:
+    """The texts of a run: as `text`, and all together have a limit."""
+
+    def __init__(self) -> None:
+        self._characters = 0
+
+    def take(self, value: Any, what: str, most: int = MOST_TEXT) -> str:
+        """The next one. Raises Nonsense."""
+        taken = text(value, what, most)
+        self._characters += len(taken)
+        if self._characters > ALL_TEXT:
+            raise Nonsense(f"more than {ALL_TEXT} characters of log lines, names and the like")
+        return taken
 
 
 def printable(words: str, most: int) -> str:

@@ -16,7 +16,7 @@ from sim.ros.cdr import canonical
 from sim.ros.codec import message_class, type_name
 from sim.ros.fibers import SECOND
 from sim.ros.recorder import LEVELS, MAX_LOG_LINES
-from sim.ros.remote.checked import MOST_TEXT, Nonsense, interface, message, number, rows, text, whole
+from sim.ros.remote.checked import Nonsense, Texts, interface, message, number, rows, text, whole
 from sim.ros.remote.link import MOST_NAME, Event, Link
 from sim.ros.remote.parts import PuppetClient, PuppetNode, PuppetPublisher
 
@@ -40,7 +40,7 @@ class Ledger(Link):
         self._sent: dict[int, tuple[PuppetClient, int]] = {}  # requests of the other side, by key
         self._goals: dict[int, Goal] = {}
         self._taken: set[int] = set()  # keys of goals that a server of the other side has taken
-        self._claims = 0
+        self._claims, self._texts = 0, Texts()
 
     @property
     def _now(self) -> float:
@@ -177,12 +177,13 @@ class Ledger(Link):
         for level, logger, line in self._claimed(claims, "logs", 3):
             if level not in LEVELS.values():
                 raise Nonsense("a log line of no known level")
+            logger, line = self._name(logger), self._texts.take(line, "a log line")
             if len(recording.logs) < MAX_LOG_LINES:
-                recording.logs.append(LogLine(now, level, self._name(logger), text(line, "a log line")))
+                recording.logs.append(LogLine(now, level, logger, line))
         for (line,) in self._claimed(claims, "prints", 0):
-            self.engine.recorder.printed(text(line, "a print", MOST_TEXT))
+            self.engine.recorder.printed(self._texts.take(line, "a print"))
         for row in self._claimed(claims, "errors", 5):
-            error = CallbackError(now, *(text(part, "an error") for part in row))
+            error = CallbackError(now, *(self._texts.take(part, "an error") for part in row))
             recording.errors.append(error)
             self.errors.append(error)
         for began, lasted, node, callback, kind in self._claimed(claims, "callbacks", 5):
@@ -202,7 +203,7 @@ class Ledger(Link):
         return found if width else [(item,) for item in found]
 
     def _node(self, name: Any) -> str:
-        return text(name, "a node's name", MOST_NAME)
+        return self._texts.take(name, "a node's name", MOST_NAME)
 
     def _theirs(self, name: Any) -> str:
         """The name of a node of the other side: for ours it can't speak."""
@@ -220,7 +221,7 @@ class Ledger(Link):
         return name if (name, service, type_, raw) in asked else self._theirs(name)
 
     def _name(self, name: Any) -> str:
-        return text(name, "a name", MOST_NAME)
+        return self._texts.take(name, "a name", MOST_NAME)
 
     def _fresh(self, key: Any, known: dict[int, Any]) -> int:
         if whole(key, "a key") % 2 == 0 or key in known:

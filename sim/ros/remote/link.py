@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from sim.ros.engine import Engine
 
 MOST_EVENTS = 100_000  # in one message
+ALL_EVENTS = 3_000_000  # in a run
 MOST_ENDS = 2_000  # alive at a time
 ALL_ENDS = 5_000  # made in a run: some take 10 ms
 MOST_NAME = 255  # characters, as in ROS
@@ -54,7 +55,7 @@ class Link:
         ] = []  # the other side's requests to a service that both sides have
         self._seen: dict[str, int] = {}  # how much of each list of the recording is news no more
         self._topology = -1
-        self._made = 0  # ends of the other side
+        self._made = self._entered = 0  # ends and events of the other side
         engine.link = self
 
     def close(self) -> None:
@@ -169,7 +170,10 @@ class Link:
 
     def enter(self, news: Any) -> None:
         """Let what the other side did be so here too. Raises Nonsense for what can't be."""
-        for event in rows(news, "events", MOST_EVENTS):
+        self._entered += len(rows(news, "events", MOST_EVENTS))
+        if self._entered > ALL_EVENTS:
+            raise Nonsense(f"more than {ALL_EVENTS} events")
+        for event in news:
             word = event[0] if isinstance(event, list) and event else None
             known = self.EVENTS.get(word) if isinstance(word, str) else None
             if known is None:

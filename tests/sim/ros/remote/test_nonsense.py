@@ -274,6 +274,20 @@ def test_who_makes_and_destroys_without_end_is_given_up():
     )
 
 
+def test_all_events_of_a_run_have_a_limit(monkeypatch):
+    monkeypatch.setattr("sim.ros.remote.link.ALL_EVENTS", 2)
+    hello = ["message", "/talker", "/chat", packed(String(data="hello"))]
+    assert loses(news(TALKS, hello) | {"next": 1}, news(hello)) == sent("more than 2 events")
+
+
+def test_all_texts_of_a_run_have_a_limit(monkeypatch):
+    monkeypatch.setattr("sim.ros.remote.checked.ALL_TEXT", 20)
+    words = "more than 20 characters of log lines, names and the like"
+    assert loses(claims(logs=[["INFO", "talker", "hello"]] * 2)) == sent(words)
+    assert loses(claims(prints=["x" * 21])) == sent(words)
+    assert loses(claims(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
+
+
 def test_what_is_no_json_ends_the_run():
     near, far = socket.socketpair()
     with near, far, pytest.raises(RemoteLost) as lost:
