@@ -119,6 +119,8 @@ class Pupil:
                 tested.error = error
             remote.end()
         except RemoteLost as lost:
+            if monotonic() >= self._wire.deadline:
+                raise Gone(self._too_late(f"Its nodes took more than {self._patience.test:g} s.")) from None
             raise Gone(self._ending() or lost.reason) from None
         self._limit(self._patience.cell)
 
@@ -150,14 +152,18 @@ class Pupil:
         try:
             return self._wire.receive()
         except WireTimeout:
-            if monotonic() < self._over:
-                raise Gone(too_late) from None
-            limit = self._patience.notebook
-            raise Gone(f"All its cells together took more than {limit:g} s.") from None
+            raise Gone(self._too_late(too_late)) from None
         except WireClosed:
             raise Gone(self._ending() or "Its process ended.") from None
         except WireError:
             raise Gone("Its process said something that makes no sense.") from None
+
+
+    def _too_late(self, words: str) -> str:
+        """These words, unless the time of the whole notebook is over."""
+        if monotonic() < self._over:
+            return words
+        return f"All its cells together took more than {self._patience.notebook:g} s."
 
 
 def _problem(asked: str, exercise: Exercise, tested: Tested) -> str:

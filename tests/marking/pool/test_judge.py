@@ -129,6 +129,15 @@ def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
     )
 
 
+def test_nodes_that_take_too_long_are_named_and_keep_what_was_earned_before(marked):
+    slow = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "float(sum(range(10**8)))")
+    result = marked(temperature=slow, patience=replace(QUICK, test=0.5))
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
+    assert result.reason == (
+        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 0.5 s."
+    )
+
+
 def test_a_cell_that_says_quit_stops_the_notebook(marked):
     result = marked(greeting_see="quit()")
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
