@@ -193,7 +193,7 @@ class Far:
         if self._client.status == "closed":
             raise FarError(f"the scheduler at {self._address} has not answered for {self._wait_s:g} s")
         if monotonic() - self._seen > self._wait_s:
-            start = f"`.venv/bin/dask worker {self._address} --nworkers auto --nthreads 1` starts some"
+            start = f"`.venv/bin/dask worker {self._address} --nworkers -1 --nthreads 1` starts some"
             nobody = f"no worker of the scheduler at {self._address} could mark anything"
             raise FarError(f"{nobody} for {self._wait_s:g} s: {start}")
 

@@ -32,11 +32,14 @@ class Seat:
         self._pool: Pool | None = None
         self._over: set[str] = set()
 
-    def mark(self, order: dict[str, Any]) -> tuple[str, str]:
-        """Mark what `Far` ordered: MARKED and a Result's JSON, or FAILED or UNFIT and why."""
+    def mark(self, order: dict[str, Any], place: Path) -> tuple[str, str]:
+        """Mark what `Far` ordered: MARKED and a Result's JSON, or FAILED or UNFIT and why.
+
+        place: a folder for what was handed in, as long as it is marked.
+        """
         try:
-            with self._turn, tempfile.TemporaryDirectory(prefix="mark-", ignore_cleanup_errors=True) as place:
-                task = _unpacked(order, Path(place))
+            with self._turn, tempfile.TemporaryDirectory(dir=place, ignore_cleanup_errors=True) as folder:
+                task = _unpacked(order, Path(folder))
                 [result] = self._pool_of(order).mark([task])
                 return MARKED, result.to_json()
         except (SandboxMissing, SandboxFailed) as error:
@@ -68,8 +71,8 @@ class Seat:
         return self._pool
 
 
-def _unpacked(order: dict[str, Any], place: Path) -> Task:
-    submission, release = place / "submission", place / "release"
+def _unpacked(order: dict[str, Any], folder: Path) -> Task:
+    submission, release = folder / "submission", folder / "release"
     unpack(order["submission"], submission)
     unpack(order["release"], release)
     return Task(**order["task"], folder=submission, release=release)
@@ -85,8 +88,10 @@ def about() -> dict[str, str]:
 
 
 def work(order: dict[str, Any]) -> tuple[str, str]:
-    """See Seat.mark."""
-    return _seat.mark(order)
+    """See Seat.mark. In the worker's own folder: after a worker that was killed, Dask cleans up there."""
+    from distributed import get_worker
+
+    return _seat.mark(order, Path(get_worker().local_directory))
 
 
 def leave(run: str) -> None:

@@ -1,6 +1,5 @@
 """A Dask scheduler with workers, all real processes on this machine."""
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -32,9 +31,10 @@ class Cluster:
 
     def with_workers(self, number: int) -> None:
         """See to it that so many are there, at least."""
+        running = [process for process in self.processes if process.poll() is None]
+        for _ in range(number + 1 - len(running)):
+            self.worker()
         with Client(self.address, timeout=60, set_as_default=False) as client:
-            for _ in range(number - len(client.nthreads())):
-                self.worker()
             client.wait_for_workers(number, timeout=60)
 
     def children(self) -> list[psutil.Process]:
@@ -43,7 +43,10 @@ class Cluster:
 
     def kill(self, address: str) -> None:
         """End the worker at this address at once."""
-        os.kill(self._pids()[address], signal.SIGKILL)
+        pid = self._pids()[address]
+        process = next(process for process in self.processes if process.pid == pid)
+        process.kill()
+        process.wait()
 
     def close(self) -> None:
         # The scheduler last: a worker that is told to end by both at once may hang.
@@ -60,7 +63,7 @@ class Cluster:
     def _start(self, program: str, *options: str, **environment: str) -> subprocess.Popen:
         command = [sys.executable, "-m", f"distributed.cli.{program}", *options, "--no-dashboard"]
         with open(self.folder / f"{len(self.processes)}.log", "w") as log:
-            everything = {**os.environ, "PYTHONPATH": str(ROOT), **environment}
+            everything = {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(self.folder), **environment}
             process = subprocess.Popen(command, cwd=self.folder, env=everything, stdout=log, stderr=log)
         self.processes.append(process)
         return process

@@ -32,37 +32,39 @@ def seat() -> Iterator[Seat]:
     seat.close()
 
 
-def test_a_seat_has_one_pool_which_ends_with_its_run(seat, order):
+def test_a_seat_has_one_pool_which_ends_with_its_run(seat, order, tmp_path):
     before = set(psutil.Process().children(True))
     points = []
     for run in ("first", "first", "second"):
-        kind, text = seat.mark({**order, "run": run})
+        kind, text = seat.mark({**order, "run": run}, tmp_path)
         points.append((kind, Result.from_json(text).points))
         assert len(set(psutil.Process().children()) - before) == 2
     assert points == [("marked", 23.0)] * 3
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["02_two", "ann"]
     seat.leave("first")
     assert len(set(psutil.Process().children()) - before) == 2
     seat.leave("second")
     assert set(psutil.Process().children(True)) == before
 
 
-def test_a_run_that_is_over_is_not_begun_again(seat, order):
+def test_a_run_that_is_over_is_not_begun_again(seat, order, tmp_path):
     before = set(psutil.Process().children(True))
     seat.leave("first")
-    assert seat.mark(order) == ("failed", "RuntimeError: the run is over")
+    assert seat.mark(order, tmp_path) == ("failed", "RuntimeError: the run is over")
     assert set(psutil.Process().children(True)) == before
 
 
-def test_nothing_is_raised_for_dask_would_log_the_secret(seat, order):
-    assert seat.mark({**order, "limits": {"speed": 1}}) == (
+def test_nothing_is_raised_for_dask_would_log_the_secret(seat, order, tmp_path):
+    assert seat.mark({**order, "limits": {"speed": 1}}, tmp_path) == (
         "failed",
         "TypeError: Limits.__init__() got an unexpected keyword argument 'speed'",
     )
-    assert seat.mark({**order, "release": 7}) == ("failed", "TypeError: 'int' object is not iterable")
+    why = "TypeError: 'int' object is not iterable"
+    assert seat.mark({**order, "release": 7}, tmp_path) == ("failed", why)
 
 
-def test_a_machine_without_a_sandbox_says_so(seat, order, monkeypatch):
+def test_a_machine_without_a_sandbox_says_so(seat, order, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", "")
-    kind, why = seat.mark({**order, "unsafe": False})
+    kind, why = seat.mark({**order, "unsafe": False}, tmp_path)
     assert kind == "unfit"
     assert why.startswith("Marking runs students' code in a sandbox made by bubblewrap, and this machine ")
