@@ -57,7 +57,7 @@ class Pool:
             # The kernel ends a warm process with the thread that started it: these live as long as the pool.
             self._threads = ThreadPoolExecutor(max(jobs, 2), "mark")
             stack.callback(self._threads.shutdown, cancel_futures=True)
-            court = "grader.marking.court:main"
+            court = "grader.marking.court.clerk:main"
             judges = self._threads.submit(Sandbox, court, WARM, unsafe=True, limits=JUDGE)
             pupils = self._threads.submit(Sandbox, preload=WARM, unsafe=unsafe, limits=limits)
             self._judges = stack.enter_context(judges.result())

@@ -93,9 +93,12 @@ def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
         "huge_output",
         "leftover_thread",
         "memory_bomb",
+        "message_flood",
         "nasty_class",
+        "nodes_without_end",
         "print_flood",
         "printed_score",
         "shuts_rclpy_down",
+        "speaks_as_the_robot",
         "thread_bomb",
     }

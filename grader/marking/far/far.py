@@ -20,12 +20,12 @@ from typing import TYPE_CHECKING
 from grader.marking.far.crew import Crew
 from grader.marking.far.parcel import pack
 from grader.marking.far.worker import MARKED, UNFIT, work
+from grader.marking.mending.submission import SUFFIX
 from grader.marking.orders import Patience
 from grader.marking.plan import Task
 from grader.marking.pool import refused
 from grader.marking.result import Result, ResultError
 from grader.marking.sandbox import Limits
-from grader.marking.submission import SUFFIX
 
 if TYPE_CHECKING:
     from distributed import Client, Future

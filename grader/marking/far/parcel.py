@@ -10,9 +10,9 @@ import zlib
 from pathlib import Path
 from typing import Any
 
-from grader.marking.folder import FILE, FOLDER, KINDS, Entry, entries, read_file
-from grader.marking.submission import LARGEST
-from grader.marking.words import Unusable
+from grader.marking.mending.folder import FILE, FOLDER, KINDS, Entry, entries, read_file
+from grader.marking.mending.submission import LARGEST
+from grader.marking.mending.words import Unusable
 
 Parcel = list[dict[str, Any]]  # plain data for each thing in a folder, the folder itself first
 LINK = KINDS[stat.S_IFLNK]

@@ -11,10 +11,10 @@ from nbgrader.converters import GenerateAssignment
 from nbgrader.preprocessors import InstantiateTests, SaveCells
 from nbgrader.utils import is_grade
 
-from grader.marking import testcells
+from grader.marking.court import testcells
+from grader.marking.mending.submission import submission_key
 from grader.marking.office.course import Course, CourseError
 from grader.marking.plan import Task
-from grader.marking.submission import submission_key
 from grader.marking.version import code_version
 
 REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"

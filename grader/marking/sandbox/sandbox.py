@@ -31,7 +31,7 @@ class Sandbox:
 
     def __init__(
         self,
-        entry: str = "grader.marking.student:main",
+        entry: str = "grader.marking.student.process:main",
         preload: Sequence[str] = PRELOAD,
         readable: Sequence[Path] = (),
         unsafe: bool = False,

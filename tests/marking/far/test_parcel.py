@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from grader.marking.far.parcel import pack, unpack
-from grader.marking.folder import entries, read_file
-from grader.marking.words import Unusable
+from grader.marking.mending.folder import entries, read_file
+from grader.marking.mending.words import Unusable
 
 LIMIT = 1_000_000
 NOBODY = 65534

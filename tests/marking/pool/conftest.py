@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
+from grader.marking.court.outputs import Outputs, Screen
+from grader.marking.court.pupil import Pupil
 from grader.marking.orders import Patience
-from grader.marking.outputs import Outputs, Screen
 from grader.marking.pool import WARM
-from grader.marking.pupil import Pupil
 from grader.marking.sandbox import Inmate, Sandbox
 
 QUICK = Patience(cell=1.0, notebook=60.0)

@@ -1,6 +1,6 @@
 import linecache
 
-from grader.marking.frames import error_output
+from grader.marking.student.frames import error_output
 
 
 def told(source: str) -> list[str]:

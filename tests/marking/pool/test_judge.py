@@ -6,9 +6,9 @@ import pytest
 from grader import Exercise, check
 from grader.exercise import SECRET
 from grader.exercises import topics
-from grader.marking.judge import as_text, mark
+from grader.marking.court.judge import as_text, mark
+from grader.marking.court.testcells import NotOurs
 from grader.marking.result import Result
-from grader.marking.testcells import NotOurs
 from tests.marking.pool.assignment import GREETER, RIGHT, hand_in, release
 from tests.marking.pool.conftest import QUICK
 
@@ -264,7 +264,7 @@ def test_an_assignment_with_other_tests_is_not_ours(tmp_path, seats, monkeypatch
 
 def test_files_that_the_release_brings_along_are_limited(tmp_path, seats, monkeypatch):
     monkeypatch.setenv(SECRET, "")
-    monkeypatch.setattr("grader.marking.judge.DATA", 3)
+    monkeypatch.setattr("grader.marking.court.judge.DATA", 3)
     released = release(tmp_path / "02_two")
     (released / "map.txt").write_text("wall")
     with pytest.raises(ValueError, match="have 0 MB; expected 3e-06 at most"):

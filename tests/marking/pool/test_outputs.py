@@ -3,8 +3,8 @@ import sysconfig
 
 import pytest
 
-from grader.marking import outputs
-from grader.marking.outputs import LEFT_OUT, MOST, Outputs, Screen, bundle, made
+from grader.marking.court import outputs
+from grader.marking.court.outputs import LEFT_OUT, MOST, Outputs, Screen, bundle, made
 from tests.marking.tiny import ROOT
 
 

@@ -1,7 +1,7 @@
 import pytest
 
+from grader.marking.court.pupil import Gone
 from grader.marking.orders import Patience
-from grader.marking.pupil import Gone
 from tests.marking.pool.conftest import QUICK
 
 NODE = """\
@@ -151,7 +151,7 @@ def test_code_that_catches_the_interrupt_gets_another(seat):
 
 
 def test_a_cell_that_cant_be_interrupted_ends_the_notebook(seats, monkeypatch):
-    monkeypatch.setattr("grader.marking.pupil.GRACE", 0.5)
+    monkeypatch.setattr("grader.marking.court.pupil.GRACE", 0.5)
     seat = seats()
     seat.run(ENDLESS)
     with pytest.raises(Gone, match=r"^It did not stop when it was interrupted.$"):

@@ -3,7 +3,7 @@ import pytest
 
 from grader import Exercise
 from grader.exercises import topics
-from grader.marking.testcells import NotOurs, graded, load
+from grader.marking.court.testcells import NotOurs, graded, load
 from tests.marking.tiny import ROOT, answer, grade
 
 IMPORT = nbformat.v4.new_code_cell("from grader.exercises import topics")

@@ -26,9 +26,9 @@ from traitlets import Any as AnyTrait
 from traitlets import Type
 from traitlets.config import Config
 
-from grader.marking.frames import error_output
-from grader.marking.outlet import Outlet
-from grader.marking.outputs import bundle
+from grader.marking.court.outputs import bundle
+from grader.marking.student.frames import error_output
+from grader.marking.student.outlet import Outlet
 
 INLINE = "module://matplotlib_inline.backend_inline"
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from grader.marking.folder import MOST_ENTRIES, entries
-from grader.marking.rebuild import mend
-from grader.marking.submission import LARGEST, load, submission_key
-from tests.marking.damaged.damage import (
+from grader.marking.mending.folder import MOST_ENTRIES, entries
+from grader.marking.mending.rebuild import mend
+from grader.marking.mending.submission import LARGEST, load, submission_key
+from tests.marking.mending.damage import (
     NODES,
     ROOT,
     SOLVED,

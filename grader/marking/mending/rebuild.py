@@ -13,12 +13,12 @@ from pathlib import Path
 
 from nbformat import NotebookNode
 
-from grader.marking.matching import Match, match
-from grader.marking.notes import FLAGS, REPAIRS, Notes
-from grader.marking.order import Place, ordered
-from grader.marking.sheet import Cell, Sheet, cell_of, is_answer
-from grader.marking.submission import Release, read
-from grader.marking.words import Unusable, listed
+from grader.marking.mending.matching import Match, match
+from grader.marking.mending.notes import FLAGS, REPAIRS, Notes
+from grader.marking.mending.order import Place, ordered
+from grader.marking.mending.sheet import Cell, Sheet, cell_of, is_answer
+from grader.marking.mending.submission import Release, read
+from grader.marking.mending.words import Unusable, listed
 from grader.notebooks import cell_ids
 
 ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from grader import exercise
-from grader.marking.frames import error_output
-from grader.marking.outlet import Outlet
-from grader.marking.patience import Patience
-from grader.marking.shell import Descriptors, Shell, shell
+from grader.marking.student.frames import error_output
+from grader.marking.student.outlet import Outlet
+from grader.marking.student.patience import Patience
+from grader.marking.student.shell import Descriptors, Shell, shell
 from sim.ros.remote import Wire, WireError, serve
 
 

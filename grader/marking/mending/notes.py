@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from grader.marking.words import listed
+from grader.marking.mending.words import listed
 
 # Of one cell, of several. Repairs: for student and instructor.
 REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(

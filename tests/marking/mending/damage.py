@@ -10,11 +10,11 @@ import nbformat
 import pytest
 from nbformat import NotebookNode
 
-from grader.marking.rebuild import Rebuilt, mend, rebuild
+from grader.marking.mending.rebuild import Rebuilt, mend, rebuild
+from grader.marking.mending.sheet import read_sheet
+from grader.marking.mending.submission import Release, load
+from grader.marking.mending.words import Unusable
 from grader.marking.samples import submission
-from grader.marking.sheet import read_sheet
-from grader.marking.submission import Release, load
-from grader.marking.words import Unusable
 
 ROOT = Path(__file__).parents[3]
 ASSIGNMENTS = sorted(path.name for path in (ROOT / "exercises").iterdir())

@@ -1,6 +1,6 @@
 """Random damage to real submissions, and what holds whatever was damaged.
 
-    python -m tests.marking.damaged.mutations 5000      so many, each from its own seed
+    python -m tests.marking.mending.mutations 5000      so many, each from its own seed
 """
 
 import collections
@@ -12,12 +12,12 @@ from typing import Any
 
 import nbformat
 
-from grader.marking.rebuild import rebuild
+from grader.marking.mending.rebuild import rebuild
+from grader.marking.mending.sheet import read_sheet
+from grader.marking.mending.submission import load
+from grader.marking.mending.words import Unusable
 from grader.marking.samples import submission
-from grader.marking.sheet import read_sheet
-from grader.marking.submission import load
-from grader.marking.words import Unusable
-from tests.marking.damaged.damage import ASSIGNMENTS, ROOT, data
+from tests.marking.mending.damage import ASSIGNMENTS, ROOT, data
 
 VERDICTS = ("refused", "mended", "flagged", "as it was")
 NUMBERS = [True, -1, 1e308, 10**400]

@@ -2,7 +2,7 @@ import random
 
 import pytest
 
-from tests.marking.damaged.mutations import VERDICTS, mutated, real, verdict
+from tests.marking.mending.mutations import VERDICTS, mutated, real, verdict
 
 
 @pytest.mark.parametrize("seed", range(200))

@@ -6,7 +6,7 @@ Cells that were missing stand where the release has them, and no test stands bef
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from grader.marking.sheet import Cell, is_answer, is_test
+from grader.marking.mending.sheet import Cell, is_answer, is_test
 
 
 class Place(NamedTuple):

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from grader.marking.words import Unusable, quoted
+from grader.marking.mending.words import Unusable, quoted
 
 MERGE_MARKS = (re.compile(r"^<{7} ", re.MULTILINE), re.compile(r"^>{7} ", re.MULTILINE))
 WEB_PAGE = re.compile(r"<[!?a-zA-Z]")

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from grader.marking.words import Unusable, quoted
+from grader.marking.mending.words import Unusable, quoted
 
 MOST_ENTRIES = 5000
 DEEPEST = 3  # folders in folders

@@ -16,17 +16,17 @@ from typing import Any
 from nbformat import NotebookNode
 
 from grader.exercise import SECRET, Exercise
-from grader.marking import verdicts
-from grader.marking.outputs import Outputs, Screen, plain
+from grader.marking.court import verdicts
+from grader.marking.court.outputs import Outputs, Screen, plain
+from grader.marking.court.pupil import Gone, Pupil
+from grader.marking.court.testcells import graded, is_test
+from grader.marking.court.testcells import load as load_exercise
+from grader.marking.mending.rebuild import Mended, mend
+from grader.marking.mending.submission import Release, load
+from grader.marking.mending.words import Unusable, quoted
 from grader.marking.plan import Task
-from grader.marking.pupil import Gone, Pupil
-from grader.marking.rebuild import Mended, mend
 from grader.marking.result import CellResult, NotebookResult, Result
-from grader.marking.submission import Release, load
 from grader.marking.suspicion import suspicions
-from grader.marking.testcells import graded, is_test
-from grader.marking.testcells import load as load_exercise
-from grader.marking.words import Unusable, quoted
 
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
 DATA = 20_000_000  # bytes of the files that a release may bring along

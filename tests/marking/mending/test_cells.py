@@ -6,7 +6,7 @@ import nbformat
 import pytest
 from nbgrader.utils import compute_checksum
 
-from tests.marking.damaged.damage import (
+from tests.marking.mending.damage import (
     SOLVED,
     STARTER,
     cell,

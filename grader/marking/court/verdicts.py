@@ -7,7 +7,7 @@ from typing import Any
 
 from IPython.core.formatters import DisplayFormatter
 
-from grader.marking.outputs import bundle
+from grader.marking.court.outputs import bundle
 from grader.marking.result import CellResult
 from grader.score import Score
 

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-from grader.marking.outputs import LEFT_OUT, MOST, plain, size
+from grader.marking.court.outputs import LEFT_OUT, MOST, plain, size
 from sim.ros.remote import Wire
 
 AT_ONCE = 500  # pieces of text of one cell that go out as they come: so a crash loses none of them

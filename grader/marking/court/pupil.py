@@ -11,8 +11,8 @@ from time import monotonic
 from typing import Any
 
 from grader.exercise import Exercise
+from grader.marking.court.outputs import Outputs, Screen
 from grader.marking.orders import Patience
-from grader.marking.outputs import Outputs, Screen
 from grader.score import Score
 from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
 

@@ -3,10 +3,10 @@
 import nbformat
 import pytest
 
-from grader.marking.rebuild import mend
+from grader.marking.mending.rebuild import mend
+from grader.marking.mending.submission import load
 from grader.marking.samples import submission
-from grader.marking.submission import load
-from tests.marking.damaged.damage import ASSIGNMENTS, ROOT, same
+from tests.marking.mending.damage import ASSIGNMENTS, ROOT, same
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])

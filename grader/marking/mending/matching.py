@@ -7,7 +7,7 @@ two cells could be meant, neither is taken.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from grader.marking.sheet import Cell, is_answer
+from grader.marking.mending.sheet import Cell, is_answer
 
 ALIKE = 0.5  # share of the lines that were handed out
 CLEARLY = 0.2  # how much more alike than the next

@@ -5,11 +5,11 @@ import zipfile
 
 import pytest
 
-from grader.marking.rebuild import rebuild
-from grader.marking.salvage import MOST_PARTS
-from grader.marking.sheet import LONGEST_SUM, LONGEST_TEXT, MOST_CELLS, read_sheet
-from grader.marking.words import Unusable
-from tests.marking.damaged.damage import SOLVED, STARTER, cell, data, own, same, solved
+from grader.marking.mending.rebuild import rebuild
+from grader.marking.mending.salvage import MOST_PARTS
+from grader.marking.mending.sheet import LONGEST_SUM, LONGEST_TEXT, MOST_CELLS, read_sheet
+from grader.marking.mending.words import Unusable
+from tests.marking.mending.damage import SOLVED, STARTER, cell, data, own, same, solved
 
 WHOLE = data(SOLVED)
 GREEK = WHOLE.decode().replace("import rclpy", "# Grüße, Ω\\nimport rclpy", 1)

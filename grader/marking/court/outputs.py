@@ -7,10 +7,10 @@ is made anew from the few fields that one has, with text of bounded size.
 from __future__ import annotations
 
 import base64
-import os
 import sys
 import sysconfig
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 MOST = 1_000_000  # characters that one cell shows
@@ -28,7 +28,7 @@ SIZES = ("width", "height")  # of a picture, in pixels
 MOST_PIXELS = 100_000
 
 # Of Python's libraries and of the course. A longer one comes first, for one may lie in another.
-COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+COURSE = str(Path(__file__).parents[3])
 PLACES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
 FOLDERS = sorted({f"{place}/" for place in PLACES if len(place) > 1}, key=len, reverse=True)
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from grader.marking.salvage import table_in
-from grader.marking.words import Unusable, quoted, what_it_is
+from grader.marking.mending.salvage import table_in
+from grader.marking.mending.words import Unusable, quoted, what_it_is
 
 MOST_CELLS = 1000
 LONGEST_TEXT = 1_000_000  # characters of one cell

@@ -9,10 +9,10 @@ from __future__ import annotations
 import contextlib
 import socket
 
-from grader.marking.judge import as_text, mark
+from grader.marking.court.judge import as_text, mark
+from grader.marking.court.pupil import Pupil
+from grader.marking.court.testcells import NotOurs
 from grader.marking.orders import ANSWER_S, RESULT, taken
-from grader.marking.pupil import Pupil
-from grader.marking.testcells import NotOurs
 from sim.ros.remote import Wire, WireError
 
 

@@ -12,9 +12,9 @@ from pathlib import Path, PurePosixPath
 import nbformat
 from nbformat import NotebookNode
 
-from grader.marking.folder import FILE, FOLDER, Entry, entries, read_file
-from grader.marking.sheet import Sheet, read_sheet
-from grader.marking.words import Unusable, listed, quoted
+from grader.marking.mending.folder import FILE, FOLDER, Entry, entries, read_file
+from grader.marking.mending.sheet import Sheet, read_sheet
+from grader.marking.mending.words import Unusable, listed, quoted
 
 LARGEST = 128_000_000  # bytes of a notebook's file
 MOST_CANDIDATES = 20
