@@ -16,7 +16,7 @@ from grader.marking.samples import SHARES, submission
 from tests.bench.report import table
 
 ASSIGNMENT = "02_topics"
-COMPARED, GROWTH = 10, (50, 200)
+COMPARED, GROWTH = 40, (10, 200)
 AUTOGRADE = [sys.executable, "-m", "nbgrader", "autograde", ASSIGNMENT]
 MARK = [sys.executable, "-m", "grader", "mark", ASSIGNMENT, "--no-feedback"]
 
