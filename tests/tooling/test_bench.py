@@ -31,8 +31,8 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert bench.main(["speed"]) == 2
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
-        "the benchmarks are scenario, startup, world, machines, repeats, digests, grading, marking, view, "
-        "peers, navigator.\n"
+        "the benchmarks are scenario, startup, world, machines, repeats, digests, grading, cage, "
+        "marking, view, peers, navigator.\n"
     )
 
 

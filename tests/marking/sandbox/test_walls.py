@@ -108,10 +108,12 @@ def test_the_devices_that_programs_need_are_there(prisoner):
 def test_what_one_leaves_behind_no_other_finds(cage, prisoners, folder):
     first, second = prisoners(cage), prisoners(cage)
     assert first.ask(f"answer = open({folder!r} + '/mine', 'w').write('!')") == 1
-    first_leaves = f"import os; answer = os.listdir({folder!r})"
-    assert (first.ask(first_leaves), second.ask(first_leaves)) == (["mine"], [])
+    look = f"import os; answer = sorted(os.listdir({folder!r}))"
+    always = second.ask(look)  # the way to the course, where that lies in /tmp
+    assert "mine" not in always
+    assert first.ask(look) == sorted([*always, "mine"])
     first.leave()
-    assert prisoners(cage).ask(first_leaves) == []
+    assert prisoners(cage).ask(look) == always
 
 
 def test_the_environment_holds_nothing_of_the_markers(monkeypatch, prisoners):
