@@ -45,18 +45,18 @@ def forget(course: Path) -> None:
 def measured(course: Path, words: list[str]) -> tuple[float, float]:
     """Run a command in the course: wall time (s), and the most memory of all its processes together (MB)."""
     began, most = time.perf_counter(), 0
-    said = tempfile.TemporaryFile()  # a pipe that nobody reads would hold up who writes much
-    process = psutil.Popen(words, cwd=course, stdout=subprocess.DEVNULL, stderr=said)
-    while process.poll() is None:
-        most = max(most, _memory(process))
-        try:
-            process.wait(0.2)
-        except psutil.TimeoutExpired:
-            continue
-    seconds = time.perf_counter() - began
-    if process.returncode:
-        said.seek(0)
-        raise RuntimeError(f"{' '.join(words)} failed:\n{said.read().decode()[-2000:]}")
+    with tempfile.TemporaryFile() as said:  # a pipe that nobody reads would hold up who writes much
+        process = psutil.Popen(words, cwd=course, stdout=subprocess.DEVNULL, stderr=said)
+        while process.poll() is None:
+            most = max(most, _memory(process))
+            try:
+                process.wait(0.2)
+            except psutil.TimeoutExpired:
+                continue
+        seconds = time.perf_counter() - began
+        if process.returncode:
+            said.seek(0)
+            raise RuntimeError(f"{' '.join(words)} failed:\n{said.read().decode()[-2000:]}")
     return seconds, most / 1e6
 
 
