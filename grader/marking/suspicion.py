@@ -26,6 +26,7 @@ MODULES = {
     "subprocess": "starts processes",
     "IPython": "changes how cells are run and shown",
 }
+SHOWING = ("IPython.display", "IPython.core.display")  # of IPython: many notebooks import these
 # Attributes, wherever they stand.
 ATTRIBUTES = {
     "__subclasses__": "finds classes that it was not given",
@@ -136,7 +137,7 @@ def _judge(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
 
 def _imported(module: str) -> Iterator[str]:
     top = module.split(".")[0]
-    if top in MODULES and module != "IPython.display":
+    if top in MODULES and module not in SHOWING:
         yield f"imports `{module}`, which {MODULES[top]}"
     if top in ("sim", "grader") and module not in DOORS and not module.startswith("grader.exercises."):
         yield f"imports `{module}`, which is inside the course's own machinery"

@@ -51,6 +51,11 @@ def test_a_trick_is_named(source, what):
     assert suspicions([("square", source)]) == [f"The cell `square` {what}."]
 
 
+@pytest.mark.parametrize("module", ["IPython.display", "IPython.core.display"])
+def test_to_show_something_is_no_trick(module):
+    assert suspicions([("a", f"from {module} import HTML\nHTML('<b>here</b>')")]) == []
+
+
 def test_a_trick_is_named_once_for_each_cell():
     cells = [("a", "import gc\nimport gc"), ("b", "import gc")]
     reason = "imports `gc`, which finds objects that it was not given"
