@@ -1,52 +1,68 @@
-"""Marks the class in the current folder, killed at random moments, until a run comes to its end.
+"""Marks copies of the class in this folder, killed at random moments, each until a run comes to its end.
 
     python -m tests.marking.office.killed SEED
 
-Prints how many runs were killed. A program of its own: it forks, once everything is imported.
+The copies lie beside that folder: ended1, ended2 and so on. Prints how many runs were killed and how many
+copies were marked. A moment is a number of calls from Python into C, as every write to a file or a database
+is one: the same moments on any machine. A program of its own: it forks, once everything is imported.
 """
 import os
 import random
-import select
+import shutil
 import signal
 import sys
 from pathlib import Path
+from types import FrameType
 
 from grader.marking.office.course import Course
 from grader.marking.office.mark import Settings, mark
 from tests.marking.classroom import ASSIGNMENT
 from tests.marking.office.marking import opening
 
-KILLS = 25
-LONGEST = 0.6  # seconds until the kill; about as long as a whole run takes
+KILLS = 20
 
 
-def run() -> None:
-    """Mark the class in a child that ends without cleaning up."""
-    course = Course(Path.cwd())
-    mark(course, ASSIGNMENT, Settings(), opening(course))
+class Killer:
+    """Counts the calls into C, and kills this process at the given one."""
+
+    def __init__(self, moment: float) -> None:
+        self.moment, self.calls = moment, 0
+
+    def __call__(self, frame: FrameType, event: str, argument: object) -> None:
+        if event == "c_call":
+            self.calls += 1
+            if self.calls >= self.moment:
+                os.kill(os.getpid(), signal.SIGKILL)
+
+
+def run(root: Path, moment: float) -> int:
+    """Mark the class in a child that ends without cleaning up. Its calls, or 0 if it was killed."""
+    count, told = os.pipe()
+    child = os.fork()
+    if child == 0:
+        killer = Killer(moment)
+        sys.setprofile(killer)
+        mark(Course(root), ASSIGNMENT, Settings(), opening(Course(root)))
+        sys.setprofile(None)
+        os.write(told, str(killer.calls).encode())
+        os._exit(0)
+    os.close(told)
+    _, status = os.waitpid(child, 0)
+    with os.fdopen(count) as counted:
+        return 0 if os.WIFSIGNALED(status) else int(counted.read())
 
 
 def main(seed: int) -> None:
     chance = random.Random(seed)
-    killed = 0
-    while True:
-        begun, begin = os.pipe()
-        child = os.fork()
-        if child == 0:
-            os.write(begin, b"!")
-            run()
-            os._exit(0)
-        os.read(begun, 1)
-        os.close(begin)  # now its end of the pipe closes with the child
-        left = None if killed >= KILLS else chance.uniform(0, LONGEST)
-        if select.select([begun], [], [], left)[0] == []:
-            os.kill(child, signal.SIGKILL)
-        os.close(begun)
-        _, status = os.waitpid(child, 0)
-        if not os.WIFSIGNALED(status):
-            print(killed)
-            sys.exit(os.waitstatus_to_exitcode(status))
-        killed += 1
+    fresh = Path.cwd()
+    whole = run(shutil.copytree(fresh, fresh.with_name("uninterrupted")), float("inf"))
+    killed = ended = 0
+    while killed < KILLS:
+        ended += 1
+        root = shutil.copytree(fresh, fresh.with_name(f"ended{ended}"))
+        while run(root, chance.uniform(0, whole)) == 0:
+            killed += 1
+    print(killed, ended)
 
 
 if __name__ == "__main__":
