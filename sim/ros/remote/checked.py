@@ -22,6 +22,7 @@ MOST_TEXT = 20_000  # characters of a log line and the like that are kept
 ALL_TEXT = 300_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
+SHORT = 1_000  # characters of a packed message
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {
     "reliability": ReliabilityPolicy,
@@ -40,7 +41,8 @@ def text(value: Any, what: str, most: int = MOST_TEXT) -> str:
     """A text, cut to so many characters, that can be written to any file."""
     if not isinstance(value, str):
         raise Nonsense(f"{what} that is no text")
-    return value[:most].encode("utf-8", "replace").decode()
+    short = value[:most]
+    return short if short.isascii() else short.encode("utf-8", "replace").decode()
 
 
 class Texts:
@@ -104,6 +106,17 @@ def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
         return found, encode(found)
     except (TypeError, ValueError, _rclpy.RMWError):
         raise Nonsense(f"{what} that is no {type_name(cls)}") from None
+
+
+def message_bytes(value: Any, cls: type, what: str) -> bytes:
+    """As `message`, the bytes alone. Many are short and come again and again: to stop, to go straight on."""
+    short = isinstance(value, str) and len(value) <= SHORT
+    return _again(value, cls, what) if short else message(value, cls, what)[1]
+
+
+@functools.lru_cache(maxsize=256)
+def _again(value: str, cls: type, what: str) -> bytes:
+    return message(value, cls, what)[1]
 
 
 @functools.cache

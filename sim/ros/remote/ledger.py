@@ -196,7 +196,9 @@ class Ledger(Link):
 
     def _claimed(self, claims: dict[str, Any], name: str, width: int) -> list[Any]:
         """Claims of a kind; with no width, each is one thing and not a list."""
-        found = rows(claims.get(name, []), name, MOST_CLAIMS, width)
+        if name not in claims:
+            return []
+        found = rows(claims[name], name, MOST_CLAIMS, width)
         self._claims += len(found)
         if self._claims > ALL_CLAIMS:
             raise Nonsense(f"more than {ALL_CLAIMS} log lines, callbacks and the like")

@@ -21,7 +21,18 @@ from sim.ros.calls import alive
 from sim.ros.cdr import canonical
 from sim.ros.codec import encode, type_name
 from sim.ros.recorder import OwnEnd
-from sim.ros.remote.checked import Nonsense, interface, message, packed, plain_qos, qos, rows, text, whole
+from sim.ros.remote.checked import (
+    Nonsense,
+    interface,
+    message,
+    message_bytes,
+    packed,
+    plain_qos,
+    qos,
+    rows,
+    text,
+    whole,
+)
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
 from sim.ros.remote.puppets import ACTIONS, Puppets
 
@@ -53,7 +64,10 @@ class Link:
         self._repeated: list[
             tuple[str, Any]
         ] = []  # the other side's requests to a service that both sides have
-        self._seen: dict[str, int] = {}  # how much of each list of the recording is news no more
+        homes = engine.recorder, self.recording.graph, self.recording
+        found = [pair for home in homes for pair in vars(home).items()]
+        self._lists = {name: items for name, items in found if isinstance(items, list)}
+        self._seen: dict[str, int] = {}  # how much of each of these lists is news no more
         self._topology = -1
         self._made = self._entered = 0  # ends and events of the other side
         engine.link = self
@@ -89,9 +103,10 @@ class Link:
 
     def new(self, name: str) -> list[Any]:
         """What is new in this list of the recording, of its graph or of the recorder."""
-        homes = (self.recording, self.recording.graph, self.engine.recorder)
-        items = next(vars(home)[name] for home in homes if name in vars(home))
-        start, self._seen[name] = self._seen.get(name, 0), len(items)
+        items, start = self._lists[name], self._seen.get(name, 0)
+        if start == len(items):
+            return []
+        self._seen[name] = len(items)
         return items[start:]
 
     def skip(self, *names: str) -> None:
@@ -229,7 +244,7 @@ class Link:
 
     def unpacked(self, raw: Any, publisher: PuppetPublisher) -> bytes:
         """The bytes of a message."""
-        return message(raw, publisher.type, f"a message on {publisher.name}")[1]
+        return message_bytes(raw, publisher.type, f"a message on {publisher.name}")
 
     def published(self, publisher: PuppetPublisher, raw: bytes) -> None:
         """A message of the other side is out: its subscriptions have something to take."""

@@ -167,8 +167,8 @@ class Reports(Link):
     # -- what else is told -------------------------------------------------------------------------
 
     def claims(self) -> dict[str, list[Any]]:
-        """What the nodes say of themselves, since the last time."""
-        return {
+        """What the nodes say of themselves, since the last time; no word where there is nothing."""
+        claims = {
             "nodes": self.new("nodes"),
             "timers": [list(timer) for timer in self.new("timers")],
             "logs": [list(line[1:]) for line in self.new("logs")],
@@ -176,6 +176,7 @@ class Reports(Link):
             "errors": [list(error[1:]) for error in self.new("errors")],
             "callbacks": [list(run) for run in self.new("callbacks")],
         }
+        return {kind: told for kind, told in claims.items() if told}
 
     def _prints(self) -> list[str]:
         """Each piece that was printed; as one where a loop prints without end."""

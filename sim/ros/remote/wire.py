@@ -9,7 +9,7 @@ from time import monotonic
 from typing import Any, NoReturn
 
 _LENGTH = struct.Struct(">I")  # before each message, the number of its bytes
-_PIECE = 1 << 20  # bytes asked for at a time: a false length must not cost memory
+_PIECE = 1 << 16  # bytes asked for at a time: a false length must not cost memory
 
 
 class WireError(Exception):
@@ -45,7 +45,7 @@ class Wire:
         Raises WireBroken for what JSON has no words for and for too long a message, WireClosed, WireTimeout.
         """
         try:
-            body = json.dumps(message, allow_nan=False, separators=(",", ":")).encode()
+            body = _ENCODER.encode(message).encode()
         except (TypeError, ValueError, RecursionError) as error:
             raise WireBroken(f"this can't be sent: {error}") from None
         if len(body) > self._limit:
@@ -72,7 +72,7 @@ class Wire:
         body = bytes(self._received[_LENGTH.size : _LENGTH.size + size])
         del self._received[: _LENGTH.size + size]
         try:
-            message = json.loads(body, parse_constant=_no_number)
+            message = _DECODER.decode(body.decode())
         except (ValueError, RecursionError):
             raise WireBroken("what came is no JSON") from None
         if not isinstance(message, dict):
@@ -106,3 +106,8 @@ class Wire:
 
 def _no_number(word: str) -> NoReturn:
     raise ValueError(f"{word} is no number")
+
+
+# Made once: `json.dumps` and `json.loads` make new ones for each message with settings.
+_ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
+_DECODER = json.JSONDecoder(parse_constant=_no_number)
