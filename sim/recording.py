@@ -65,6 +65,11 @@ class CallbackError(NamedTuple):
     text: str
     traceback: str  # the student's frames only
 
+    @property
+    def words(self) -> str:
+        """Its type and its text, as Python prints them; the type alone where there is no text."""
+        return f"{self.type}: {self.text}" if self.text.strip() else self.type
+
 
 class CallbackRun(NamedTuple):
     """One execution of a callback; `duration` is the simulated time it held its executor."""

@@ -62,8 +62,8 @@ SENSOR_RULES = (
         "`dictionary.get(key, math.inf)`.",
     ),
     Rule(
-        "ZeroDivisionError", r"^float division by zero$",
-        "What one divides by is 0.0 here, such as the distance to a point on which the robot stands: ask "
-        "first whether it is.",
+        "ZeroDivisionError", r"division|modulo",
+        "The number after `/`, `//` or `%` in that line is 0 at that moment. Ask first, with `if`, whether "
+        "it is 0, and say what counts then.",
     ),
 )  # fmt: skip
