@@ -67,7 +67,7 @@ class Scenario:
         for error in recording.errors:
             # What another process tells is never taken for a mistake of ours: that would give points.
             if not any(error is claim for claim in told) and _is_companion(error, companions):
-                raise CompanionError(f"{error.node}: {error.words}\n{error.traceback}")
+                raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
         return recording
 
     def _world(self, seed: int) -> Any:

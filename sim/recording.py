@@ -66,9 +66,9 @@ class CallbackError(NamedTuple):
     traceback: str  # the student's frames only
 
     @property
-    def words(self) -> str:
-        """Its type and its text, as Python prints them; the type alone where there is no text."""
-        return f"{self.type}: {self.text}" if self.text.strip() else self.type
+    def says(self) -> str:
+        """A colon and its text, to end a sentence with; nothing where it has no text."""
+        return f": {self.text}" if self.text.strip() else ""
 
 
 class CallbackRun(NamedTuple):

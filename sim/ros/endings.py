@@ -23,7 +23,7 @@ def conclusion(engine: Engine, over: int | None) -> Ended:
     now, errors = engine.recorder.now, engine.recording.errors
     if errors:
         first = errors[0]
-        return Ended("error", now, f"{first.callback} of {first.node} raised {first.words}")
+        return Ended("error", now, f"{first.callback} of {first.node} raised {first.type}{first.says}")
     if over is not None:
         return Ended("finished", now, f"Every program had ended by t = {over / SECOND:g} s.")
     waiting = blocked(engine) or engine.blocked_elsewhere

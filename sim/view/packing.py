@@ -101,7 +101,7 @@ def _marks(recording: Recording) -> list[list[Any]]:
         for touch in recording.contacts
     ]
     for error in recording.errors:
-        marks.append((error.stamp, "error", f"{error.callback} raised {error.words}", None))
+        marks.append((error.stamp, "error", f"{error.type} in {error.callback}{error.says}", None))
     kept = thinned(sorted(marks, key=lambda mark: mark[0]), MARKS)
     kept.append((run_end(recording), "end", f"the run ended. {recording.ended.detail}", None))
     return _fitting(

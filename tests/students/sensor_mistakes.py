@@ -104,3 +104,9 @@ class BeforeTheStart(Looker):
 class OnTopOfThePoint(Looker):
     def look(self, scan, imu):
         return 2.0 / math.dist((1.0, 1.0), (1.0, 1.0))
+
+
+class MeanOfNothing(Looker):
+    def look(self, scan, imu):
+        far = [distance for distance in scan.ranges if distance > 100]
+        return sum(far) / len(far)

@@ -24,7 +24,8 @@ ADVICE = {
     "ColumnForRow": "Number 3 is too large: axis 0 of the array has 2 items, and counting begins at 0. Axis 0 is the row (y), axis 1 the column (x): `cells[row, column]`.",
     "CellNeverSeen": "The dictionary knows no (4, 34). Ask first, `if key in dictionary:`, or say what counts in its place, `dictionary.get(key, math.inf)`.",
     "BeforeTheStart": "The dictionary knows no None. Ask first, `if key in dictionary:`, or say what counts in its place, `dictionary.get(key, math.inf)`.",
-    "OnTopOfThePoint": "What one divides by is 0.0 here, such as the distance to a point on which the robot stands: ask first whether it is.",
+    "OnTopOfThePoint": "The number after `/`, `//` or `%` in that line is 0 at that moment. Ask first, with `if`, whether it is 0, and say what counts then.",
+    "MeanOfNothing": "The number after `/`, `//` or `%` in that line is 0 at that moment. Ask first, with `if`, whether it is 0, and say what counts then.",
 }
 
 

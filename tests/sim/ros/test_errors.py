@@ -89,6 +89,11 @@ def test_an_exception_is_kept_and_ends_its_program(program):
     assert recording.stderr == ""
 
 
+def test_an_exception_without_words_ends_the_sentence_with_its_name():
+    ended = run(errors.WithoutWords, seconds=3, quiet=True).ended
+    assert ended.detail == "WithoutWords.tick of /timer raised NotImplementedError"
+
+
 def test_a_traceback_shows_the_authors_lines_and_no_others():
     (error,) = run(errors.InTimer, seconds=3, quiet=True).errors
     file = errors.__file__

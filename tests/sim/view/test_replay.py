@@ -167,10 +167,12 @@ def test_other_robots_boxes_and_machines_have_tracks(drive):
 def test_marks_say_what_happened_when_in_words():
     touch = Contact(3.2, 3.4, 1.0, 2.0, "front", "wall")
     error = CallbackError(4.0, "/driver", "Driver.tick", "KeyError", "'x'", "")
-    data = unpacked(driven([(0, 0)] * 6, contacts=[touch], errors=[error]))
+    silent = CallbackError(4.5, "/driver", "Driver.tick", "NotImplementedError", "", "")
+    data = unpacked(driven([(0, 0)] * 6, contacts=[touch], errors=[error, silent]))
     assert data["marks"] == [
         [3200, "contact", "t = 3.2 s: touched a wall with its front", [1.0, 2.0]],
         [4000, "error", "t = 4 s: KeyError in Driver.tick: 'x'", None],
+        [4500, "error", "t = 4.5 s: NotImplementedError in Driver.tick", None],
         [5000, "end", "t = 5 s: the run ended. All of it was run.", None],
     ]
 

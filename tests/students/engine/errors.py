@@ -35,6 +35,11 @@ class InSubscription(Node):
         raise KeyError("speed")
 
 
+class WithoutWords(InTimer):
+    def tick(self):
+        raise NotImplementedError()
+
+
 class InInit(Node):
     def __init__(self):
         super().__init__("broken")
