@@ -7,12 +7,12 @@ to talk to. Who hides a trick well is not found here, and gains nothing all the 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable, Iterator
 
-from IPython.core.inputtransformer2 import TransformerManager
-
 DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
-MAX_SOURCE = 20_000  # characters
+MAX_SOURCE = 20_000  # characters of a cell
+MAX_SOURCES = 400_000  # of all of them
 COURSE = ("rclpy", "sim", "grader", "builtins")
 # Modules that no exercise needs, and what one does with them.
 MODULES = {
@@ -78,17 +78,27 @@ METHODS = {
 }
 WORDS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/", "<script", "onerror=", "javascript:")
 SHELL = ("system", "getoutput")  # what IPython makes of !command
+SHOWN = 60  # characters of the code that is told
+# IPython's own lines. Its transformer looks at all of a cell again for each of them, and so takes minutes.
+COMMAND = re.compile(r"^([ \t]*+)(?:\w[\w, \t]*=[ \t]*+)?!.*", re.MULTILINE)
+MAGIC = re.compile(r"^([ \t]*+)(?:(?:\w[\w, \t]*=[ \t]*+)?%.*|\?.*|.*\?$)", re.MULTILINE)
 
 
 def suspicions(cells: Iterable[tuple[str, str]]) -> list[str]:
     """A sentence for each suspicious thing in these cells, pairs of a name and a source; each thing once."""
     course: dict[str, str] = {}
     found: dict[str, None] = {}
+    looked = 0
     for name, source in cells:
         if len(source) > MAX_SOURCE:
             long = f"has more than {MAX_SOURCE} characters: nobody has looked through it"
             found.setdefault(f"The cell `{name}` {long}.")
             continue
+        looked += len(source)
+        if looked > MAX_SOURCES:
+            long = f"and those before it have more than {MAX_SOURCES} characters: nobody has looked further"
+            found.setdefault(f"The cell `{name}` {long}.")
+            break
         tree = _parsed(source)
         nodes = list(ast.walk(tree))
         for node in nodes:
@@ -101,10 +111,19 @@ def suspicions(cells: Iterable[tuple[str, str]]) -> list[str]:
 
 def _parsed(source: str) -> ast.Module:
     """The cell's code; none of what can't run either."""
-    try:
-        return ast.parse(TransformerManager().transform_cell(source))
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ast.Module([], [])
+    for text in (source, _without_magic(source)):
+        try:
+            return ast.parse(text)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            continue
+    return ast.Module([], [])
+
+
+def _without_magic(source: str) -> str:
+    """The source with IPython's own lines as Python; of a cell that is all its own, the text."""
+    if source.lstrip().startswith("%%"):
+        return repr(source)
+    return MAGIC.sub(r"\1pass", COMMAND.sub(r"\1get_ipython().system('')", source))
 
 
 def _names_from_course(node: ast.AST) -> dict[str, str]:
@@ -147,7 +166,7 @@ def _attribute(node: ast.Attribute) -> Iterator[str]:
     reason, owners = ATTRIBUTES.get(node.attr), OWNERS.get(node.attr)
     owner = node.value.id if isinstance(node.value, ast.Name) else ""
     if reason and (owners is None or owner in owners):
-        yield f"uses `{ast.unparse(node)[:60]}`, which {reason}"
+        yield f"uses `{_told(node)}`, which {reason}"
     if _is_shell(node.value) and node.attr == "events":
         yield "uses `get_ipython().events`, which runs code around every cell"
 
@@ -158,7 +177,7 @@ def _replaced(node: ast.expr, course: dict[str, str], what: str = "") -> Iterato
     while isinstance(root, ast.Attribute):
         root = root.value
     if isinstance(root, ast.Name) and root.id in course:
-        yield f"replaces {what}`{ast.unparse(node)[:60]}`, which is part of {course[root.id].split('.')[0]}"
+        yield f"replaces {what}`{_told(node)}`, which is part of {course[root.id].split('.')[0]}"
 
 
 def _taken(statement: ast.stmt, course: dict[str, str]) -> Iterator[str]:
@@ -181,6 +200,14 @@ def _called(node: ast.Call, course: dict[str, str]) -> Iterator[str]:
         yield from _replaced(node.args[0], course, "attributes of ")
     if isinstance(node.func, ast.Attribute) and node.func.attr in SHELL and _is_shell(node.func.value):
         yield "runs a command of the system's shell, which starts processes"
+
+
+def _told(node: ast.expr) -> str:
+    """The code of an attribute; of one too deep for that, its end."""
+    try:
+        return ast.unparse(node)[:SHOWN]
+    except RecursionError:
+        return f"....{getattr(node, 'attr', '')}"[:SHOWN]
 
 
 def _is_shell(node: ast.AST) -> bool:

@@ -41,6 +41,10 @@ ROOT = Path(__file__).parents[2]
         ),
         ("eval('1')", "calls `eval(...)`, which runs text as code"),
         ("!ls", "runs a command of the system's shell, which starts processes"),
+        ("if x:\n    files = !ls\n%time x", "runs a command of the system's shell, which starts processes"),
+        ("%%bash\ncat .secret", "speaks of `.secret`"),
+        ("%pylab\nhelp?\n?gc\nx = %who\nimport pty", "imports `pty`, which starts processes"),
+        ("a" + ".b" * 400 + ".run_cell", "uses `....run_cell`, which changes how cells are run"),
         ("from sim import run\nrun = 1", "takes the name `run`, which is part of sim"),
         ("def __eq__(a, b):\n    return 1", "defines `__eq__`, which decides what it is equal to"),
         ("open('/x/gradebook.db')", "speaks of `gradebook`"),
@@ -65,6 +69,19 @@ def test_a_trick_is_named_once_for_each_cell():
 @pytest.mark.parametrize("source", ["def broken(:", "\0", "(" * 5000, "-" * 19_000 + "1"])
 def test_what_is_no_python_is_nothing_suspicious(source):
     assert suspicions([("a", source)]) == []
+
+
+def test_a_notebook_without_end_is_looked_through_from_its_beginning():
+    cells = [(f"a{number}", "import pty\n" + "a;" * 9_000) for number in range(1000)]
+    *found, last = suspicions(cells)
+    assert found == [f"The cell `a{n}` imports `pty`, which starts processes." for n in range(22)]
+    said = "and those before it have more than 400000 characters: nobody has looked further."
+    assert last == f"The cell `a22` {said}"
+
+
+@pytest.mark.parametrize("line", ["    %a", "a, b = !ls", "what?", " " * 9_000 + "what?"])
+def test_lines_of_ipython_take_no_more_time_than_others(line):
+    assert len(suspicions([("a", f"if 0:\n{line}\n" * (19_000 // len(line)))])) <= 1
 
 
 @pytest.mark.parametrize("folder", ["course", "solutions", "exercises"])

@@ -29,6 +29,7 @@ from grader.marking.result import CellResult, NotebookResult, Result
 from grader.marking.suspicion import suspicions
 
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
+MOST_TRICKS = 20  # of a notebook are told
 DATA = 20_000_000  # bytes of the files that a release may bring along
 
 Pupils = Callable[[], Pupil]  # gives a fresh process, for one notebook
@@ -186,7 +187,10 @@ class _Desk:
 def _tricks(notebook: NotebookNode, release: NotebookNode) -> list[str]:
     """A sentence for each suspicious thing in it that the release doesn't do itself."""
     ours = set(suspicions(_sources(release)))
-    return [trick for trick in suspicions(_sources(notebook)) if trick not in ours]
+    tricks = [trick for trick in suspicions(_sources(notebook)) if trick not in ours]
+    if len(tricks) > MOST_TRICKS:
+        tricks[MOST_TRICKS:] = [f"There are {len(tricks) - MOST_TRICKS} more such things in it."]
+    return tricks
 
 
 def _sources(notebook: NotebookNode) -> list[tuple[str, str]]:

@@ -283,3 +283,10 @@ def test_half_characters_of_a_student_reach_nobody(marked):
     result = marked(greeting_see="print(chr(0xd83d))")
     assert text(result, "greeting-see") == "?\n"
     result.to_json().encode()
+
+
+def test_of_very_many_tricks_the_first_are_told(marked):
+    result = marked(greeting="".join(f"import grader.a{number}\n" for number in range(30)))
+    assert len(result.flags) == 21
+    assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
+    assert result.flags[-1] == "There are 10 more such things in it."
