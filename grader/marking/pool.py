@@ -68,14 +68,14 @@ class Pool:
     def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
         """The results, in the order in which they are ready. Raises nothing for a submission's sake."""
         left = iter(tasks)
-        running: set[Future[Result]] = set()
-        while True:
-            some = itertools.islice(left, self._jobs - len(running))
-            running |= {self._threads.submit(self._mark, task) for task in some}
-            if not running:
-                return
+        running = self._more(left, self._jobs)
+        while running:
             done, running = wait(running, return_when=FIRST_COMPLETED)
+            running |= self._more(left, len(done))  # first: to file a result takes its time
             yield from (future.result() for future in done)
+
+    def _more(self, left: Iterator[Task], count: int) -> set[Future[Result]]:
+        return {self._threads.submit(self._mark, task) for task in itertools.islice(left, count)}
 
     def close(self) -> None:
         """End all processes, also those at work."""

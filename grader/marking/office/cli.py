@@ -23,6 +23,7 @@ takes in what comes later. Results are kept in class/marking/; points go to nbgr
 class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
 `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # as a shell says it
+USUAL_JOBS = (os.cpu_count() or 1) + 1  # judge and student take turns, and wait for each other in between
 
 
 def parser() -> argparse.ArgumentParser:
@@ -32,7 +33,7 @@ def parser() -> argparse.ArgumentParser:
     add = made.add_argument
     add("assignment", metavar="ASSIGNMENT")
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
-    add("--jobs", type=_count, metavar="N", help="submissions at a time; default: one for each core")
+    add("--jobs", type=_count, metavar="N", help="submissions at a time; default: cores, and one more")
     add("--force", action="store_true", help="mark again what is marked already")
     add("--resume", action="store_true", help="go on with the last run of the assignment, with its options")
     add("--unsafe", action="store_true", help="no sandbox: students' code can do all that you can")
@@ -64,7 +65,7 @@ def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) 
 
 def _settings(options: argparse.Namespace, course: Course) -> Settings:
     """How to mark: as the options say, or as the last run was started."""
-    jobs = options.jobs or os.cpu_count() or 1
+    jobs = options.jobs or USUAL_JOBS
     given = Settings(
         sorted(options.student),
         options.force,

@@ -64,6 +64,8 @@ def install() -> None:
             _replaced[id(plain)] = (plain, replacement)
         setattr(entry.owner, entry.name, staticmethod(replacement) if plain is not original else replacement)
     for module in list(sys.modules.values()):
+        if module is None:  # forbidden to be imported
+            continue
         if not _library(module) or module.__name__ in READS_CLOCKS:
             rebind(vars(module))
 

@@ -52,6 +52,11 @@ def test_installing_again_changes_nothing():
     assert [hook.owner.__dict__[hook.name] for hook in HOOKS] == before
 
 
+def test_a_module_that_may_not_be_imported_is_passed_over(monkeypatch):
+    monkeypatch.setitem(sys.modules, "forbidden", None)
+    install()
+
+
 def test_names_bound_before_sim_was_imported_go_through_the_hooks():
     """As in a notebook whose first cell imports `sleep` and whose second imports sim."""
     program = (
