@@ -44,4 +44,5 @@ c.HTMLExporter.sanitize_html = True
 SAFE = "grader.marking.safe_html"
 # The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
 c.HTMLExporter.filters = {"clean_html": f"{SAFE}.clean_output", "strip_files_prefix": f"{SAFE}.clean"}
-c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs"]
+# Nor may its size keep the instructor waiting.
+c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.short_pages.shorten"]

@@ -14,6 +14,8 @@ from urllib.parse import urlsplit
 import bleach
 from bleach.css_sanitizer import CSSSanitizer
 
+from grader.marking.short_pages import TOO_LONG, too_long
+
 TEXT = "p h1 h2 h3 h4 h5 h6 br hr del s sub sup kbd small mark details summary pre div span"
 TABLE = "table caption colgroup col thead tbody tfoot tr th td"
 FIGURE = "img figure figcaption"
@@ -50,7 +52,8 @@ UNSEEN = re.compile(r"<(script|style)\b.*?(</\1[^<>]*>?|\Z)", re.IGNORECASE | re
 def clean(html: object) -> str:
     """Return the HTML, with all that could run or leave its place escaped or dropped."""
     text = html.decode(errors="replace") if isinstance(html, bytes) else str(html)
-    return _cleaner.clean(UNSEEN.sub("", text))
+    seen = UNSEEN.sub("", text)
+    return f"<p>{TOO_LONG}</p>" if too_long(seen) else _cleaner.clean(seen)
 
 
 def clean_output(html: object) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 MOST = 1_000_000  # characters that one cell shows
 MOST_OF_ALL = 20_000_000  # that all cells of a submission show
 MOST_OUTPUTS = 1_000  # of one cell
+MOST_OUTPUTS_OF_ALL = 10_000  # of all cells: nbconvert looks at each again and again
 MOST_LINES = 1_000  # of a traceback
 MOST_WORDS = 1_000  # characters that tell of a picture
 MOST_NAME = 200  # characters of a display_id
@@ -81,6 +82,7 @@ class Outputs:
 
     def _begin(self) -> None:
         if self._clear:
+            self._screen.outputs -= len(self.list)
             self.list.clear()
             self._screen.forget(self)
             self._screen.room += self._used
@@ -92,6 +94,7 @@ class Outputs:
             last["text"] += output["text"]
         else:
             self.list.append(output)
+            self._screen.outputs += 1
 
     def _has_room(self, output: dict[str, Any]) -> bool:
         """Whether it still fits. Says once that the rest is left out; text is cut where it has to be."""
@@ -102,7 +105,8 @@ class Outputs:
         used = min(size(output), room)
         self._used += used
         self._screen.room -= used
-        if size(output) <= room and len(self.list) < MOST_OUTPUTS:
+        many = len(self.list) >= MOST_OUTPUTS or self._screen.outputs >= MOST_OUTPUTS_OF_ALL
+        if size(output) <= room and not many:
             return True
         self._full = True
         if output["output_type"] == "stream":
@@ -115,7 +119,7 @@ class Screen:
     """What the cells of a submission share: room, and displays that later cells may update."""
 
     def __init__(self) -> None:
-        self.room = MOST_OF_ALL
+        self.room, self.outputs = MOST_OF_ALL, 0
         self._displays: dict[str, list[tuple[Outputs, dict[str, Any]]]] = {}
 
     def shown(self, identity: str, cell: Outputs, output: dict[str, Any]) -> None:

@@ -112,6 +112,21 @@ def test_updates_can_t_fill_a_cell_beyond_its_limit():
     assert [len(output["data"]["text/plain"]) for output in shown(*frames, *updates)] == [600_000, 0, 0]
 
 
+def test_all_cells_together_have_a_limit_of_outputs():
+    screen = Screen()
+    cells = [Outputs(screen) for _ in range(12)]
+    for cell in cells:
+        for _ in range(995):
+            cell.take({"output": picture("p")})
+    counts = [len(cell.list) for cell in cells]
+    assert (counts[:10], counts[10:]) == ([995] * 10, [51, 1])
+    assert cells[-1].list == [stream(LEFT_OUT)]
+    cells[0].take({"clear": False})
+    cells[-1].take({"clear": False})
+    cells[-1].take({"output": picture("p")})
+    assert cells[-1].list == [picture("p")]
+
+
 def test_text_with_a_display_id_stays_text():
     update = {"output": picture("p"), "display_id": "x", "update": True}
     assert shown({"output": stream("a"), "display_id": "x"}, update) == [stream("a")]

@@ -1,0 +1,50 @@
+"""How much of a notebook its pages show: to colour code and to clean HTML takes time that grows with them.
+
+A notebook may be such that its page would take hours or all memory; the feedback of a class, and the
+formgrader, would wait for it. The notebook itself keeps everything.
+"""
+
+import re
+from typing import Any
+
+from nbformat.v4 import new_output
+
+LONGEST = 50_000  # characters of one text
+PAGE = 1_000_000  # of all texts of a page
+OUTPUT = 500  # characters that an output counts for at least
+REPLAY = 40_000  # that a replay counts for: its player is in the page, too
+MARKUP = 4  # times as much as other text: it takes longer
+DATA = re.compile(r"[A-Za-z0-9+/=]{100,}")  # of a picture or a replay: nothing in it is looked at
+TOO_LONG = "This is too long to be shown here."
+
+
+def too_long(html: str) -> bool:
+    """Whether there is more in it than can be cleaned soon."""
+    return _length(html) > LONGEST
+
+
+def shorten(notebook: Any, resources: Any) -> tuple[Any, Any]:
+    """A preprocessor of nbconvert: leaves out what is too long, and what comes when the page is full."""
+    room = PAGE
+    for cell in notebook.cells:
+        room -= len(cell.source)
+        if len(cell.source) > LONGEST or room < 0:
+            cell.source = f"# {TOO_LONG}" if cell.cell_type == "code" else TOO_LONG
+        for number, output in enumerate(cell.get("outputs", ())):
+            room -= _cost(output)
+            if room < 0:
+                cell.outputs[number:] = [new_output("stream", text=f"{TOO_LONG}\n")]
+                break
+    return notebook, resources
+
+
+def _cost(output: Any) -> int:
+    data = output.get("data", {})
+    markup = [data[kind] for kind in ("text/html", "text/markdown") if kind in data]
+    texts = [data.get("text/plain", ""), output.get("text", ""), *output.get("traceback", ())]
+    replays = sum("data-replay" in text for text in markup)
+    return OUTPUT + REPLAY * replays + MARKUP * sum(map(_length, markup)) + sum(map(len, texts))
+
+
+def _length(text: str) -> int:
+    return len(DATA.sub("", text))
