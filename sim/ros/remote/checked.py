@@ -22,6 +22,7 @@ MOST_TEXT = 20_000  # characters of a log line and the like that are kept
 ALL_TEXT = 300_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
+MOST_NAME = 255  # characters, as in ROS
 SHORT = 1_000  # characters of a packed message
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {

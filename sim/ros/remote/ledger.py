@@ -16,8 +16,8 @@ from sim.ros.cdr import canonical
 from sim.ros.codec import message_class, type_name
 from sim.ros.fibers import SECOND
 from sim.ros.recorder import LEVELS, MAX_LOG_LINES
-from sim.ros.remote.checked import Nonsense, Texts, interface, message, number, rows, text, whole
-from sim.ros.remote.link import MOST_NAME, Event, Link
+from sim.ros.remote.checked import MOST_NAME, Nonsense, Texts, interface, message, number, rows, text, whole
+from sim.ros.remote.link import Event, Link
 from sim.ros.remote.parts import PuppetClient, PuppetNode, PuppetPublisher
 
 if TYPE_CHECKING:

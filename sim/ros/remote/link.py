@@ -22,29 +22,24 @@ from sim.ros.cdr import canonical
 from sim.ros.codec import encode, type_name
 from sim.ros.recorder import OwnEnd
 from sim.ros.remote.checked import (
+    MOST_NAME,
     Nonsense,
-    interface,
     message,
     message_bytes,
     packed,
     plain_qos,
-    qos,
     rows,
     text,
     whole,
 )
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
-from sim.ros.remote.puppets import ACTIONS, Puppets
+from sim.ros.remote.puppets import MOST_ENDS, Puppets
 
 if TYPE_CHECKING:
     from sim.ros.engine import Engine
 
 MOST_EVENTS = 100_000  # in one message
 ALL_EVENTS = 3_000_000  # in a run
-MOST_ENDS = 2_000  # alive at a time
-ALL_ENDS = 5_000  # made in a run: some take 10 ms
-MOST_NAME = 255  # characters, as in ROS
-INTERFACES = {"publisher": "msg", "subscription": "msg", "service": "srv", "client": "srv"}
 
 Event = list[Any]
 
@@ -69,7 +64,7 @@ class Link:
         self._lists = {name: items for name, items in found if isinstance(items, list)}
         self._seen: dict[str, int] = {}  # how much of each of these lists is news no more
         self._topology = -1
-        self._made = self._entered = 0  # ends and events of the other side
+        self._entered = 0  # events of the other side
         engine.link = self
 
     def close(self) -> None:
@@ -202,26 +197,8 @@ class Link:
             self._topology = self.engine.topology
 
     def _end(self, number: Any, node: Any, of: Any, kind: Any, name: Any, type_: Any, profile: Any) -> None:
-        number, node = whole(number, "a number"), whole(node, "a number")
-        of, name = text(of, "a node's name", MOST_NAME), text(name, "a name", MOST_NAME)
-        if kind not in (*INTERFACES, *ACTIONS):
-            raise Nonsense("an end of no known kind")
-        if number in self.puppets or not of.startswith("/") or not name.startswith("/"):
-            raise Nonsense(f"the end {name!r} of {of!r}, which can't be")
-        if len(self.puppets) >= MOST_ENDS:
-            raise Nonsense(f"more than {MOST_ENDS} ends of topics, services and actions")
-        self._made += 1
-        if self._made > ALL_ENDS:
-            raise Nonsense(f"more than {ALL_ENDS} ends of topics, services and actions, one after the other")
-        cls = interface(text(type_, "a type", MOST_NAME), INTERFACES.get(kind, "action"))
-        settings = None if kind in ACTIONS else qos(profile)
-        namespace, _, short = of.rpartition("/")
-        try:
-            puppet = self.puppets.node(node, namespace or "/", short)
-            self.puppets.make(number, puppet, kind, cls, name, settings)
-        except ValueError:
-            raise Nonsense(f"the name {name!r} or {of!r}, which ROS does not allow") from None
-        self.declared(kind, puppet, name, cls, settings)
+        told = self.puppets.declare(number, node, of, kind, name, type_, profile)
+        self.declared(*told)
 
     def declared(self, kind: str, node: Any, name: str, type_: type, profile: Any) -> None:
         """A node of the other side has declared an end."""

@@ -16,6 +16,7 @@ from rclpy.qos import (
     qos_profile_services_default,
 )
 
+from sim.ros.remote.checked import MOST_NAME, Nonsense, interface, qos, text, whole
 from sim.ros.remote.parts import (
     Part,
     PuppetClient,
@@ -44,7 +45,12 @@ KINDS: dict[str, type[Part]] = {
     "service": PuppetService,
     "client": PuppetClient,
 }
+INTERFACES = {"publisher": "msg", "subscription": "msg", "service": "srv", "client": "srv"}
 ACTIONS = ("action server", "action client")
+MOST_ENDS = 2_000  # alive at a time
+ALL_ENDS = 5_000  # made in a run: some take 10 ms
+
+Declared = tuple[str, PuppetNode, str, type, QoSProfile | None]  # kind, node, name, type, settings
 
 
 def _parts_of_action(kind: str, type_: Any, name: str) -> Iterator[tuple[str, type, str, QoSProfile]]:
@@ -76,6 +82,7 @@ class Puppets:
         self.clients: dict[str, list[PuppetClient]] = defaultdict(list)  # by service
         self.listening: list[PuppetSubscription] = []  # parts of actions: their messages are taken here
         self.wanted: Counter[str] = Counter()  # subscriptions of the other side, by topic
+        self._made = 0
 
     def __contains__(self, number: object) -> bool:
         return isinstance(number, int) and number in self._ends
@@ -88,13 +95,38 @@ class Puppets:
         """Of the other side's nodes."""
         return {node.name for node in self.nodes.values()}
 
-    def node(self, number: int, namespace: str, name: str) -> PuppetNode:
+    def declare(
+        self, number: Any, node: Any, of: Any, kind: Any, name: Any, type_: Any, profile: Any
+    ) -> Declared:
+        """Make what stands for an end that the other side tells of. Raises Nonsense for what can't be."""
+        number, node = whole(number, "a number"), whole(node, "a number")
+        of, name = text(of, "a node's name", MOST_NAME), text(name, "a name", MOST_NAME)
+        if kind not in (*INTERFACES, *ACTIONS):
+            raise Nonsense("an end of no known kind")
+        if number in self or not of.startswith("/") or not name.startswith("/"):
+            raise Nonsense(f"the end {name!r} of {of!r}, which can't be")
+        if len(self) >= MOST_ENDS:
+            raise Nonsense(f"more than {MOST_ENDS} ends of topics, services and actions")
+        self._made += 1
+        if self._made > ALL_ENDS:
+            raise Nonsense(f"more than {ALL_ENDS} ends of topics, services and actions, one after the other")
+        cls = interface(text(type_, "a type", MOST_NAME), INTERFACES.get(kind, "action"))
+        settings = None if kind in ACTIONS else qos(profile)
+        namespace, _, short = of.rpartition("/")
+        try:
+            puppet = self._node(node, namespace or "/", short)
+            self._make(number, puppet, kind, cls, name, settings)
+        except ValueError:
+            raise Nonsense(f"the name {name!r} or {of!r}, which ROS does not allow") from None
+        return kind, puppet, name, cls, settings
+
+    def _node(self, number: int, namespace: str, name: str) -> PuppetNode:
         """The node of this number; the first time it is made. Raises ValueError for an impossible name."""
         if number not in self.nodes:
             self.nodes[number] = PuppetNode(self._engine, namespace, name)
         return self.nodes[number]
 
-    def make(self, number: int, node: PuppetNode, kind: str, type_: type, name: str, profile: Any) -> None:
+    def _make(self, number: int, node: PuppetNode, kind: str, type_: type, name: str, profile: Any) -> None:
         """Make what stands for one end of a topic, service or action. Raises ValueError for a bad name."""
         asked = _parts_of_action(kind, type_, name) if kind in ACTIONS else [(kind, type_, name, profile)]
         parts = self._ends[number] = []
