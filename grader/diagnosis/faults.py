@@ -11,6 +11,8 @@ from sim.recording import CallbackError, Ended, Recording
 
 # Classes of rclpy that call a student's method inside a callback of their own.
 _RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
+# rclpy's own NotImplementedError, for SetBool() and Spin(): that is no exercise that is not started.
+_OF_A_TYPE = re.compile(r"classes can not be instantiated")
 _HINTS = {
     "error": "Read the last line of the error first: it says what Python did not like.",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
@@ -39,7 +41,7 @@ def find_fault(recording: Recording) -> Fault | None:
 
 
 def _from_error(error: CallbackError, recording: Recording) -> Fault:
-    if error.type == "NotImplementedError":
+    if error.type == "NotImplementedError" and not _OF_A_TYPE.search(error.text):
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
             expected="your own code in place of `raise NotImplementedError`",

@@ -33,6 +33,20 @@ PARAMETER_RULES = (
         "The class itself is handed over, without brackets after its name: {0}, not {0}().",
     ),
     Rule(
+        "TypeError", r"Process\.__init__\(\) got an unexpected keyword argument '(\w+)'",
+        "A Process takes parameters as a dictionary, names and values: "
+        "`Process(NodeClass, parameters={{'{0}': ...}})`.",
+    ),
+    Rule(
+        "AttributeError", r"'(\w+)' object has no attribute 'items'",
+        "A dictionary is wanted there, names and values, and a {0} came: write `{{'name': value}}`.",
+    ),
+    Rule(
+        "KeyError", r"^'(.*)'$",
+        "The dictionary has no '{0}': is it a typing slip? Where it comes from outside, refuse what is not "
+        "in the dictionary: `if value not in dictionary:`.",
+    ),
+    Rule(
         "TypeError", r"Callback must be callable",
         "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     ),

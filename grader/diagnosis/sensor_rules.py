@@ -10,7 +10,21 @@ SENSOR_RULES = (
     Rule(
         "TypeError", r"'[<>]=?' not supported between instances of .*'array\.array'",
         "Many distances can't be compared with one number: compare the least of them, `min(...)`, or a "
-        "single one, such as `msg.ranges[0]`.",
+        "single one, such as `msg.ranges[0]`. Stars make one list of two parts: `min([*a, *b])`.",
+    ),
+    Rule(
+        "AttributeError", r"'array\.array' object has no attribute '(\w+)'",
+        "The ranges are a list of numbers, and have no `{0}`: `min(msg.ranges)` finds the least, and "
+        "`len(msg.ranges)` says how many there are.",
+    ),
+    Rule(
+        "TypeError", r"(\w+) expected (?:at \w+ )?(\d+) arguments?, got (\d+)",
+        "`{0}` takes {1}, with commas between them, and got {2}.",
+    ),
+    Rule(
+        "UnboundLocalError", r"local variable '(\w+)'",
+        "`{0}` has no value on this way through the method: it is set in another branch only, or was set in "
+        "an earlier call. What a later call needs is kept in self.",
     ),
     Rule(
         "TypeError", rf"unsupported operand type\(s\) for .*'({_MESSAGES})'",
@@ -54,12 +68,28 @@ SENSOR_RULES = (
     Rule(
         "IndexError", r"index (-?\d+) is out of bounds for axis (\d) with size (\d+)",
         "Number {0} is too large: axis {1} of the array has {2} items, and counting begins at 0. Axis 0 is "
-        "the row (y), axis 1 the column (x): `cells[row, column]`.",
+        "the row (y), axis 1 the column (x): `cells[row, column]`. What is outside of the map is left out: "
+        "`if 0 <= row < height and 0 <= column < width:`.",
     ),
     Rule(
         "KeyError", r"^(\(.+\)|None)$",
-        "The dictionary knows no {0}. Ask first, `if key in dictionary:`, or say what counts in its place, "
-        "`dictionary.get(key, math.inf)`.",
+        "The dictionary knows no {0}. Should it have been noted before? Otherwise ask first, "
+        "`if key in dictionary:`, or say what counts in its place, `dictionary.get(key, math.inf)`.",
+    ),
+    Rule(
+        "TypeError", r"'NoneType' object is not (?:iterable|subscriptable)",
+        "None came where a list or a point was wanted: a function ended without `return`, or with "
+        "`return values.reverse()`, which turns the list itself and gives nothing back; `values[::-1]` does.",
+    ),
+    Rule(
+        "TypeError", r"not supported between instances of .*'NoneType'",
+        "One side of the comparison is None: it was never set, or is what `dictionary.get(key)` says of an "
+        "unknown key. A second argument says what counts then: `dictionary.get(key, math.inf)`.",
+    ),
+    Rule(
+        "TypeError", r"indices must be integers",
+        "A place in a list is a whole number: `values.index(value)` finds the place of a value, and "
+        "`math.floor(number)` makes a number whole.",
     ),
     Rule(
         "ZeroDivisionError", r"division|modulo",

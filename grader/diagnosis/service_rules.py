@@ -29,6 +29,10 @@ SERVICE_RULES = (
         "`call_async(request)`.",
     ),
     Rule(
+        "TypeError", r"Expected <class '[\w.]*?(\w+)_Goal'>, got <class '[\w.]*?(\w+)_Goal'>",
+        "This client is for {0}, and got a goal of {1}: each action has a client of its own.",
+    ),
+    Rule(
         "TypeError", rf"Expected <class '[\w.]*?(\w+)_Goal'>, {_GOT}",
         "A goal is sent as a message: `goal = {0}.Goal()`, then set its fields, then "
         "`send_goal_async(goal)`.",
@@ -37,6 +41,26 @@ SERVICE_RULES = (
         "TypeError", rf"Expected <class '[\w.]*?(\w+)_Feedback'>, {_GOT}",
         "Feedback is a message: `feedback = {0}.Feedback()`, then set its fields, then "
         "`goal_handle.publish_feedback(feedback)`.",
+    ),
+    Rule(
+        "TypeError", r"Expected <class '[\w.]*?(\w+)'>, got <class '[\w.]*?(\w+)_(Response|Result)'>",
+        "This publisher sends {0} messages, and got a whole {1}.{2}: take the field that you need out of it, "
+        "and put that into a message, as in `{0}(data=...)`.",
+    ),
+    Rule(
+        "TypeError", r"(\w+)_(Request|Response|Goal|Result|Feedback)\.__init__\(\) takes 1 positional",
+        "Its fields are set by name, as in `{0}.{1}(field=value)`; `{0}.{1}.get_fields_and_field_types()` "
+        "lists them.",
+    ),
+    Rule(
+        "TypeError", r"publish_feedback\(\) got an unexpected keyword argument '(\w+)'",
+        "Feedback is one message, with the values in it: `publish_feedback(Type.Feedback({0}=...))`, with "
+        "the type of the action.",
+    ),
+    Rule(
+        "NotImplementedError", r"(?:Service|Action) classes can not be instantiated",
+        "A type of a service or an action is handed over as it is, without brackets: `SetBool`, not "
+        "`SetBool()`.",
     ),
     Rule(
         "AssertionError", r"The 'result' field must be a sub message of type '(\w+)_Result'",
@@ -97,6 +121,24 @@ SERVICE_RULES = (
     Rule(
         "AttributeError", r"'\w+_Result' object has no attribute 'status'",
         "The status is beside the result, not in it: `future.result().status`.",
+    ),
+    Rule(
+        "AttributeError", r"'ClientGoalHandle' object has no attribute '(?:reject|accept)\w*'",
+        "Whether the goal is accepted is in `accepted`, True or False: `if not goal_handle.accepted:`.",
+    ),
+    Rule(
+        "AttributeError", r"'ActionClient' object has no attribute '(cancel_goal_async|get_result_async)'",
+        "A client sends goals; what happens to one of them goes over its goal handle, which the first answer "
+        "brings: `self.goal_handle.{0}()`.",
+    ),
+    Rule(
+        "AttributeError", r"type object '(\w+)' has no attribute '_time_source'",
+        "A node is wanted there, not its class: `node = {0}()`, with brackets, makes one.",
+    ),
+    Rule(
+        "AttributeError", r"object attribute '(\w+)' is read-only",
+        "`{0}` was set in the class of this message before, for brackets were missing, as in "
+        "`result = Spin.Result()`. Put them there, and restart the kernel: until then the class stays so.",
     ),
     Rule(
         "AttributeError", r"'ClientGoalHandle' object has no attribute '\w+'",

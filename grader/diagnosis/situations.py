@@ -17,6 +17,9 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or _too_early(error, recording)
         or _no_future(error, recording)
         or _no_value(error)
+        or _called_with_too_little(error)
+        or _gives_something_else(error)
+        or _empty_slice(error)
     )
 
 
@@ -72,9 +75,50 @@ def _no_future(error: CallbackError, recording: Recording) -> str:
 
 def _no_value(error: CallbackError) -> str:
     """A parameter used in place of the value it holds."""
-    lines = [line.strip() for line in error.traceback.splitlines()]
-    own = [after for line, after in itertools.pairwise(lines) if line.startswith("File ")]
-    taken = own and re.search(r"get_parameter\([^)]*\)(?!\.)", own[-1])
+    taken = re.search(r"get_parameter\([^)]*\)(?!\.)", _last_line(error))
     if not taken or error.type not in ("AssertionError", "KeyError"):
         return ""
     return "get_parameter() gives a parameter, which holds a value: write self.get_parameter('name').value."
+
+
+def _called_with_too_little(error: CallbackError) -> str:
+    """A method that the student calls, and not ROS, without all that it needs."""
+    known = "request|goal_handle|future"  # to the rules, as the methods create_... are
+    found = re.search(rf"\b(?!create_)(\w+)\(\) missing \d+ .* arguments?: '(?!{known})", error.text)
+    if found is None or f"self.{found[1]}(" not in _last_line(error):
+        return ""
+    return (
+        f"`{found[1]}` is called there without all that it needs. A callback is handed over without "
+        f"brackets, `self.{found[1]}`. And a star unpacks a pair: `self.{found[1]}(*pair)`."
+    )
+
+
+def _gives_something_else(error: CallbackError) -> str:
+    """A method's value put into a field that takes another kind."""
+    field = re.search(r"The '(\w+)' field must be of type '(float|int)'", error.text)
+    called = re.search(r"=\s*self\.(\w+)\(", _last_line(error))
+    if field is None or called is None or called[1].startswith("get_"):
+        return ""
+    number = "a number with a decimal point, such as 1.0" if field[2] == "float" else "a whole number"
+    return (
+        f"`{field[1]}` takes {number}, and gets what `{called[1]}` gives back: does every way through it end "
+        "with `return` and one such number? `print` shows what comes."
+    )
+
+
+def _empty_slice(error: CallbackError) -> str:
+    """A slice that was to go from the end of a list over to its beginning."""
+    part = re.search(r"\[(-\d+):(\d+)\]", _last_line(error))
+    if part is None or not re.search(r"(?:min|max)\(\) .*empty", error.text):
+        return ""
+    return (
+        f"`[{part[1]}:{part[2]}]` is empty: a slice doesn't go on from the end of a list to its beginning. "
+        f"Join two parts: `[*msg.ranges[{part[1]}:], *msg.ranges[:{part[2]}]]`."
+    )
+
+
+def _last_line(error: CallbackError) -> str:
+    """The line of the student's code in which the error came up; "" where rclpy called what failed."""
+    lines = [line.strip() for line in error.traceback.splitlines()]
+    own = [after for line, after in itertools.pairwise(lines) if line.startswith("File ")]
+    return own[-1] if own else ""

@@ -66,3 +66,16 @@ class TakesTheFutureForTheAnswer(Wheel):
 
 
 whole_number_at_the_start = Process(Wheel, parameters={"radius": 1})
+
+
+def launches_with_a_keyword():
+    return Process(Wheel, radius=0.2)
+
+
+def launches_with_text():
+    return Process(Wheel, parameters="radius:=0.2")
+
+
+class LooksUpAWordThatIsNotThere(Wheel):
+    def change(self):
+        return {"round": 0.1}["square"]

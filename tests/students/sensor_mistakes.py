@@ -110,3 +110,36 @@ class MeanOfNothing(Looker):
     def look(self, scan, imu):
         far = [distance for distance in scan.ranges if distance > 100]
         return sum(far) / len(far)
+
+
+class AsksTheRangesForTheLeast(Looker):
+    def look(self, scan, imu):
+        return scan.ranges.min()
+
+
+class DividesInPlaceOfAComma(Looker):
+    def look(self, scan, imu):
+        return math.atan2(imu.orientation.z / imu.orientation.w)
+
+
+class BiasOfAnotherBranch(Looker):
+    def look(self, scan, imu):
+        if imu.angular_velocity.z > 0:
+            bias = 0.1
+        return imu.angular_velocity.z - bias
+
+
+class WayTurnedInPlace(Looker):
+    def look(self, scan, imu):
+        way = [(0, 0), (0, 1)]
+        return [cell[0] for cell in way.reverse() or None]
+
+
+class CostNeverNoted(Looker):
+    def look(self, scan, imu):
+        return {}.get((0, 0)) < 1.0
+
+
+class DistanceForAPlace(Looker):
+    def look(self, scan, imu):
+        return scan.ranges.tolist()[min(scan.ranges) :]

@@ -1,5 +1,6 @@
 """Services and actions with one mistake each, named by it, that ends in an exception."""
 
+import rclpy
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts, SetBool
 from nav2_msgs.action import Wait
@@ -246,3 +247,62 @@ class ActionServerWithoutCallback(Runner):
 class SendsGoalsOfAnotherType(Runner):
     def tick(self):
         ActionClient(self, Wait, "count")
+
+
+class ServesAnObjectOfTheType(Asker):
+    def __init__(self):
+        super().__init__()
+        self.create_service(SetBool(), "switch", self.answer)
+
+
+class PublishesTheWholeAnswer(Asker):
+    def __init__(self):
+        super().__init__()
+        self.publisher = self.create_publisher(String, "sums", 10)
+
+    def answer(self, request, response):
+        self.publisher.publish(response)
+        return response
+
+
+class AsksByPosition(Asker):
+    def tick(self):
+        self.client.call_async(AddTwoInts.Request(1, 2))
+
+
+class SendsTheGoalOfAnotherAction(Runner):
+    def tick(self):
+        self.client.send_goal_async(Wait.Goal())
+
+
+class TellsFeedbackByKeyword(Runner):
+    def execute(self, goal_handle):
+        goal_handle.publish_feedback(sequence=[0, 1])
+        return super().execute(goal_handle)
+
+
+class LooksForRejected(Runner):
+    def tick(self):
+        self.timer.cancel()
+        self.client.send_goal_async(Fibonacci.Goal(order=3)).add_done_callback(self.hear)
+
+    def hear(self, future):
+        return future.result().rejected
+
+
+class CancelsByTheClient(Runner):
+    def tick(self):
+        self.client.cancel_goal_async()
+
+
+class SetsAFieldOfAClass(Runner):
+    """The class that is changed here is one of its own, so that other tests find theirs as it was."""
+
+    def execute(self, goal_handle):
+        own = type("Result", (String,), {"__slots__": (), "data": "set in the class"})
+        return own()
+
+
+def spins_the_class():
+    rclpy.init()
+    rclpy.spin(Runner)

@@ -83,7 +83,8 @@ def words(message: Any) -> str:
     if hasattr(message, "order"):
         return f"order {message.order}"
     if hasattr(message, "sequence"):
-        return str(list(message.sequence))
+        numbers = [str(number) for number in message.sequence]
+        return f"[{', '.join(numbers if len(numbers) < 16 else [*numbers[:8], '...', numbers[-1]])}]"
     if hasattr(message, "target_yaw"):
         return f"turn by {message.target_yaw:.2f} rad"
     return message.error_msg and f"({message.error_msg})"

@@ -96,9 +96,9 @@ def accepts_good_orders(recording: Recording) -> None:
     for goal in picked(recording, FIBONACCI, _is_good):
         if goal.at("accepted") is None:
             at_limit = goal.request.order in LIMITS
-            hint = (
-                "1 and 20 are good orders: is it < or <=?" if at_limit else "Which is ACCEPT, which REJECT?"
-            )
+            hint = "judge gave REJECT: which way round is the `if`, and does `return` stand before ACCEPT?"
+            if at_limit:
+                hint = "1 and 20 are good orders: is it < or <=?"
             with advising(recording, hint):
                 raise Missed(f"{named(goal)} accepted", state(goal), credit=0.0)
 

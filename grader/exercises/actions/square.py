@@ -64,7 +64,7 @@ def comes_back(recording: Recording) -> None:
         passes(recording, CORNERS, tolerance=NEAR)
     except Missed as missed:
         raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
-    with hinting("Four sides and four turns, and then no more goals."):
+    with hinting(_no_quarter(recording) or "Four sides and four turns, and then no more goals."):
         arrives(recording, (0.0, 0.0), tolerance=NEAR)
 
 
@@ -84,7 +84,15 @@ def _hint(recording: Recording) -> str:
         return f"A drive was aborted: {refused.result.error_msg}."
     if any(abs(goal.request.target.x - 1.0) > 0.01 for goal in drives):
         return "A side is 1 m: target.x = 1.0."
-    return "Four times: drive 1 m ahead, then turn left by pi / 2 rad. The picture shows your way."
+    words = "Four times: drive 1 m ahead, then turn left by pi / 2 rad. The picture shows your way."
+    return _no_quarter(recording) or words
+
+
+def _no_quarter(recording: Recording) -> str:
+    """What to say where a turn is by another angle than a quarter turn; "" where none is."""
+    angles = (goal.request.target_yaw for goal in recording.goals_of(SPIN))
+    other = next((angle for angle in angles if abs(angle - math.pi / 2) > 0.01), None)
+    return "" if other is None else f"target_yaw was {other:.3g}: a quarter turn is math.pi / 2, 1.5708 rad."
 
 
 square = Exercise(

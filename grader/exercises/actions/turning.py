@@ -163,6 +163,8 @@ def _turning_hint(recording: Recording, goal: Goal, turned: float) -> str:
             "It turned on and on, for self.turned stays 0: does hear_odometry add to it? And does execute "
             "await self.pause(...)? While it sleeps, the node is deaf to /odom."
         )
+    if not goal.over and told and max(map(abs, told)) < 0.1:
+        return "It turned on and on, for self.turned is the last step only. Add up: self.turned += ..."
     if not goal.over:
         return (
             "It turned on and on. From pi the yaw jumps to -pi: add up small steps, each one "

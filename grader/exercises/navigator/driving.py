@@ -42,6 +42,7 @@ def tells_the_distance(recording: Recording) -> None:
         "The square root is missing: math.hypot(dx, dy) does it all.": (
             lambda spot: math.dist(GOAL, spot[:2]) ** 2
         ),
+        "This is the bearing: first comes the distance, then the bearing.": _bearing,
     }
     _agrees(recording, DISTANCE, lambda spot: math.dist(GOAL, spot[:2]), 0.05, "m", usual)
 
@@ -55,6 +56,15 @@ def tells_the_bearing(recording: Recording) -> None:
             lambda spot: -_bearing(spot)
         ),
         "The unit is rad, not degrees.": lambda spot: math.degrees(_bearing(spot)),
+        "This is the distance: first comes the distance, then the bearing.": (
+            lambda spot: math.dist(GOAL, spot[:2])
+        ),
+        "It points away from the goal: dx and dy are the goal minus the robot.": (
+            lambda spot: math.remainder(_bearing(spot) + math.pi, math.tau)
+        ),
+        "A whole turn is math.tau: math.remainder(angle, math.pi) takes half turns away, too.": (
+            lambda spot: math.remainder(_bearing(spot), math.pi)
+        ),
         "math.atan2 takes dy first, then dx.": (
             lambda spot: math.remainder(math.pi / 2 - _direction(spot) - spot[2], math.tau)
         ),
@@ -190,6 +200,8 @@ def _driving_hint(recording: Recording) -> str:
     speeds = [value for _, value in series(recording, "/cmd_vel", "linear.x")]
     if not any(turns) and any(speeds):
         return "The robot never turned: angular.z follows the bearing, such as 2.0 * bearing."
+    if not any(speeds) and not any(turns):
+        return "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?"
     if not any(speeds):
         return "The robot was never told to go ahead: set linear.x (m/s)."
     if max(speeds) <= 0:

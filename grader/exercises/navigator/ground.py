@@ -13,7 +13,9 @@ Point = tuple[float, float]
 Cell = tuple[int, int]  # (column, row)
 
 RESOLUTION = 0.05  # metres; a cell's width
-MARGIN = 0.22  # metres around the world's bounds; nobody knows what is there. It is no whole number of cells
+# Metres around the world's bounds, where nobody knows what is there. It is no whole number of cells, and
+# less than walls are inflated by: who doesn't look where the map ends is told so.
+MARGIN = 0.12
 # Straight and diagonal steps, and those of a chess knight: with them a way is at most 3 % too long.
 _STEPS = [(dx, dy) for dx in range(-2, 3) for dy in range(-2, 3) if (dx or dy) and math.gcd(dx, dy) == 1]
 

@@ -50,7 +50,7 @@ def publishes_a_costmap(recording: Recording) -> None:
 @check(points=5, after=hears_the_map)
 def answers_clicks(recording: Recording) -> None:
     """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
-    with advising(recording, "to_cell and to_point do it: first the cell of the point, then its middle."):
+    with advising(recording, "Work one out by hand: the cell is (x - origin) / resolution, rounded down."):
         publishes(recording, "/cell_centre", POINT)
         info, wrong = _map(recording).info, []
         clicks = recording.messages("/clicked_point")
@@ -110,7 +110,7 @@ _SLIPS: dict[str, Callable[[Any, Point], Point]] = {
     "round() takes the nearest cell, which may be the next one: use math.floor().": (
         lambda info, point: _centre(info, point, round)
     ),
-    "A column and a row are whole numbers: math.floor() cuts off what is behind the point.": (
+    "A column and a row are whole numbers: math.floor() rounds down.": (
         lambda info, point: _centre(info, point, lambda value: value)
     ),
     "x belongs to the column and y to the row; here they are swapped.": (

@@ -187,8 +187,8 @@ def _driving_hint(recording: Recording, goal: Goal, left: float) -> str:
     plans = [heard.message for heard in recording.messages("/plan")]
     if not plans:
         return (
-            "No plan was published. While a goal is executed the node has to hear /tf and /map, too: "
-            f"{THREADS}."
+            "No plan was published. In the loop: where there is no path yet, or it is blocked, "
+            f"self.plan(goal). And while a goal is executed the node has to hear /tf and /map: {THREADS}."
         )
     if not any(plan.poses for plan in plans):
         return "All plans are empty. Is the start where the robot is in the map, and are both cells free?"

@@ -71,6 +71,8 @@ def _why_it_stands(recording: Recording) -> str:
         return "linear.x is negative: that is backwards."
     if any(speeds):
         return "The commands stop too early, or come too rarely: publish one in every callback."
+    if any(turn for _, turn in series(recording, "/cmd_vel", "angular.z")):
+        return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
     return (
         "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line "
         "say then?"
@@ -155,8 +157,9 @@ def _why_it_is_stuck(recording: Recording) -> str:
         return f"It pushes against something. {_why_it_hits(recording.contacts[0].side)}"
     if sum(turns) > 0.6 * len(turns):
         return (
-            "It turns most of the time. Look ahead only, not all round: a wall beside the robot stays "
-            "near, however long it turns. And turn one way until it is free, not to and fro."
+            "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way "
+            "round is the comparison? Look ahead only, not all round: a wall beside the robot stays near, "
+            "however long it turns. And turn one way until it is free, not to and fro."
         )
     if not any(turns):
         return "It never turns: where something is near ahead, set angular.z, until it is free."

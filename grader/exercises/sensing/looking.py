@@ -130,6 +130,9 @@ def _why_wrong(recording: Recording, looks: list[Look], wrong: list[Look]) -> st
     first, sides = wrong[0], [look for look in wrong if look.topic != "/front"]
     if all(look.said == look.sector.middle for look in wrong):
         return "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it."
+    firsts = [look for look in wrong if look.said == look.sector.middle != math.inf]
+    if firsts and all(look.said == math.inf for look in wrong if look not in firsts):
+        return "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?"
     if all(look.said is not None and look.said >= look.sector.rays.max() for look in wrong):
         return "That is the greatest distance. min(...) finds the least one."
     if all(look.said == look.sector.around for look in wrong if look.topic == first.topic):

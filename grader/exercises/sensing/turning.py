@@ -166,6 +166,8 @@ def _why_not_turned(recording: Recording, said: float) -> str:
     largest = max(abs(value) for _, value in series(recording, HEADING, "data"))
     if largest == 0.0:
         return "It stays 0 all the time: collect the first 200 rates, and add up from then on."
+    if largest < 2.0:
+        return "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01."
     if abs(said) < 2.0 and largest > 30.0:
         return "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up."
     return _wrong_scale(recording) or BIAS
@@ -185,6 +187,11 @@ def _wrong_scale(recording: Recording) -> str:
         )
     if 0.01 < ratio < 0.025:
         return "That is the angle in radians: math.degrees(...) turns it into degrees."
+    if 50.0 < ratio < 65.0:
+        return (
+            "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
+            "comes only once, where it is published."
+        )
     if ratio > 2.5:
         return (
             f"That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the "

@@ -59,7 +59,7 @@ def keeps_the_distance(recording: Recording) -> None:
         near, far = sum(gap < NEAR for gap in gaps), sum(gap > FAR for gap in gaps)
         hint = (
             "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before "
-            "it is 0.3 m: is angular.z positive then?"
+            "it is 0.3 m: is angular.z positive then, and large enough?"
             if near > far
             else "Turn a little to the right when the wall on the right is further than 0.5 m: it must "
             "not get lost."
@@ -100,7 +100,8 @@ def _why_not_round(recording: Recording) -> str:
     if infinite and (first is None or first.side != "front"):
         return (
             "It came so near to the wall that a ray said -inf (or nan), the formula made an infinite turn of "
-            "it, and the robot refuses that. Steer so that it stays 0.5 m away."
+            "it, and the robot refuses that. Look to the right, at ranges[270], and steer so that it stays "
+            "0.5 m away."
         )
     if first:
         return (

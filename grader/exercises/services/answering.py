@@ -42,6 +42,7 @@ add = Exercise(
 
 CALIBRATE, TRIGGER = "/gyro/calibrate", "std_srvs/srv/Trigger"
 RAW, RATE = "/gyro/raw", "/gyro/rate"
+ENOUGH = f"It refused with {READINGS} readings. Refuse only below that: if len(self.readings) < {READINGS}."
 
 
 @check(points=3)
@@ -98,6 +99,8 @@ def tells_the_bias(recording: Recording) -> None:
         expected = f"success=True and {bias:.3f} in the message, for {call.question}"
         if not accepted(call):
             hint = "response.success is False until you set it: response.success = True."
+            if _did_nothing(recording, call):
+                hint = ENOUGH
             not_so(recording, expected, call, hint)
         numbers = [float(number) for number in re.findall(r"-?\d+\.\d+", call.response["message"])]
         good = (bias, _used_bias(recording, call))
@@ -129,10 +132,17 @@ def _used_bias(recording: Recording, call: Call) -> float:
     return means[0] - means[1]
 
 
+def _did_nothing(recording: Recording, call: Call) -> bool:
+    """Whether the readings come out after a calibration as they come in."""
+    return refused(call) and abs(_used_bias(recording, call)) < 0.01
+
+
 def _bias_hint(recording: Recording, call: Call, mean: float) -> str:
     bias = _bias(recording, call)
     if abs(mean - 2 * bias) < 0.02:
         return "The bias was added in place of taken away: publish the reading minus self.bias."
+    if abs(mean - bias) < 0.02 and refused(call):
+        return ENOUGH
     if abs(mean - bias) < 0.02:
         return "The readings come out as they came in: calibrate has to set self.bias, with self."
     if _possible(recording).index(call) > 0:

@@ -15,6 +15,7 @@ from sim.recording import Recording, Seconds
 ARM, SET_BOOL = "/arm", "std_srvs/srv/SetBool"
 CALLS = 6  # that the pilot makes
 SPEED = 0.3  # m/s
+INVERTED = "Each call did the opposite of what it asked for: self.armed = request.data."
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
 
 
@@ -30,7 +31,7 @@ def says_what_it_did(recording: Recording) -> None:
     for call in asked(recording, ARM, CALLS):
         if not _is_answered(call):
             expected = f"success=True, message={_word(call)!r} for {call.question}"
-            not_so(recording, expected, call, _answering_hint(call))
+            not_so(recording, expected, call, _answering_hint(recording, call))
 
 
 @check(points=4, after=offers_to_arm)
@@ -90,7 +91,15 @@ def _driven(recording: Recording, begin: Seconds, end: Seconds) -> float:
     return sum(math.dist((a.x, a.y), (b.x, b.y)) for a, b in steps)
 
 
-def _answering_hint(call: Call) -> str:
+def _is_inverted(recording: Recording) -> bool:
+    """Whether each call did the opposite of what it asked for, as its message says."""
+    made = asked(recording, ARM, CALLS)
+    return all(len(_said(call)) == 1 and _said(call) != [_word(call)] for call in made)
+
+
+def _answering_hint(recording: Recording, call: Call) -> str:
+    if _is_inverted(recording):
+        return INVERTED
     if _said(call) == [_word(call)]:
         return "success says whether the call went well, and here it always does. The message says the rest."
     if accepted(call):
@@ -104,6 +113,10 @@ def _driving_hint(recording: Recording, call: Call) -> str:
     speeds = {heard.message.linear.x for heard in recording.messages("/cmd_vel")}
     if not speeds:
         return "Nothing was published on /cmd_vel: publish a Twist in drive, each time."
+    if _is_inverted(recording):
+        return INVERTED
+    if speeds == {0.0} and any(heard.message.angular.z for heard in recording.messages("/cmd_vel")):
+        return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
     if speeds == {0.0}:
         return "All commands were 0: does arm set self.armed (with self), and does drive look at it?"
     if before and _driven(recording, made[0].asked, made[1].asked) > 0.1:

@@ -71,7 +71,8 @@ def asks_until_yes(recording: Recording) -> None:
     pauses = [after.asked - before.answered for before, after in itertools.pairwise(made)]
     if pauses and max(pauses) < 0.3:
         with advising(recording, "Only the timer asks, once a second: no loop, and not the done callback."):
-            raise Missed("a pause of about a second before it asks again", f"{max(pauses):.2g} s")
+            saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it asks again before the answer is there"
+            raise Missed("a pause of about a second before it asks again", saw)
     yes = next((call for call in made if accepted(call)), None)
     if yes is None:
         hint = "Let a timer ask once a second, for as long as the answer is no."

@@ -68,8 +68,9 @@ def _refusing_hint(recording: Recording) -> str:
     if any(refused(call) for call in asked(recording, SET) if not _is_allowed(call)):
         return f"The range has two ends: refuse a value unless {LOW} <= parameter.value <= {HIGH}."
     return (
-        "Hand a method to self.add_on_set_parameters_callback(...). It looks at p.name and p.value of "
-        'each parameter p, and returns SetParametersResult(successful=False, reason="...") for a bad one.'
+        "Nothing was refused. Is the method handed over, self.add_on_set_parameters_callback(self.check)? "
+        "And does it refuse where parameter.name is `speed`, unless "
+        f"{LOW} <= parameter.value <= {HIGH}?"
     )
 
 

@@ -76,8 +76,8 @@ ADVICE = {
     mistakes.ForgottenModule: "Python finds no module `std_msg`: check its spelling. Message packages end in `_msgs` "
     "and `.msg`, as in `from std_msgs.msg import String`.",
     mistakes.WrongNameFromModule: "`std_msgs.msg` has no `Sting`: check the spelling and the capital letters.",
-    mistakes.DividesByZero: "Read the line it names, and think what its values are at that moment; `print` shows "
-    "them.",
+    mistakes.DividesByZero: "The number after `/`, `//` or `%` in that line is 0 at that moment. Ask first, with `if`, "
+    "whether it is 0, and say what counts then.",
     mistakes.FormatsNothing: "A value in the f-string is None: it was never set, or comes from a function without "
     "`return`.",
     mistakes.OneLineForTwoLevels: "Each place in the code logs at one level only: with if and else, write a line of "

@@ -18,6 +18,9 @@ ADVICE = {
     "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
     "SaysYesByPosition": "The fields of a result are set by name: SetParametersResult(successful=True), or SetParametersResult(successful=False, reason='...').",
     "launches_an_object": "The class itself is handed over, without brackets after its name: Wheel, not Wheel().",
+    "launches_with_a_keyword": "A Process takes parameters as a dictionary, names and values: `Process(NodeClass, parameters={'radius': ...})`.",
+    "launches_with_text": "A dictionary is wanted there, names and values, and a str came: write `{'name': value}`.",
+    "LooksUpAWordThatIsNotThere": "The dictionary has no 'square': is it a typing slip? Where it comes from outside, refuse what is not in the dictionary: `if value not in dictionary:`.",
     "TakesTheFutureForTheAnswer": "A future is the box in which the answer comes: `await` it first, or take `future.result().sum` in its done callback.",
 }
 

@@ -77,6 +77,23 @@ ADVICE = {
     mistakes.ActionServerWithoutCallback: "ActionServer() is missing an argument: write "
     "ActionServer(self, Type, 'name', self.execute).",
     mistakes.SendsGoalsOfAnotherType: OTHER_TYPE.format("/count"),
+    mistakes.ServesAnObjectOfTheType: "A type of a service or an action is handed over as it is, without brackets: "
+    "`SetBool`, not `SetBool()`.",
+    mistakes.PublishesTheWholeAnswer: "This publisher sends String messages, and got a whole AddTwoInts.Response: take "
+    "the field that you need out of it, and put that into a message, as in `String(data=...)`.",
+    mistakes.AsksByPosition: "Its fields are set by name, as in `AddTwoInts.Request(field=value)`; "
+    "`AddTwoInts.Request.get_fields_and_field_types()` lists them.",
+    mistakes.SendsTheGoalOfAnotherAction: "This client is for Fibonacci, and got a goal of Wait: each action has a "
+    "client of its own.",
+    mistakes.TellsFeedbackByKeyword: "Feedback is one message, with the values in it: "
+    "`publish_feedback(Type.Feedback(sequence=...))`, with the type of the action.",
+    mistakes.LooksForRejected: "Whether the goal is accepted is in `accepted`, True or False: "
+    "`if not goal_handle.accepted:`.",
+    mistakes.CancelsByTheClient: "A client sends goals; what happens to one of them goes over its goal handle, which "
+    "the first answer brings: `self.goal_handle.cancel_goal_async()`.",
+    mistakes.SetsAFieldOfAClass: "`data` was set in the class of this message before, for brackets were missing, as in "
+    "`result = Spin.Result()`. Put them there, and restart the kernel: until then the class stays so.",
+    mistakes.spins_the_class: "A node is wanted there, not its class: `node = Runner()`, with brackets, makes one.",
 }
 
 

@@ -45,7 +45,7 @@ class RaisesForNo(AsksItself):
 
 class SlipsInAService(AsksItself):
     def reset(self, request, response):
-        response.success = {}["ready"]
+        response.success = {}[1]
         return response
 
 
@@ -149,6 +149,36 @@ class HearsWithoutTheFuture(Ticking):
         self.say("heard")
 
 
+class CallsItsCallback(Ticking):
+    def tick(self):
+        self.create_subscription(Float64, "angle", self.look(), 10)
+
+    def look(self, msg):
+        self.say("looked")
+
+
+class HandsAPairOver(Ticking):
+    def tick(self):
+        self.drive((0.3, 0.1))
+
+    def drive(self, speed, turn):
+        self.say("drives")
+
+
+class GivesNothingBack(Ticking):
+    def tick(self):
+        Float64(data=self.nearest())
+
+    def nearest(self):
+        min(1.0, 2.0)
+
+
+class SlicesPastTheEnd(Ticking):
+    def tick(self):
+        ranges = [1.0] * 360
+        self.say(min(ranges[-35:36]))
+
+
 class Hears(Ticking):
     """Nothing is wrong with it."""
 
@@ -175,6 +205,14 @@ ADVICE = {
     "self.get_parameter('name').value.",
     (SendsAWrongValue,): "`data` takes a number with a decimal point: set `msg.data = 1.0`, not `1`; `float(value)` "
     "converts.",
+    (CallsItsCallback,): "`look` is called there without all that it needs. A callback is handed over without brackets, "
+    "`self.look`. And a star unpacks a pair: `self.look(*pair)`.",
+    (HandsAPairOver,): "`drive` is called there without all that it needs. A callback is handed over without brackets, "
+    "`self.drive`. And a star unpacks a pair: `self.drive(*pair)`.",
+    (GivesNothingBack,): "`data` takes a number with a decimal point, such as 1.0, and gets what `nearest` gives back: "
+    "does every way through it end with `return` and one such number? `print` shows what comes.",
+    (SlicesPastTheEnd,): "`[-35:36]` is empty: a slice doesn't go on from the end of a list to its beginning. Join two "
+    "parts: `[*msg.ranges[-35:], *msg.ranges[:36]]`.",
     (SlowAdder, ReadsNothingWhileAskingElsewhere): "What stands before `.sum` is None: it was never set, or comes from a "
     "function without `return`.",
     (SlowAdder, HearsWithoutTheFuture): "A done callback is called with the future: write `def hear(self, future):`.",

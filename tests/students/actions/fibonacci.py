@@ -157,3 +157,15 @@ class SucceedsTwice(FibonacciServer):
     def end(self, goal_handle, sequence):
         goal_handle.succeed()
         return super().end(goal_handle, sequence)
+
+
+class ObjectForType(Node):
+    def __init__(self):
+        super().__init__("fibonacci_server")
+        self.server = ActionServer(self, Fibonacci(), "/fibonacci", print)
+
+
+class ResultByPosition(FibonacciServer):
+    def end(self, goal_handle, sequence):
+        goal_handle.succeed()
+        return Fibonacci.Result(sequence)

@@ -183,3 +183,16 @@ class ForgetsTheSpeed(SquareClient):
 
 class OneThreadThatBlocks(BlockingClient):
     """send_goal waits, and nobody is there to take the answer."""
+
+
+class HalfTurns(SquareClient):
+    angle = math.pi
+
+
+class NearlyAQuarter(SquareClient):
+    angle = 1.5
+
+
+class TurnsWithTheDriver(SquareClient):
+    async def finish(self, client, goal):
+        await super().finish(self.drive, goal)

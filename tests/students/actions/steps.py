@@ -172,3 +172,15 @@ class MisspeltName(FibonacciReporter):
     def __init__(self):
         Node.__init__(self, "fibonacci_server")
         self.server = ActionServer(self, Fibonacci, "/fibonaccy", self.execute, goal_callback=self.judge)
+
+
+class FeedbackByKeyword(FibonacciReporter):
+    def tell(self, goal_handle, sequence):
+        goal_handle.publish_feedback(sequence=sequence)
+
+
+class ForgetsReturnBeforeAccept(FibonacciReporter):
+    def judge(self, goal):
+        if 1 <= goal.order <= 20:
+            GoalResponse.ACCEPT  # noqa: B018
+        return GoalResponse.REJECT

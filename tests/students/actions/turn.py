@@ -285,3 +285,8 @@ class ForgetsToSucceed(SpinServer):
     async def execute(self, goal_handle):
         goal_handle.succeed = lambda: None
         return await super().execute(goal_handle)
+
+
+class KeepsTheLastStepOnly(SpinServer):
+    def add(self, yaw):
+        self.turned = math.remainder(yaw - self.yaw, math.tau)

@@ -171,3 +171,19 @@ class WithoutAMessage(Compass):
 class NeverListens(Compass):
     def on_odom(self):
         self.distance_publisher.publish(Float64())
+
+
+class PointsAway(Compass):
+    def bearing(self, dx, dy, orientation):
+        return super().bearing(-dx, -dy, orientation)
+
+
+class HalfATurnLost(Compass):
+    def bearing(self, dx, dy, orientation):
+        return math.remainder(math.atan2(dy, dx) - yaw_of(orientation), math.pi)
+
+
+class Swapped(Compass):
+    """Publishes the bearing for the distance, and the other way round."""
+
+    distance_topic, bearing_topic = Compass.bearing_topic, Compass.distance_topic

@@ -244,3 +244,23 @@ class NoWholeNumbers(Costmap):
 class OneIsOccupied(Costmap):
     def inflate(self, cells, reach):
         return np.where(super().inflate(cells, reach) == 100, 1, cells)
+
+
+class NeverLooksAtTheEdge(Costmap):
+    """Where the map ends there is no next cell; on the other side Python begins again at the end."""
+
+    def inflate(self, cells, reach):
+        inflated, around = cells.copy(), range(-4, 5)
+        for row, column in np.argwhere(cells == 100):
+            for up, right in [(up, right) for up in around for right in around]:
+                if math.hypot(up, right) <= reach + 1e-9:
+                    inflated[row + up, column + right] = 100
+        return inflated
+
+
+class ForgetsBrackets(Costmap):
+    """Divides the origin alone."""
+
+    def to_cell(self, x, y):
+        corner, width = self.info.origin.position, self.info.resolution
+        return math.floor(x - corner.x / width), math.floor(y - corner.y / width)

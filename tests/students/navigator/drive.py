@@ -226,3 +226,9 @@ class PassesBy(GoToGoal):
     def steer(self, command, distance, bearing):
         if distance > self.near:
             command.linear.x, command.angular.z = 0.4, 0.2 * bearing
+
+
+class WrongWayRound(GoToGoal):
+    def steer(self, command, distance, bearing):
+        if distance < self.near:
+            super().steer(command, 1.0, bearing)

@@ -193,3 +193,31 @@ class TurnForSpeed(Follower):
     def steer(self, point):
         speed, turn = super().steer(point)
         return (turn, speed) if speed else (speed, turn)
+
+
+class HalfTheCurvature(Follower):
+    """Without the 2 it gets along, but swings out of each corner."""
+
+    def steer(self, point):
+        speed, turn = super().steer(point)
+        return (speed, turn / 2) if speed else (speed, turn)
+
+
+class ForgetsTheDistance(Follower):
+    def steer(self, point):
+        speed, turn = super().steer(point)
+        return (speed, turn * math.dist(self.pose[:2], point)) if speed else (speed, turn)
+
+
+class SpeedOnTheSpot(Follower):
+    """Gives the two numbers the wrong way round where it should turn on the spot."""
+
+    def steer(self, point):
+        speed, turn = super().steer(point)
+        return (speed, turn) if speed else (turn, speed)
+
+
+class PlaceByDistance(Follower):
+    def carrot(self):
+        distances = [math.dist(self.pose[:2], point) for point in self.path]
+        return self.path[min(distances) :][0]

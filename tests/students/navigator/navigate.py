@@ -371,6 +371,20 @@ class NeverDrives(Navigator):
         pass
 
 
+class NeverPlansWithoutAPath(Navigator):
+    """Plans where there is a path that is blocked; and there is none."""
+
+    def plan(self, goal):
+        return []
+
+
+class TellsTheStraightLine(Navigator):
+    def feedback(self, path, began):
+        feedback = super().feedback(path, began)
+        feedback.distance_remaining = math.dist(self.pose[:2], path[-1])
+        return feedback
+
+
 other_name = main_of(OtherName)
 other_type = main_of(OtherType)
 blind = main_of(Blind)
@@ -389,6 +403,8 @@ feedback_by_odometry = main_of(FeedbackByOdometry)
 no_estimate = main_of(NoEstimate)
 drives_in_circles_first = main_of(DrivesInCirclesFirst)
 never_drives = main_of(NeverDrives)
+never_plans_without_a_path = main_of(NeverPlansWithoutAPath)
+tells_the_straight_line = main_of(TellsTheStraightLine)
 with_one_thread = main_of(Navigator, SingleThreadedExecutor)
 
 PARTS = ("main_of", *(name for name, item in list(vars().items()) if isinstance(item, type)))

@@ -241,3 +241,9 @@ class SilentWithoutAWay(Planner):
     def find(self, cells, start, goal):
         self.way = super().find(cells, start, goal) or self.way
         return self.way
+
+
+class GivesNoWayBack(Planner):
+    def find(self, cells, start, goal):
+        way = super().find(cells, start, goal)[::-1]
+        return way.reverse()

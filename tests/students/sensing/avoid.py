@@ -197,3 +197,16 @@ class SumOfSlices(Wanderer):
         command = Twist()
         self.choose(command, min(msg.ranges[:35], msg.ranges[-35:]))
         self.publisher.publish(command)
+
+
+class WrongWayRound(Wanderer):
+    def choose(self, command, ahead):
+        if ahead > self.limit:
+            command.angular.z = self.turn
+        else:
+            command.linear.x = self.speed
+
+
+class SlicePastTheEnd(Wanderer):
+    def look(self, msg):
+        return min(msg.ranges[-35:36])

@@ -200,3 +200,13 @@ class TakesTheBiasFromTheAngle(Gyro):
         super().look(msg)
         if len(self.rates) == self.still:
             self.yaw -= self.bias
+
+
+class KeepsTheLastStepOnly(Gyro):
+    def look(self, msg):
+        self.yaw = 0.0
+        super().look(msg)
+
+
+class DegreesTwice(Gyro):
+    step = math.degrees(0.01)

@@ -181,3 +181,16 @@ class CreepsOn(Stopper):
 
     def choose(self, nearest):
         return 0.3 if nearest > 1.0 else 0.02 * math.copysign(1.0, nearest)
+
+
+class TurnsInPlaceOfDriving(Stopper):
+    def look(self, msg):
+        command = Twist()
+        if min(msg.ranges) > 1.0:
+            command.angular.z = 0.3
+        self.publisher.publish(command)
+
+
+class LeastByMethod(Stopper):
+    def look(self, msg):
+        return msg.ranges.min()

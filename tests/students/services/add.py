@@ -187,3 +187,9 @@ class NeverComesBack(Adder):
     def add(self, request, response):
         while True:
             pass
+
+
+class ObjectForType(Adder):
+    def __init__(self):
+        Node.__init__(self, "adder")
+        self.create_service(AddTwoInts(), "/add_two_ints", self.add)

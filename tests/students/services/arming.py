@@ -201,3 +201,17 @@ class NeverComesBack(Driver):
     def arm(self, request, response):
         while True:
             pass
+
+
+class DoesTheOpposite(Driver):
+    def arm(self, request, response):
+        self.armed = not request.data
+        return SetBool.Response(success=True, message="armed" if self.armed else "disarmed")
+
+
+class TurnsInPlaceOfDriving(Driver):
+    def drive(self):
+        msg = Twist()
+        if self.armed:
+            msg.angular.z = 0.3
+        self.publisher.publish(msg)

@@ -209,3 +209,14 @@ class NeverComesBack(Gyro):
     def calibrate(self, request, response):
         while True:
             pass
+
+
+class OneReadingTooMany(Gyro):
+    """Wants more readings than are kept."""
+
+    def calibrate(self, request, response):
+        if len(self.readings) <= 50:
+            response.success = False
+            response.message = f"only {len(self.readings)} of 50 readings so far"
+            return response
+        return super().calibrate(request, response)

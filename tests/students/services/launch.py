@@ -81,3 +81,11 @@ def returns_the_class():
 
 def renames_it():
     return Process(Cruiser, name="fast_cruiser", parameters={"speed": 0.3})
+
+
+def with_a_keyword():
+    return Process(Cruiser, speed=0.3)
+
+
+def with_text():
+    return Process(Cruiser, parameters="speed:=0.3")

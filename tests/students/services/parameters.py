@@ -212,3 +212,13 @@ class NeverComesBack(Cruiser):
     def check(self, parameters):
         while True:
             pass
+
+
+class NeverBothAtOnce(Cruiser):
+    """No number is below one end and above the other."""
+
+    def check(self, parameters):
+        for parameter in parameters:
+            if parameter.name == "speed" and parameter.value < 0.0 and parameter.value > 0.5:
+                return SetParametersResult(successful=False, reason="out of range")
+        return SetParametersResult(successful=True)

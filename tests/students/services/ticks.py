@@ -227,3 +227,13 @@ class HeartStopsFirst(WithDoneCallback):
     def say(self, answer):
         super().say(answer)
         self.beats.publish(Bool(data=True))
+
+
+class PublishesTheWholeAnswer(Awaiting):
+    def say(self, answer):
+        self.publisher.publish(answer)
+
+
+class AsksByPosition(Awaiting):
+    def question(self):
+        return AddTwoInts.Request(self.left, self.right)
