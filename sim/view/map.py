@@ -37,12 +37,12 @@ def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording
         )
     figure, axes = plot(6.4, 4.8)
     _draw_cells(axes, grid)
+    if path is not None:
+        _draw_path(axes, list(_points(path)))
     if drive is not None and drive.path:
         way = [pose.x for pose in drive.path], [pose.y for pose in drive.path]
         axes.plot(*way, color=PATH, linewidth=1.6, label="drive")
         robot = drive.path[-1][1:4] if robot is None else robot
-    if path is not None:
-        _draw_path(axes, list(_points(path)))
     if robot is not None:
         _draw_robot(axes, *robot)
     if axes.get_legend_handles_labels()[0]:
@@ -68,7 +68,7 @@ def _draw_cells(axes: Axes, grid: Any) -> None:
 
 def _draw_path(axes: Axes, points: list[tuple[float, float]]) -> None:
     if points:
-        axes.plot(*zip(*points, strict=True), color="#1c9a4b", linewidth=2.0, label="plan")
+        axes.plot(*zip(*points, strict=True), color="#1c9a4b", linewidth=4.0, alpha=0.6, label="plan")
         axes.plot(*points[-1], "*", color=CAUTION, markersize=14, linestyle="none", label="end of the plan")
 
 
