@@ -110,6 +110,7 @@ class Pupil:
     def _grade(self, exercise: Exercise, tested: Tested) -> None:
         self._limit(self._patience.test)
         remote = Remote(self._wire)
+        remote.deadline = self._wire.deadline
         try:
             try:
                 tested.score = exercise.grade(remote)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import functools
-import math
 import re
 import sys
 from importlib.util import find_spec
@@ -19,7 +18,7 @@ from rclpy.type_support import check_for_type_support
 from sim.ros.codec import encode, message_class, type_name
 
 MOST_TEXT = 20_000  # characters of a log line and the like that are kept
-ALL_TEXT = 300_000_000  # characters of log lines, names and the like in a run
+ALL_TEXT = 100_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 MOST_NAME = 255  # characters, as in ROS
@@ -75,8 +74,7 @@ def whole(value: Any, what: str, low: int = 0, high: int = 2**63 - 1) -> int:
 
 def number(value: Any, what: str, low: float, high: float) -> float:
     """A number from `low` to `high`."""
-    good = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-    if not good or not low <= value <= high:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
         raise Nonsense(f"{what} that is no number from {low:g} to {high:g}")
     return float(value)
 

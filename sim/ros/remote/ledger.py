@@ -6,6 +6,8 @@ lines, exceptions, callbacks and the like) are claims: they are looked at, cut t
 
 from __future__ import annotations
 
+import math
+from time import monotonic
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from unique_identifier_msgs.msg import UUID
@@ -35,6 +37,7 @@ class Ledger(Link):
 
     def __init__(self, engine: Engine) -> None:
         super().__init__(engine, keys=0)
+        self.until = math.inf  # by the clock `monotonic`: when what came has to be entered
         self.errors: list[CallbackError] = []  # those that the other side told of
         self._calls: dict[int, Call] = {}  # by key; of these the other side tells what becomes of them
         self._sent: dict[int, tuple[PuppetClient, int]] = {}  # requests of the other side, by key
@@ -45,6 +48,11 @@ class Ledger(Link):
     @property
     def _now(self) -> float:
         return self.engine.recorder.now
+
+    def hurry(self) -> None:
+        """One event may wake thousands of subscriptions. Raises Nonsense when the time is over."""
+        if monotonic() > self.until:
+            raise Nonsense("more than can be looked at in the time that is left")
 
     # -- what crosses ------------------------------------------------------------------------------
 

@@ -184,6 +184,7 @@ class Link:
         if self._entered > ALL_EVENTS:
             raise Nonsense(f"more than {ALL_EVENTS} events")
         for event in news:
+            self.hurry()
             word = event[0] if isinstance(event, list) and event else None
             known = self.EVENTS.get(word) if isinstance(word, str) else None
             if known is None:
@@ -195,6 +196,9 @@ class Link:
         if news:
             self.engine.activity += 1
             self._topology = self.engine.topology
+
+    def hurry(self) -> None:
+        """Called before each event that comes in."""
 
     def _end(self, number: Any, node: Any, of: Any, kind: Any, name: Any, type_: Any, profile: Any) -> None:
         told = self.puppets.declare(number, node, of, kind, name, type_, profile)

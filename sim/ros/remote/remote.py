@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import math
 from time import monotonic
 from typing import Any, NoReturn
 
@@ -23,6 +24,7 @@ class Remote:
     It may be run again and again; `end` lets the other process go.
 
     patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
+    deadline: when all has to be over, by the clock `monotonic`: to enter what came can take long, too.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
     preparation: the name of one of the other process's `PREPARATIONS`, which its nodes need; "" for none.
     errors: the exceptions that it told of in the last run.
@@ -30,7 +32,7 @@ class Remote:
 
     def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
         self.wire, self.patience, self.total = wire, patience, total
-        self._waited = 0.0
+        self._waited, self.deadline = 0.0, math.inf
         self.secret, self.preparation = b"", ""
         self.errors: list[CallbackError] = []
 
@@ -73,6 +75,11 @@ class Remote:
         """The seed of the other process's own generators in a run with this seed; it doesn't tell that."""
         digest = hmac.new(self.secret, f"chance of the nodes {seed}".encode(), hashlib.sha256).digest()
         return int.from_bytes(digest[:4], "big")
+
+    @property
+    def until(self) -> float:
+        """When the time of this run is over if it takes all that is left, by the clock `monotonic`."""
+        return min(monotonic() + self.total - self._waited, self.deadline)
 
     def _exchange(self, **message: Any) -> dict[str, Any]:
         """Send, and receive the answer. Raises RemoteLost."""
@@ -126,6 +133,7 @@ class _Turn:
         run, ledger = self._run, self.ledger
         ledger.gather()
         answer = self._remote._exchange(do="go", now=run.now, news=ledger.take_news())
+        ledger.until = self._remote.until
         try:
             ledger.enter(answer.get("news"))
             ledger.skip("heard", "ends")

@@ -288,6 +288,19 @@ def test_all_texts_of_a_run_have_a_limit(monkeypatch):
     assert loses(claims(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
 
 
+def test_what_takes_too_long_to_enter_ends_the_run():
+    with answering(news(TALKS)) as remote, pytest.raises(RemoteLost) as lost:
+        remote.deadline = 0.0
+        run(remote, seconds=1, quiet=True)
+    assert lost.value.reason == sent("more than can be looked at in the time that is left")
+
+
+def test_a_number_beyond_all_numbers_is_none():
+    assert loses(claims(timers=[["/talker", 10**400, "tick"]])) == sent(
+        "a timer's period that is no number from 0 to 1e+09"
+    )
+
+
 def test_what_is_no_json_ends_the_run():
     near, far = socket.socketpair()
     with near, far, pytest.raises(RemoteLost) as lost:
