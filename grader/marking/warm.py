@@ -20,8 +20,6 @@ import matplotlib.pyplot  # noqa: E402, F401
 import matplotlib_inline.backend_inline  # noqa: E402, F401
 import nbformat  # noqa: E402
 import PIL.Image  # noqa: E402
-import service_msgs.msg  # noqa: E402, F401
-import type_description_interfaces.msg  # noqa: E402, F401
 
 import grader.pictures  # noqa: E402, F401
 import sim.ros  # noqa: E402
@@ -29,7 +27,11 @@ import sim.view  # noqa: E402
 from grader.catalogue import exercises  # noqa: E402
 from sim.view.figure import plot  # noqa: E402
 
+LATER = "service_msgs.msg", "type_description_interfaces.msg"  # rclpy imports them for the first node
+
 exercises()
+for name in LATER:
+    importlib.import_module(name)
 for module in pkgutil.iter_modules(sim.ros.__path__, "sim.ros."):
     importlib.import_module(module.name)
 for name in [name for name in sys.modules if re.fullmatch(r"\w+\.(msg|srv|action)", name)]:
