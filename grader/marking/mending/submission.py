@@ -78,7 +78,7 @@ def submission_key(folder: Path, release: Path, secret_fingerprint: str, version
     Whatever lies in `folder`, this gives a key and raises nothing.
     """
     digest = hashlib.sha256()
-    notebooks = {path.name for path in release.glob(f"*{SUFFIX}")}
+    notebooks = frozenset(path.name for path in release.glob(f"*{SUFFIX}"))
     parts = (*_contents(release, _files(release)), "submission", *_contents(folder, notebooks))
     for part in (secret_fingerprint, version, *parts):
         data = part if isinstance(part, bytes) else part.encode(errors="surrogateescape")
@@ -95,7 +95,7 @@ def _contents(folder: Path, files: Collection[str]) -> Iterator[str | bytes]:
         yield str(reason)
         return
     yield from (f"{entry.path} {entry.kind}" for entry in there)
-    for path in sorted({*files, *(entry.path for entry in there if _candidate(entry))}):
+    for path in sorted([*files, *_candidates(there, files)]):
         try:
             yield read_file(folder, path, LARGEST)
         except Unusable as reason:
@@ -113,8 +113,7 @@ def _path(name: str, folder: Path, there: Sequence[Entry], release: Release) -> 
     if os.path.lexists(folder / file):
         return file
     own = {other + SUFFIX for other in release.notebooks}
-    others = [entry.path for entry in there if _candidate(entry) and entry.path not in own]
-    candidates = others[:MOST_CANDIDATES]
+    candidates = list(_candidates(there, own))
     if not candidates:
         raise Unusable(f"Expected the notebook {quoted(file)}, saw none. Hand it in under this name.")
     fitting = [path for path in candidates if _holds(folder, path, release.notebooks[name])]
@@ -124,8 +123,18 @@ def _path(name: str, folder: Path, there: Sequence[Entry], release: Release) -> 
     raise Unusable(f"Expected the notebook {quoted(file)}, saw {saw}. Hand in one under this name.")
 
 
-def _candidate(entry: Entry) -> bool:
-    return entry.kind == FILE and entry.path.lower().endswith(SUFFIX) and not _hidden(entry.path)
+def _candidates(there: Sequence[Entry], own: Collection[str]) -> Iterator[str]:
+    """Notebooks under other names than the release's: some, and together no more than can be read soon."""
+    found = size = 0
+    for entry in there:
+        if entry.kind != FILE or not entry.path.lower().endswith(SUFFIX) or _hidden(entry.path):
+            continue
+        if entry.path in own or (found and size + entry.size > LARGEST):
+            continue
+        found, size = found + 1, size + entry.size
+        if found > MOST_CANDIDATES:
+            return
+        yield entry.path
 
 
 def _holds(folder: Path, path: str, notebook: NotebookNode) -> bool:

@@ -14,6 +14,8 @@ from nbgrader.utils import parse_utc
 CONFIGURATION = "nbgrader_config.py"
 TIMESTAMP = "timestamp.txt"
 LONGEST_TIMESTAMP = 200  # bytes
+LONGEST_NAME = 200  # bytes: a file's name may have 255, and students' files have a bit more than their names
+SHOWN = 60  # characters of a name that can't be used
 
 
 class CourseError(Exception):
@@ -81,7 +83,7 @@ class Course:
         return sorted({notebook.parent.name for notebook in self.release("*").parent.glob("*/*.ipynb")})
 
     def students(self, assignment: str) -> dict[str, Path]:
-        """Every student who handed the assignment in, with the folder."""
+        """Every student who handed the assignment in, with the folder. Raises CourseError for odd names."""
         place = self.directory.format_path(
             self.directory.submitted_directory, "(?P<student>.*)", re.escape(assignment), escape=True
         )
@@ -89,10 +91,26 @@ class Course:
         left_out = self.directory.student_id_exclude.split(",")
         matches = {path: re.fullmatch(place, path) for path in sorted(glob.glob(pattern))}
         found = {match["student"]: Path(path) for path, match in matches.items() if match}
+        for student in found:
+            _check_name(student, found[student])
         return {student: folder for student, folder in found.items() if student not in left_out}
 
     def _path(self, step: str, student: str, assignment: str) -> Path:
         return Path(os.path.normpath(self.directory.format_path(step, student, assignment)))
+
+
+def _check_name(student: str, folder: Path) -> None:
+    """Files are called after students, and the gradebook holds text."""
+    length = len(os.fsencode(student))
+    plain = student.encode(errors="replace").decode()
+    if plain == student and length <= LONGEST_NAME:
+        return
+    saw = f"{length} bytes" if plain == student else "bytes that are no UTF-8"
+    shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
+    raise CourseError(
+        f"a student's folder has the name {shown!r}, {saw}; expected a text of at most {LONGEST_NAME} bytes: "
+        f"rename it in {str(folder.parent.parent).encode(errors='replace').decode()}"
+    )
 
 
 def timestamp(folder: Path) -> tuple[datetime | None, str]:

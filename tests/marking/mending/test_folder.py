@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.marking.mending import submission
 from grader.marking.mending.folder import MOST_ENTRIES, entries
 from grader.marking.mending.rebuild import mend
 from grader.marking.mending.submission import LARGEST, load, submission_key
@@ -261,6 +262,21 @@ def test_among_very_many_files_the_notebook_is_found(folder):
     before = key(folder)
     (folder / "nodes.ipynb").write_bytes(data(STARTER))
     assert key(folder) != before
+
+
+def test_of_very_many_notebooks_no_more_is_read_than_takes_a_moment(folder, monkeypatch):
+    read = []
+    monkeypatch.setattr(submission, "read_file", lambda _, path, limit: read.append(path) or b"")
+    for number in range(100):
+        (folder / f"{number:02}.ipynb").touch()
+    os.truncate(folder / "00.ipynb", LARGEST)
+    os.truncate(folder / "01.ipynb", 1)
+    small = [f"{number:02}.ipynb" for number in range(2, 21)]
+    assert verdict(folder).startswith("Expected the notebook `nodes.ipynb`, saw only `00.ipynb`, `02.ipynb`,")
+    assert read == ["00.ipynb", *small]
+    read.clear()
+    key(folder)
+    assert [path for path in read if path != "nodes.ipynb"] == ["00.ipynb", *small]
 
 
 def key(folder: Path, fingerprint: str = "secret", version: str = "1") -> str:

@@ -42,6 +42,21 @@ def test_another_folder_structure_is_understood(course):
     assert course.students(ASSIGNMENT) == {"anna": folder}
 
 
+@pytest.mark.parametrize(
+    ("name", "shown", "saw"),
+    [(b"ann\xff", "ann?", "bytes that are no UTF-8"), (b"a" * 201, "a" * 60 + "...", "201 bytes")],
+)
+def test_a_name_that_no_file_can_be_called_after_is_told_before_anything_is_marked(course, name, shown, saw):
+    place = course.submitted(os.fsdecode(name), ASSIGNMENT)
+    place.mkdir(parents=True)
+    with pytest.raises(CourseError) as failed:
+        course.students(ASSIGNMENT)
+    assert str(failed.value) == (
+        f"a student's folder has the name {shown!r}, {saw}; expected a text of at most 200 bytes: "
+        f"rename it in {place.parent.parent}"
+    )
+
+
 def test_outside_a_course_it_says_where_to_go(tmp_path):
     with pytest.raises(CourseError) as failed:
         Course(tmp_path)
