@@ -112,6 +112,6 @@ def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
     if WEB_PAGE.match(text):
         problem = f"{quoted(file)} holds a web page, maybe one that asks for a password; expected a notebook."
         raise Unusable(f"{problem} {AGAIN}")
-    if not text.startswith("{"):
-        first = text.splitlines()[0]
-        raise Unusable(f"{quoted(file)} is no notebook: expected JSON, saw {quoted(first)}. {AGAIN}")
+    if not text.startswith("{"):  # its words are not told: where it is linked to, a secret may lie
+        problem = f"{quoted(file)} is no notebook: expected JSON, which begins with `{{`, saw something else."
+        raise Unusable(f"{problem} {AGAIN}")
