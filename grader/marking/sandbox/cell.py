@@ -17,6 +17,7 @@ from grader.marking.sandbox.limits import MB, Limits
 
 HOME = "/student"  # of an inmate in the cage, and where it starts
 STAGE = "/scratch"  # where its file system is put together
+READ_ONLY = linux.MS_RDONLY | linux.MS_NOSUID | linux.MS_NODEV | linux.MS_NOEXEC  # as /proc is mounted
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty")
 
 
@@ -74,8 +75,13 @@ def furnish(plan: Plan) -> None:
     for name in places:
         (scratch / name).mkdir()
     # Of the processes it sees itself only.
-    (scratch / "processes/self").mkdir()
-    _bind("/proc/self", scratch / "processes/self")
+    itself = scratch / "processes/self"
+    itself.mkdir()
+    linux.set_dumpable(True)  # else its own /proc/self would be closed to it
+    _go_first()
+    _bind("/proc/self", itself)
+    # Nothing in it can be changed: else where memory runs out, the one who took it could let others go.
+    linux.mount("", str(itself), flags=linux.MS_REMOUNT | linux.MS_BIND | READ_ONLY)
     for place in plan.visible:
         for name, private in places.items():
             if Path(place).is_relative_to(private):
@@ -110,9 +116,14 @@ def confine(plan: Plan, home: str) -> None:
     limits.apply(plan.limits, own_users=plan.caged)
     if plan.caged:
         linux.drop_capabilities()
-    linux.set_dumpable(True)  # else its own /proc/self would be closed to it
-    Path("/proc/self/oom_score_adj").write_text("1000")  # where memory runs out, it goes first
+    else:
+        _go_first()
     linux.filter_calls(seccomp.program())
+
+
+def _go_first() -> None:
+    """Where memory runs out, this process is the first to be killed."""
+    Path("/proc/self/oom_score_adj").write_text("1000")
 
 
 def _bind(source: str | Path, target: str | Path) -> None:

@@ -19,6 +19,7 @@ from grader.marking.sandbox.cell import Plan
 from grader.marking.sandbox.limits import MB, Ending, Limits
 
 WATCH_S = 0.25  # between two looks at an inmate
+CORES = 1.1  # on which it may compute for long: with hundreds of threads it would have the whole machine
 WORDS = 4000  # bytes of stderr that are reported
 OUT_OF_MEMORY = 70  # the exit status of an inmate whose MemoryError nobody caught
 
@@ -73,23 +74,34 @@ def _problem(ready: int) -> str:
 
 
 def _watch(inmate: int, pidfd: int, processes: int, limits: Limits) -> str:
-    """Return when the inmate has ended; if a limit made us end it, return the kind of its end."""
+    """Return when the inmate has ended; if a limit made us end it, return the kind of its end.
+
+    See proc(5) for the fields of `stat`.
+    """
     deadline = time.monotonic() + limits.wall_s
     poll = select.poll()
     poll.register(pidfd, select.POLLIN)
+    since, before = time.monotonic(), 0.0
     while not poll.poll(1000 * WATCH_S):
-        if reason := _exceeded(_read(f"{inmate}/stat", processes), deadline, limits):
+        fields = _read(f"{inmate}/stat", processes).rpartition(b")")[2].split()
+        used = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        if reason := _exceeded(used, int(fields[17]), deadline, limits):
             os.kill(inmate, signal.SIGKILL)
             return reason
+        pause = (used - before) / CORES - (time.monotonic() - since)
+        if pause > 0:
+            os.kill(inmate, signal.SIGSTOP)
+            poll.poll(1000 * pause)
+            os.kill(inmate, signal.SIGCONT)
+        since, before = time.monotonic(), used
     return ""
 
 
-def _exceeded(stat: bytes, deadline: float, limits: Limits) -> str:
-    """Return which limit does not hold any more, or "". See proc(5) for `stat`."""
-    fields = stat.rpartition(b")")[2].split()
-    if (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK") > limits.cpu_s:
+def _exceeded(cpu_s: float, threads: int, deadline: float, limits: Limits) -> str:
+    """Return which limit does not hold any more, or ""."""
+    if cpu_s > limits.cpu_s:
         return "cpu"
-    if int(fields[17]) > limits.threads:  # RLIMIT_NPROC does not bind the real root
+    if threads > limits.threads:  # RLIMIT_NPROC does not bind the real root
         return "threads"
     return "time" if time.monotonic() > deadline else ""
 

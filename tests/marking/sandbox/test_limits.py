@@ -45,6 +45,21 @@ def test_a_crash_for_want_of_memory_is_told_as_such(tight):
     assert prisoner.ending().kind == "memory"
 
 
+def test_many_threads_get_no_more_of_the_machine_than_one(prisoner):
+    flood = """
+import hashlib, threading, time
+data, began, before = bytes(1_000_000), time.perf_counter(), time.process_time()
+def work():
+    while time.process_time() < before + 3:
+        hashlib.sha256(data)
+threads = [threading.Thread(target=work) for _ in range(50)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+answer = (time.process_time() - before) / (time.perf_counter() - began)
+"""
+    assert prisoner.ask(flood) < 1.5  # cores; a busy machine gives it less
+
+
 def test_a_huge_file_is_too_large(tight):
     prisoner = tight(file_mb=4)
     said = prisoner.ask("open('big', 'wb').write(bytes(5_000_000))")

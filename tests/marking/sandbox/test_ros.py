@@ -3,6 +3,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from grader.marking.pool import WARM
 from grader.marking.sandbox import Sandbox
 from tests.marking.sandbox.prison import sandbox
 
@@ -22,7 +23,7 @@ class Talker(Node):
 
 @pytest.fixture(scope="module")
 def warm() -> Iterator[Sandbox]:
-    with sandbox(preload=("sim",)) as box:
+    with sandbox(preload=WARM) as box:
         yield box
 
 
@@ -54,3 +55,30 @@ def test_nodes_of_two_inmates_never_meet_whatever_they_set(warm, prisoners):
     for prisoner in both:
         prisoner.tell(look)
     assert [prisoner.answer() for prisoner in both] == [[True, 1], [True, 1]]
+
+
+def test_it_shares_no_memory_that_it_can_write_with_what_it_was_forked_from(warm, prisoners):
+    maps = prisoners(warm).ask("answer = open('/proc/self/maps').read().splitlines()")
+    rights = {line.split()[1] for line in maps}
+    assert "rw-p" in rights
+    assert [found for found in rights if "w" in found and "s" in found] == []
+
+
+def test_what_it_changes_in_memory_is_not_there_for_the_next(warm, prisoners):
+    change = """
+import ctypes, os, signal, sys, sim, grader.exercise
+sim.run = grader.exercise.Exercise.grade = None
+sys.path.insert(0, '/tmp'); os.environ['HOME'] = '/tmp'; os.umask(0); os.chdir('/tmp')
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+ctypes.memset(id(sys.copyright) + 64, 65, 8)
+answer = 'AAAAAAAA' in sys.copyright
+"""
+    look = """
+import os, signal, sys, sim, grader.exercise
+answer = [callable(sim.run), callable(grader.exercise.Exercise.grade), '/tmp' in sys.path, os.environ['HOME'],
+          os.umask(0o77), os.getcwd(), signal.getsignal(signal.SIGTERM), 'AAAAAAAA' in sys.copyright]
+"""
+    first, second = prisoners(warm), prisoners(warm)
+    assert first.ask(change) is True
+    clean = [True, True, False, "/student", 0o77, "/student", 0, False]
+    assert second.ask(look) == prisoners(warm).ask(look) == clean

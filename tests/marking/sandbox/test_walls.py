@@ -206,6 +206,16 @@ def test_ports_of_one_are_free_for_the_next(cage, prisoners):
     assert [prisoners(cage).ask(bind) for _ in range(2)] == ["bound", "bound"]
 
 
+@pytest.mark.parametrize("file", ["oom_score_adj", "autogroup", "timerslack_ns", "uid_map", "mem"])
+def test_it_can_t_change_how_the_kernel_treats_it(prisoner, file):
+    said = prisoner.ask(f"open('/proc/self/{file}', 'w')")
+    assert said == f"OSError: [Errno 30] Read-only file system: '/proc/self/{file}'"
+
+
+def test_where_memory_runs_out_it_goes_first(prisoner):
+    assert prisoner.ask("answer = int(open('/proc/self/oom_score_adj').read())") == 1000
+
+
 def test_its_own_user_has_no_power(prisoner):
     lines = prisoner.ask("answer = open('/proc/self/status').read().split('\\n')")
     status = dict(line.split(":\t") for line in lines if line)
