@@ -87,10 +87,11 @@ class Ledger(Link):
         cls = interface(text(type_, "a type", MOST_NAME), "srv")
         _, bytes_ = message(raw, cls.Request, "a request")
         service = text(service, "a service", MOST_NAME)
-        client = self._caller(client, service, type_name(cls), canonical(f"{type_name(cls)}_Request", bytes_))
-        self.engine.recorder.count(client, len(bytes_))
-        bytes_ = canonical(f"{type_name(cls)}_Request", bytes_)
-        call = Call(service, type_name(cls), client, bytes_, self._now if asked else None, lost=bool(lost))
+        type_ = type_name(cls)
+        self.engine.recorder.count(text(client, "a node's name", MOST_NAME), len(bytes_))
+        bytes_ = canonical(f"{type_}_Request", bytes_)
+        client, stamp = self._caller(client, service, type_, bytes_)
+        call = Call(service, type_, client, bytes_, stamp if asked else None, lost=bool(lost))
         self._calls[self._fresh(key, self._calls)] = call
         self.recording.calls.append(call)
 
@@ -222,13 +223,18 @@ class Ledger(Link):
             raise Nonsense(f"news of the node {name!r}, which it does not have")
         return name
 
-    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> str:
-        """Who made a call: a node of the other side, nobody that is known, or one of ours that did so."""
+    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None]:
+        """Who made a call, and when: a node of the other side, nobody that is known, or one of ours.
+
+        One of ours has to have made it: where two servers took that, there are two calls.
+        """
         name = self._node(name)
         if not name or name in self.puppets.names:
-            return name
-        asked = ((it.client, it.service, it.type, it.raw_request) for it in self.recording.calls)
-        return name if (name, service, type_, raw) in asked else self._theirs(name)
+            return name, self._now
+        for it in reversed(self.recording.calls):
+            if (it.client, it.service, it.type, it.raw_request) == (name, service, type_, raw):
+                return name, it.asked
+        return self._theirs(name), self._now
 
     def _name(self, name: Any) -> str:
         return self._texts.take(name, "a name", MOST_NAME)

@@ -6,6 +6,7 @@ import socket
 import threading
 
 import pytest
+from example_interfaces.srv import AddTwoInts
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -299,6 +300,29 @@ def test_a_number_beyond_all_numbers_is_none():
     assert loses(claims(timers=[["/talker", 10**400, "tick"]])) == sent(
         "a timer's period that is no number from 0 to 1e+09"
     )
+
+
+class Asker(Node):
+    """Asks /add once, at 0.25 s."""
+
+    def __init__(self):
+        super().__init__("asker")
+        self.client = self.create_client(AddTwoInts, "/add")
+        self.timer = self.create_timer(0.25, self.ask)
+
+    def ask(self):
+        self.timer.cancel()
+        self.client.call_async(AddTwoInts.Request(a=1, b=2))
+
+
+def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it():
+    type_ = "example_interfaces/srv/AddTwoInts"
+    offers = ["end", 11, 3, "/talker", "service", "/add", type_, QOS]
+    again = ["call", 13, "/add", type_, "/asker", True, packed(AddTwoInts.Request(a=1, b=2)), False]
+    half = QUIET | {"next": END // 2}
+    with answering(half | {"news": [offers]}, half, news(again)) as remote:
+        made = run(Asker, remote, seconds=1, quiet=True).calls
+    assert [(call.client, call.asked) for call in made] == [("/asker", 0.25)] * 2
 
 
 def test_what_is_no_json_ends_the_run():
