@@ -19,6 +19,7 @@ BROKEN_HINT = (
 )
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
 EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
+CUT_SHORT = "hang", "livelock", "blocked"  # ends of a run before its time that are the student's
 
 
 @dataclass(frozen=True)
@@ -95,8 +96,17 @@ class _Court:
             return self._missed(item, missed)
         except Exception as error:
             return broken(item, error)
+        if item.after and self.share < credit:
+            seen = f"Judged only for {self.recording.ended.stamp:.3g} s: the error above ended the run."
+            return replace(skipped(item, seen), credit=self.share)
         status: Status = "passed" if credit == 1.0 else "failed"
         return Verdict(item.name, item.sentence, item.points, status, credit)
+
+    @property
+    def share(self) -> float:
+        """How much of its time the run had. Else who gets stuck at once has done nothing wrong."""
+        ended, seconds = self.recording.ended, self.recording.seconds
+        return ended.stamp / seconds if ended.reason in CUT_SHORT and seconds else 1.0
 
     def _missed(self, item: Check, missed: Missed) -> Verdict:
         cause = "" if missed.hint else explain(self.recording)

@@ -107,7 +107,10 @@ def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
     # They are honest mistakes as well, or what they do shows in another way.
     assert silent == {
         "asks_for_input",
+        "deep_page",
         "deep_recursion",
+        "gets_stuck",
+        "outputs_without_end",
         "disk_bomb",
         "endless_loop",
         "forgets_everything",

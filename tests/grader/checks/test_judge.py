@@ -6,7 +6,7 @@ from grader import Missed, check
 from grader.checks import judge
 from grader.checks.judge import worst
 from sim import Recording, run
-from sim.recording import CallbackError
+from sim.recording import CallbackError, Ended
 from tests.students import misfits
 
 
@@ -103,6 +103,22 @@ def test_an_error_comes_first_and_explains_what_then_misses():
 def test_what_passed_before_an_error_counts():
     recording = dataclasses.replace(failing_at(2.0), seed=1)
     assert statuses(judge([sends], recording)) == {"runs": "failed", "sends": "passed"}
+
+
+@pytest.mark.parametrize("reason", ["hang", "livelock", "blocked"])
+def test_who_gets_stuck_has_the_share_of_the_points_in_which_nothing_was_wrong(reason):
+    recording = Recording(seconds=10.0, seed=1, ended=Ended(reason, 2.5, "It waits."))
+    error, first, second, _ = judge([sends, paced, ends], recording)
+    assert (error.name, error.saw) == ("runs", "It waits.")
+    assert (first.status, first.earned) == ("passed", 1.0)
+    assert (second.status, second.earned) == ("skipped", 0.5)
+    assert second.hint == "Judged only for 2.5 s: the error above ended the run."
+
+
+@pytest.mark.parametrize("reason", ["goal", "finished", "time"])
+def test_a_run_that_ends_early_as_it_should_is_judged_whole(reason):
+    recording = Recording(seconds=10.0, seed=1, ended=Ended(reason, 2.5, "It is over."))
+    assert [verdict.credit for verdict in judge([sends, paced, ends], recording)] == [1.0] * 3
 
 
 @pytest.mark.parametrize("recording", [failing_at(0.0), failing_at(2.0, "NotImplementedError")])

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 import re
 import shutil
 import tempfile
@@ -219,6 +220,31 @@ def linked_secret(place: Path, notebook: NotebookNode) -> None:
     (place / "secret.txt").symlink_to(place.parents[3] / ".secret")
 
 
+def hard_linked_secret(place: Path, notebook: NotebookNode) -> None:
+    """The notebook is another name of the secret's file, as an archive can make one."""
+    (place / NAME).hardlink_to(place.parents[3] / ".secret")
+
+
+def notebooks_without_end(place: Path, notebook: NotebookNode) -> None:
+    """Beside the notebook lie 25 GB of others, which take no room on the disk."""
+    nbformat.write(notebook, place / "topics (1).ipynb")
+    for number in range(200):
+        (place / f"topics (1)({number}).ipynb").touch()
+        os.truncate(place / f"topics (1)({number}).ipynb", 127_000_000)
+
+
+def deep_attribute(place: Path, notebook: NotebookNode) -> None:
+    """An attribute of an attribute, and so on, that whoever looks through the source can't write out."""
+    notebook.cells.append(nbformat.v4.new_code_cell(f"lambda a: a{'.b' * 400}.run_cell", id="extra"))
+    nbformat.write(notebook, place / NAME)
+
+
+def magic_lines(place: Path, notebook: NotebookNode) -> None:
+    """Lines of IPython's own: it looks through the cell anew for each."""
+    notebook.cells.append(nbformat.v4.new_code_cell("if False:\n" + "    %a\n" * 500, id="extra"))
+    nbformat.write(notebook, place / NAME)
+
+
 def huge_outputs(place: Path, notebook: NotebookNode) -> None:
     """The notebook was saved with 30 MB of output."""
     output = nbformat.v4.new_output("stream", name="stdout", text="x" * 30_000_000)
@@ -251,6 +277,10 @@ DAMAGES = (
     shadowing_libraries,
     linked_solution,
     linked_secret,
+    hard_linked_secret,
+    notebooks_without_end,
+    deep_attribute,
+    magic_lines,
     huge_outputs,
     other_types,
 )
