@@ -1,12 +1,8 @@
-import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from grader.marking.plan import Task
 from tests.marking.far.cluster import Cluster
-from tests.marking.pool.assignment import hand_in, release
 
 
 @pytest.fixture
@@ -23,17 +19,3 @@ def shared(tmp_path_factory) -> Iterator[Cluster]:
     cluster = Cluster(tmp_path_factory.mktemp("shared") / "cluster")
     yield cluster
     cluster.close()
-
-
-@pytest.fixture
-def gate(tmp_path) -> Path:
-    """A pipe at which a cell says that it is there, and waits for somebody who reads that."""
-    os.mkfifo(tmp_path / "gate")
-    return tmp_path / "gate"
-
-
-@pytest.fixture
-def waiting(tmp_path, gate) -> Task:
-    """A submission whose cell waits at the gate."""
-    cell = f"open({str(gate)!r}, 'w').write('x')"
-    return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})

@@ -44,20 +44,6 @@ def pool() -> Iterator[Pool]:
         yield pool
 
 
-@pytest.fixture
-def gate(tmp_path) -> Path:
-    """A pipe at which a cell says that it is there, and waits for somebody who reads that."""
-    os.mkfifo(tmp_path / "gate")
-    return tmp_path / "gate"
-
-
-@pytest.fixture
-def waiting(tmp_path, gate) -> Task:
-    """A submission whose cell waits at the gate."""
-    cell = f"open({str(gate)!r}, 'w').write('x')"
-    return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
-
-
 def grades(results: Iterator[Result]) -> dict[str, str]:
     return {result.student: result.grade_json() for result in results}
 
