@@ -7,7 +7,6 @@ all that waited there.
 from __future__ import annotations
 
 import contextlib
-import logging
 import uuid
 from collections import deque
 from collections.abc import Iterable, Iterator
@@ -200,15 +199,11 @@ class Far:
 
 def _connected(address: str, wait_s: float) -> Client:
     try:
-        import dask
-        from distributed import Client
+        from grader.marking.far.connection import connect
     except ImportError:
         raise FarError(MISSING) from None
-    for name in ("distributed", "distributed.client"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is said by us
-    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 GB"})  # a notebook may have 128 MB
     try:
-        return Client(address, timeout=wait_s, set_as_default=False)
+        return connect(address, wait_s)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
         what = f"no Dask scheduler answers at {address} ({error})"
         raise FarError(f"{what}: `.venv/bin/dask scheduler` starts one") from None

@@ -1,3 +1,4 @@
+import gc
 import re
 import shutil
 import sys
@@ -5,9 +6,11 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
+from distributed.utils import asyncio_run
 
 from grader.marking.far import Far, FarError
 from grader.marking.orders import Patience
@@ -206,8 +209,22 @@ def test_a_scheduler_that_cant_be_reached_is_named(address, why):
     assert said.endswith("): `.venv/bin/dask scheduler` starts one")
 
 
+def test_who_could_not_connect_is_not_in_the_way_of_the_next(monkeypatch):
+    """Garbage may be collected in any thread, also in that of the next client's loop."""
+
+    def run(*args: Any, **options: Any) -> None:
+        gc.collect()
+        asyncio_run(*args, **options)
+
+    monkeypatch.setattr("distributed.utils.asyncio_run", run)
+    for _ in range(2):
+        with pytest.raises(FarError, match="missing port number"):
+            Far("nonsense", ROOT, wait_s=0.1)
+
+
 def test_without_the_library_it_says_how_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, "grader.marking.far.connection", raising=False)
     with pytest.raises(FarError) as error:
         Far("tcp://127.0.0.1:1", ROOT)
     assert str(error.value) == (
