@@ -14,6 +14,7 @@ class Connection(Client):
     """
 
     def start(self, **kwargs: object) -> None:
+        """Connect, as its constructor does."""
         try:
             super().start(**kwargs)
         except BaseException:
