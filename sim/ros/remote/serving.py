@@ -14,6 +14,8 @@ from sim.ros.remote.reports import Reports
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
 from sim.ros.session import Session
 
+MOST_ROUNDS = 100  # in one turn: the other side looks after time, too
+
 QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
 """What the other side may ask about the nodes before they run: a function of them that gives plain data."""
 
@@ -64,9 +66,9 @@ class Follower(Session):
         while (order := self._wire.receive()).get("do") == "go":
             self._move_to(order["now"])
             link.enter(order["news"])
-            self._round()
+            busy = self._rounds(link)
             link.gather()
-            self._wire.send(**self._answer(link, end))
+            self._wire.send(**self._answer(link, busy, end))
             yield order["now"]
         return Ended("time", self.engine.recorder.now, "The other side has ended the run.")
 
@@ -76,23 +78,31 @@ class Follower(Session):
             engine.time.move_to(now)
             engine.begin_moment()
 
-    def _round(self) -> None:
+    def _rounds(self, link: Reports) -> bool:
+        """Let the nodes go on until they wait or have news for the other side; whether they could go on."""
+        engine, busy = self.engine, True
         try:
-            self.engine.check_pace()
-            self.engine.round()
+            for _ in range(MOST_ROUNDS):
+                engine.check_pace()
+                engine.round()
+                link.gather(thorough=False)
+                left = [fiber for fiber in engine.fibers if not fiber.done]
+                busy = engine.fault is None and any(fiber.runnable() for fiber in left)
+                if link.news or not busy:
+                    break
         except Livelock:
-            pass  # its reason is kept
+            return False  # its reason is kept
+        return busy
 
-    def _answer(self, link: Reports, end: Nanoseconds) -> dict[str, Any]:
+    def _answer(self, link: Reports, busy: bool, end: Nanoseconds) -> dict[str, Any]:
         engine = self.engine
-        left = [fiber for fiber in engine.fibers if not fiber.done]
         fault = engine.fault
         return {
             "news": link.take_news(),
             "claims": link.claims(),
             "next": engine.time.next_moment(end),
-            "busy": fault is None and any(fiber.runnable() for fiber in left),
-            "alive": bool(left),
+            "busy": busy,
+            "alive": any(not fiber.done for fiber in engine.fibers),
             "fault": None if fault is None else [fault.reason, fault.detail],
             "blocked": (blocked(engine) or "") if engine.now >= end else "",
         }

@@ -102,6 +102,21 @@ def test_only_one_other_process_takes_part(wires):
     assert lost.value.reason == "Only one other process can have nodes in a run."
 
 
+def test_one_turn_is_enough_for_all_that_only_concerns_the_other_process(apart, monkeypatch):
+    """Parallel callbacks take several rounds, of which nobody here hears anything but log lines."""
+    moments, send = [], apart.wire.send
+
+    def count(**message):
+        moments.extend([message["now"]] if message.get("do") == "go" else [])
+        send(**message)
+
+    monkeypatch.setattr(apart.wire, "send", count)
+    with apart.serving("tests.students.engine.threads", "two_groups_in_parallel") as remote:
+        recording = run(remote, seconds=3, quiet=True)
+    assert len(recording.logs) == 8
+    assert len(moments) == len(set(moments)) == 9
+
+
 def test_a_process_that_does_not_let_go_is_given_up(wires):
     remote = Remote(Wire(wires[0]._socket, patience=0.05))
     with pytest.raises(RemoteLost) as lost:
