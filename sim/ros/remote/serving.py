@@ -14,7 +14,7 @@ from sim.ros.remote.reports import Reports
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
 from sim.ros.session import Session
 
-MOST_ROUNDS = 100  # in one turn: the other side looks after time, too
+MOST_ROUNDS = 20  # in one turn: the other side waits for its end, and looks after time
 
 QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
 """What the other side may ask about the nodes before they run: a function of them that gives plain data."""
