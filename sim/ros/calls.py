@@ -43,7 +43,7 @@ class Calls:
         """A node made a service: from now on requests reach it."""
         profile = service.qos_profile
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
-        service._sim_name = service.service_name
+        service._sim_name, service._sim_seen = service.service_name, 0
         service._sim_inbox = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
         self._services[service._sim_name].append(weakref.ref(service))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any
 
@@ -42,6 +43,7 @@ class Engine(Scheduler):
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
         self.sent: dict[str, int] = {}  # messages published on each topic
+        self.asked: Counter[str] = Counter()  # requests sent to each service
         self.processes: list[StudentProcess] = []
         self.echo = echo
         self._callbacks = self._callbacks_before = 0

@@ -135,10 +135,12 @@ class Questions:
         future.set_result(response)
 
     def _service(self, service: Any, node: Any) -> Work | None:
-        if not self._free(service):
+        asked = self.engine.asked.get(service._sim_name, 0)
+        if asked == service._sim_seen or not self._free(service):
             return None
         request, header = service.handle.service_take_request(service.srv_type.Request)
         if header is None:
+            service._sim_seen = asked
             return None
 
         calls = self.engine.recorder.calls

@@ -58,6 +58,7 @@ class Lidar:
         self._ends = segments.T.copy()
         self._discs = discs.copy()
         self._split()
+        self._nothing = np.full(model.rays, np.inf)
         angles = [ray * model.angle_increment for ray in range(model.rays)]
         # libm, not numpy: numpy's sine differs in the last bit from one kind of processor to the next.
         self._cos = np.array([math.cos(angle) for angle in angles])
@@ -98,7 +99,7 @@ class Lidar:
         """The true distances from this pose: float64, shape (rays,), m; inf where a ray meets nothing."""
         c, s = math.cos(yaw), math.sin(yaw)
         directions = self._cos * c - self._sin * s, self._sin * c + self._cos * s
-        nearest = np.full(self._model.rays, np.inf)
+        nearest = self._nothing.copy()
         if len(self._ex):
             self._see_segments(nearest, directions, x, y, yaw)
         if len(self._discs):

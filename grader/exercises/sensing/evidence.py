@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grader.checks import series
 from sim.recording import Recording, Seconds
 
 RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
@@ -51,8 +50,8 @@ def _scans(recording: Recording) -> list[tuple[Seconds, Seconds, float]]:
     for heard in recording.messages(LIDAR):
         message = heard.message
         measured = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
-        ranges = np.array(message.ranges)
-        found.append((heard.stamp, heard.stamp - measured, float(np.nanmin([*ranges[:61], *ranges[-60:]]))))
+        ahead = np.array(message.ranges[:61] + message.ranges[-60:])
+        found.append((heard.stamp, heard.stamp - measured, float(np.nanmin(ahead))))
     return found
 
 
@@ -85,8 +84,8 @@ def _cautious(ahead: list[float]) -> float:
 
 
 def _commands(recording: Recording, topic: str) -> list[tuple[Seconds, float, float]]:
-    speeds, turns = (series(recording, topic, field) for field in ("linear.x", "angular.z"))
-    return [(stamp, speed, turn) for (stamp, speed), (_, turn) in zip(speeds, turns, strict=True)]
+    sent = [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+    return [(stamp, twist.linear.x, twist.angular.z) for stamp, twist in sent]
 
 
 def _latest(items: list[tuple]) -> Callable[[Seconds], tuple | None]:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.client import Client
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.service import Service
 from rclpy.task import Future
 
 from sim.ros.codec import encode, expect
-from sim.ros.fibers import engine
+from sim.ros.fibers import active, engine
 from sim.ros.hooks import hook
 
 
@@ -57,6 +58,18 @@ def create_client(original: Callable) -> Callable:
         return client
 
     return create_client
+
+
+@hook(_rclpy.Client, "send_request", "services are asked for requests only when one was sent")
+def send_request(original: Callable) -> Callable:
+    def send_request(self: Any, request: Any) -> int:
+        number = original(self, request)
+        run = active()
+        if run is not None:  # also where another process's client asks
+            run.asked[self.service_name] += 1
+        return number
+
+    return send_request
 
 
 @hook(Client, "call_async", "every request is recorded as the bytes that are sent")
