@@ -48,8 +48,8 @@ class Result:
     key: hexadecimal digest of everything that was marked: submission, release, secret, version.
     repairs: a sentence for each thing that was mended. flags: for each thing that no honest submission does.
     reason: why it was stopped or refused; "" otherwise.
-    timings: seconds by name ("total", "start", and each cell as "notebook/cell"); peak memory in MB as
-        "memory". They are no part of the grade.
+    timings: seconds by name ("total", "start", and each cell as "notebook/cell"; "judged" are simulated
+        ones, of the runs that were judged); peak memory in MB as "memory". They are no part of the grade.
     """
 
     student: str

@@ -17,6 +17,7 @@ PARTS = (
     "grading",
     "cage",
     "marking",
+    "pace",
     "view",
 )
 # peers installs what it compares with; navigator takes minutes

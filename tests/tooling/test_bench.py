@@ -32,7 +32,7 @@ def test_an_unknown_benchmark_is_named(capsys):
     assert capsys.readouterr().out == (
         "There is no benchmark 'speed'; "
         "the benchmarks are scenario, startup, world, machines, repeats, digests, grading, cage, "
-        "marking, view, peers, navigator.\n"
+        "marking, pace, view, peers, navigator.\n"
     )
 
 

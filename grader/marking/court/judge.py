@@ -5,6 +5,7 @@ This is the side that is trusted: simulator, companions, worlds from the secret 
 
 from __future__ import annotations
 
+import math
 import os
 import traceback
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -45,7 +46,7 @@ class Marking:
     screen: Screen = field(default_factory=Screen)
     flags: list[str] = field(default_factory=list)
     stops: list[str] = field(default_factory=list)  # why a notebook did not come to its end
-    timings: dict[str, float] = field(default_factory=dict)
+    timings: dict[str, float] = field(default_factory=lambda: {"judged": 0.0})
 
 
 def mark(task: Task, secret: str, pupils: Pupils) -> Result:
@@ -163,6 +164,7 @@ class _Desk:
             shown.say("No points: this cell ended before the nodes could be run.")
             return shown.list
         score, worth = tested.score, float(cell.metadata.nbgrader.points)
+        self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
         problems = verdicts.alarms(score)
         if score.max != worth:
             problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")

@@ -155,7 +155,7 @@ def _times(results: list[Result]) -> Times | None:
     spent: dict[str, list[float]] = {}
     for result in results:
         for name, seconds in result.timings.items():
-            if "/" in name:  # a cell's; the others are "total", "start" and the memory
+            if "/" in name:  # a cell's; the others are of the whole submission
                 spent.setdefault(name, []).append(seconds)
     medians = [(name, statistics.median(times)) for name, times in spent.items()]
     slowest = sorted(medians, key=lambda cell: -cell[1])[:SLOWEST]

@@ -65,6 +65,8 @@ def test_a_class_is_marked(pool, tasks):
     right = next(result for result in results if result.student == "right")
     assert right.timings["memory"] > 20
     assert {"start", "total", "computing", "two/greeting-points"} <= right.timings.keys()
+    judged = {result.student: result.timings.get("judged") for result in results}  # simulated seconds
+    assert judged == {"broken": None, "error": 10, "half": 5, "none": 0, "right": 15, "stopped": 5}
 
 
 @pytest.mark.parametrize("jobs", [1, 3])
