@@ -4,7 +4,7 @@ import importlib
 import pytest
 
 from tests.bench import __main__ as bench
-from tests.bench import report, scenario, startup
+from tests.bench import pace, report, scenario, startup
 
 
 def test_the_engine_and_rclpys_own_executor_do_the_same_work(monkeypatch):
@@ -19,6 +19,17 @@ def test_a_run_that_ends_early_is_not_measured():
     with pytest.raises(RuntimeError) as stopped:
         report.avoider_run(world="yard", seconds=5, until=lambda recording: recording.stamp > 1)
     assert str(stopped.value) == "the run should last 5 s. The goal was reached at t = 1.05 s."
+
+
+def test_marks_that_are_not_full_are_no_pace(monkeypatch, tmp_path):
+    (tmp_path / "course").mkdir()
+    for name in ("solutions", "exercises"):  # the starter in place of the solution
+        (tmp_path / "course" / name).symlink_to(pace.COURSE / "exercises")
+    monkeypatch.setattr(pace, "COURSE", tmp_path / "course")
+    monkeypatch.setattr(pace, "STUDENTS", 1)
+    with pytest.raises(RuntimeError) as stopped:
+        pace.paced("01_nodes", tmp_path)
+    assert str(stopped.value) == "the solutions of 01_nodes did not get all points"
 
 
 def test_a_fresh_process_gives_its_figures():
