@@ -24,14 +24,14 @@ lab: setup  ## open the course in JupyterLab
 teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
 	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter/teach $(BIN)/jupyter-lab
 
-test: setup  ## run every test, on all cores (make test ARGS="-k notebooks" runs some)
+test: setup  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some)
 	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)
 
 demo: setup  ## release, mark three sample submissions, give feedback; no browser
-	$(BIN)/python -m grader.marking.demo
+	$(BIN)/python -m grader.marking.release.demo
 
 exercises: setup  ## make exercises/ from solutions/
-	$(BIN)/python -m grader.marking.release
+	$(BIN)/python -m grader.marking.release.make_exercises
 
 bench: setup  ## print the benchmarks (make bench ARGS=scenario prints one)
 	$(BIN)/python -m tests.bench $(ARGS)
@@ -43,11 +43,11 @@ tidy: setup  ## normalise the notebooks, sort imports
 lint: setup  ## say what is untidy, change nothing
 	$(BIN)/ruff check
 	$(BIN)/python -m grader.notebooks --check
-	$(BIN)/python -m grader.marking.release --check
+	$(BIN)/python -m grader.marking.release.make_exercises --check
 
 setup: $(VENV)/.interfaces  ## make .venv and nothing more
 
-$(VENV)/.packages: requirements.lock pyproject.toml .ci/setup
+$(VENV)/.packages: requirements.lock pyproject.toml .ci/setup sim/world/rays/pyproject.toml sim/world/rays/setup.py sim/world/rays/rays.py sim/world/rays/rays.c
 	@.ci/setup $(VENV)
 	@touch $@
 
@@ -61,5 +61,5 @@ lock: setup  ## take the newest versions into requirements.lock
 	    pyproject.toml --output-file requirements.lock
 
 clean:  ## remove the set-up and what tools left; class/ stays
-	rm -rf .venv* *.egg-info build dist test-artifacts .pytest_cache .ruff_cache
+	rm -rf .venv* *.egg-info build sim/world/rays/*.egg-info sim/world/rays/build dist test-artifacts .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -27,7 +27,7 @@ Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
 course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]
 
 # The release is under version control, so it has the one form of our notebooks.
-c.GenerateAssignment.post_convert_hook = "grader.marking.release.tidy"
+c.GenerateAssignment.post_convert_hook = "grader.marking.release.make_exercises.tidy"
 
 # A test cell may take this long, in seconds. Validate blocks JupyterLab while it runs, so it waits less.
 c.Execute.timeout = 60
@@ -41,8 +41,8 @@ c.Autograde.pre_convert_hook = "grader.marking.secret.show"
 c.Autograde.post_convert_hook = "grader.marking.secret.hide"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
-SAFE = "grader.marking.safe_html"
+SAFE = "grader.marking.gradebook.safe_html"
 # The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
 c.HTMLExporter.filters = {"clean_html": f"{SAFE}.clean_output", "strip_files_prefix": f"{SAFE}.clean"}
 # Nor may its size keep the instructor waiting.
-c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.short_pages.shorten"]
+c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.gradebook.short_pages.shorten"]

@@ -12,7 +12,7 @@ def main(arguments: list[str]) -> int:
     if command != "mark":
         print(USAGE, file=sys.stdout if command in ("-h", "--help") else sys.stderr)
         return 0 if command in ("-h", "--help") else 2
-    from grader.marking.office.cli import main as mark
+    from grader.marking.command.cli import main as mark
 
     return mark(rest)
 

@@ -8,63 +8,37 @@ from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from sim import Process
-from sim.ros.remote import QUESTIONS, Remote, RemoteLost
-
-MOST_TEXT = 2_000  # characters of what another process says
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
-    """Why the first unusable one of these can't be run; None when all can.
-
-    Raises RemoteLost where they live in another process that gives no proper answer.
-    """
-    if any(isinstance(node, Remote) for node in nodes):
-        return _remote_refusal(nodes[0])
+    """Why the first unusable one of these can't be run; None when all can."""
     if not nodes:
-        return _fault("nothing", "Put the name of your class between the brackets: grade(MyNode).")
+        return unusable("nothing", "Put the name of your class between the brackets: grade(MyNode).")
     try:
         return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
     except Exception as error:  # the student's own class may answer any question with an exception
         saw = f"something that raises {type(error).__name__} when it is looked at"
-        return _fault(saw, "Give an ordinary class that is based on Node.")
-
-
-def _remote_refusal(remote: Remote) -> Fault | None:
-    """The same of nodes in another process, which is asked. Raises RemoteLost for no proper answer."""
-    answer = remote.ask("refusal")
-    if answer is None:
-        return None
-    if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
-        raise RemoteLost("The process with the nodes did not say whether they can be run.")
-    saw, hint = (part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer)
-    return _fault(saw, hint)
-
-
-def _answer(nodes: Sequence[Any]) -> list[str] | None:
-    fault = refusal(nodes)
-    return None if fault is None else [fault.saw, fault.hint]
-
-
-QUESTIONS["refusal"] = _answer
+        return unusable(saw, "Give an ordinary class that is based on Node.")
 
 
 def _refuse(node: Any) -> Fault | None:
     target = node.target if isinstance(node, Process) else node
     if target is None:
-        return _fault("None", "This exercise is not started yet: write your class in the cell above.")
+        return unusable("None", "This exercise is not started yet: write your class in the cell above.")
     if isinstance(target, type):
         name = target.__name__
         if _is_node_class(target):
             return None
-        return _fault(
+        return unusable(
             f"the class {name}, which is not a Node", f"Begin the class with `class {name}(Node):`."
         )
     if _is_node_class(type(target)):
         name = type(target).__name__
-        return _fault(f"an object of {name}", f"Leave out the brackets after the name: {name}, not {name}().")
+        hint = f"Leave out the brackets after the name: {name}, not {name}()."
+        return unusable(f"an object of {name}", hint)
     if not callable(target):
         hint = "Give the class itself, by its name and without quotes."
-        return _fault(f"{reprlib.repr(target)}, which is no node", hint)
+        return unusable(f"{reprlib.repr(target)}, which is no node", hint)
     return None
 
 
@@ -73,7 +47,7 @@ def _refuse_remappings(node: Any) -> Fault | None:
     pairs = list(remappings) if isinstance(remappings, Iterable) else [remappings]
     if all(isinstance(pair, (tuple, list)) and [type(name) for name in pair] == [str, str] for pair in pairs):
         return None
-    return _fault(
+    return unusable(
         f"remappings={reprlib.repr(remappings)}",
         'Remappings are a list of pairs of names: remappings=[("from", "to")].',
     )
@@ -84,7 +58,8 @@ def _is_node_class(cls: type) -> bool:
     return any(base.__module__ == "rclpy.node" and base.__name__ == "Node" for base in cls.__mro__)
 
 
-def _fault(saw: str, hint: str) -> Fault:
+def unusable(saw: str, hint: str) -> Fault:
+    """A fault for what is handed over in place of a program."""
     return Fault(
         "your node's class, or your main function", saw, hint, before_start=True, sentence=NOT_STARTED
     )

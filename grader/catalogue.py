@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 import importlib
 import pkgutil
@@ -10,6 +9,7 @@ from typing import Any
 
 from grader.exercise import Exercise
 from grader.score import Score
+from sim.nearest import unknown
 
 
 @functools.cache
@@ -37,7 +37,5 @@ def find(name: str) -> Exercise:
     """The exercise of this name. Raises LookupError for a name that no exercise has."""
     known = exercises()
     if name not in known:
-        near = difflib.get_close_matches(name, known, n=1)
-        guess = f"Did you mean {near[0]!r}? " if near else ""
-        raise LookupError(f"There is no exercise {name!r}. {guess}The exercises are {', '.join(known)}.")
+        raise LookupError(unknown("exercise", name, known))
     return known[name]

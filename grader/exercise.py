@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-import hashlib
-import hmac
-import inspect
-import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from grader.admission import refusal
-from grader.checks.check import Check
+from grader import seeds
+from grader.cast import Cast, LocalCast, Prepare
+from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.quiet import quiet_stderr
 from grader.score import Score
-from sim.recording import CallbackError, Recording, Seconds
-from sim.ros.remote import Remote
-
-SECRET = "COURSE_SECRET"  # environment variable that only an instructor's marking sets
+from sim.evidence import Recording, Seconds
 
 offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
 """Set in a process whose nodes another one judges: what `Exercise.grade` does there, and gives."""
@@ -38,6 +32,8 @@ class Scenario:
         World, such as `lambda seed: World.generate("maze", seed=seed)`.
     companions: nodes of ours that run alongside, as for sim.run; or a function of the seed that gives them.
     until: a function of the growing recording that ends the run early, as in sim.run.
+    prepare: a module's function that makes of each of the student's programs the one that runs in its place.
+    name: by which checks that hold in some scenarios only name this one.
     """
 
     world: Any = None
@@ -45,29 +41,27 @@ class Scenario:
     seed: int = 0
     companions: Companions = ()
     until: Callable[[Recording], bool] | None = None
+    prepare: Prepare | None = None
+    name: str = ""
 
-    def run(self, nodes: Sequence[Any], seed: int) -> Recording:
+    def run(self, cast: Cast, seed: int) -> Recording:
         """Run the student's nodes. Ours come first, as a robot's drivers are up before one's own node is.
 
         Raises CompanionError when one of ours raised.
         """
         from sim import run
 
-        companions = self.companions(seed) if callable(self.companions) else self.companions
         recording = run(
-            *companions,
-            *nodes,
+            *cast.programs(self.prepare),
+            companions=self.companions(seed) if callable(self.companions) else self.companions,
             world=self._world(seed),
             seconds=self.seconds,
             seed=seed,
             until=self.until,
             quiet=True,
         )
-        told = [error for node in nodes if isinstance(node, Remote) for error in node.errors]
-        for error in recording.errors:
-            # What another process tells is never taken for a mistake of ours: that would give points.
-            if not any(error is claim for claim in told) and _is_companion(error, companions):
-                raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
+        for error in recording.failures:
+            raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
         return recording
 
     def _world(self, seed: int) -> Any:
@@ -78,23 +72,28 @@ class Scenario:
         return replace(world, name=world.name.removesuffix(f"_{seed}"))
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Exercise:
-    """A task with its checks and the runs they judge. The simplest has one run:
+    '''A task with its checks and the runs they judge. The simplest has one run:
 
-        counter = Exercise("counter", "A counting node", checks=[counts, logs_once_a_second], seconds=5)
+        counter = Exercise("counter", "A counting node", seconds=5)
+
+        @counter.check(3)
+        def counts(recording):
+            \"""The node counts from 1 on.\"""
+
         counter.grade(CountingNode)
 
     name: unique in the course. title: what the student reads.
     world, seconds, companions, until: the one scenario, run once for each of `seeds`.
-    scenarios: in place of these, several scenarios; a check holds only if it holds in all of them.
+    scenarios: in place of these, several scenarios; a check holds only if it holds in all that judge it.
 
     Raises ValueError for an exercise that can't work.
-    """
+    '''
 
     name: str
     title: str
-    checks: Sequence[Check]
+    checks: list[Check] = field(default_factory=list)
     world: Any = None
     seconds: Seconds = 10.0
     companions: Companions = ()
@@ -103,79 +102,93 @@ class Exercise:
     scenarios: Sequence[Scenario] = ()
 
     def __post_init__(self) -> None:
-        names: set[str] = set()
-        for item in self.checks:
-            if item.name in names:
-                raise ValueError(f"exercise {self.name}: two checks are called {item.name}")
-            late = [before.name for before in item.after if before.name not in names]
-            if late:
-                raise ValueError(
-                    f"exercise {self.name}: {item.name} comes after {late[0]}, so list {late[0]} first"
-                )
-            names.add(item.name)
-        if not self.points > 0:
-            raise ValueError(f"exercise {self.name}: its checks have no points")
         if not self.seeds:
             raise ValueError(f"exercise {self.name}: give at least one seed")
+        given, self.checks = self.checks, []
+        for item in given:
+            self._add(item)
+
+    def check(
+        self,
+        points: float,
+        *,
+        after: Check | tuple[Check, ...] = (),
+        only: str | tuple[str, ...] = (),
+        guess: str = "",
+    ) -> Callable[[Callable[..., Any]], Check]:
+        """Make the next check of this exercise of a function whose docstring the student reads.
+
+        points: its weight. after: what must have earned something, in the scenarios where that holds; the
+        function is handed what these checks have returned, if it takes more than a recording. only: the
+        names of the scenarios in which it holds.
+        guess: what is most likely missing, where a miss has no hint and no diagnosis fits.
+        Raises ValueError for a check that can't work, as `new_check` does.
+        """
+        return lambda function: self._add(new_check(function, points, after, only, guess))
+
+    def _add(self, item: Check) -> Check:
+        known, where = {before.name for before in self.checks}, f"exercise {self.name}: {item.name}"
+        if item.name in known:
+            raise ValueError(f"exercise {self.name}: two checks are called {item.name}")
+        for before in item.after:
+            if before.name not in known:
+                raise ValueError(f"{where} comes after {before.name}, so list {before.name} first")
+            if item.asks and before.only and not (item.only and set(item.only) <= set(before.only)):
+                places = ", ".join(before.only)
+                raise ValueError(f"{where} is handed what {before.name} measures only in {places}")
+        strange = set(item.only) - {scenario.name for scenario in self.scenarios}
+        if strange:
+            raise ValueError(f"{where} holds in {strange.pop()!r}, which is no scenario of it")
+        self.checks.append(item)
+        return item
 
     @property
     def points(self) -> float:
         """What can be reached."""
         return sum(item.points for item in self.checks)
 
-    @property
-    def runs(self) -> list[tuple[Scenario, int]]:
-        """Scenarios with their seeds: public ones, or private ones where the instructor's secret is set."""
+    def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
+        """Scenarios with their seeds: public ones, or private ones from a secret."""
         one = Scenario(self.world, self.seconds, 0, self.companions, self.until)
         public = [(scenario, scenario.seed) for scenario in self.scenarios] or [(one, s) for s in self.seeds]
-        secret = os.environ.get(SECRET, "")
         if not secret:
             return public
-        return [(run[0], private_seed(secret, self.name, index)) for index, run in enumerate(public)]
+        return [(run[0], seeds.private_seed(secret, self.name, index)) for index, run in enumerate(public)]
 
     def grade(self, *nodes: Any) -> Score:
-        """Run the student's nodes, judge the recordings, give the score. No mistake of the student's raises.
+        """Run a student's nodes, judge the recordings, give the score. No mistake of the student's raises.
 
-        nodes: what sim.run takes: Node classes, callables that return a node, main() functions. Or one
-            Remote, for nodes that live in another process; then RemoteLost is raised when that process is
-            gone, silent or sends what can't be.
+        nodes: what sim.run takes: Node classes, callables that return a node, main() functions.
         """
         if offer is not None:
             return offer(self, nodes)
-        for node in nodes:
-            if isinstance(node, Remote):
-                node.secret, node.preparation = os.environ.get(SECRET, "").encode(), ""
+        return self.judge(LocalCast(nodes), seeds.secret_of_this_process())
+
+    def judge(self, cast: Cast, secret: str = "") -> Score:
+        """The same for programs wherever they live, on private worlds where there is a secret.
+
+        Raises ValueError without a check that gives points, and what the cast raises.
+        """
+        if not self.points > 0:
+            raise ValueError(f"exercise {self.name}: its checks have no points")
         with quiet_stderr():
-            refused = refusal(nodes)
+            refused = cast.refusal()
             if refused:
                 reason = "Not judged: there is nothing to run."
                 verdicts = [faulty(refused), *(skipped(item, reason) for item in self.checks)]
                 return Score(self.name, verdicts, title=self.title)
-            return self._run_and_judge(nodes)
+            return self._run_and_judge(cast, secret)
 
-    def _run_and_judge(self, nodes: Sequence[Any]) -> Score:
+    def _run_and_judge(self, cast: Cast, secret: str) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
-        for scenario, seed in self.runs:
+        for scenario, seed in self.runs(secret):
             try:
-                recording = scenario.run(nodes, seed)
+                recording = scenario.run(cast, seed)
             except Exception as error:
                 recordings.append(Recording(seed=seed))
-                judged.append([broken(item, error) for item in self.checks])
+                judged.append([broken(item, error) for item in self.checks if item.holds_in(scenario.name)])
             else:
                 recordings.append(recording)
-                judged.append(judge(self.checks, recording))
-        return Score(self.name, worst(judged), recordings, title=self.title)
-
-
-def private_seed(secret: str, exercise: str, index: int) -> int:
-    """The seed of an exercise's run: the first 4 bytes of HMAC-SHA256(secret, "exercise index")."""
-    digest = hmac.new(secret.encode(), f"{exercise} {index}".encode(), hashlib.sha256).digest()
-    return int.from_bytes(digest[:4], "big")
-
-
-def _is_companion(error: CallbackError, companions: Sequence[Any]) -> bool:
-    """By name and file: a student's class may be called as one of ours."""
-    targets = [getattr(companion, "target", companion) for companion in companions]
-    named = [t for t in targets if error.callback.split(".")[0] == getattr(t, "__name__", "")]
-    return any((inspect.getsourcefile(target) or "") in error.traceback for target in named)
+                judged.append(judge(self.checks, recording, scenario.name))
+        return Score(self.name, worst(self.checks, judged), recordings, title=self.title)

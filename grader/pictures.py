@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.checks.judge import Verdict
-from sim.recording import Recording
+from sim.evidence import Recording
 
 
 def draw(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> list[tuple[str, Any]]:

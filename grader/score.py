@@ -10,7 +10,7 @@ from typing import Any
 from grader import page
 from grader.checks.judge import Verdict
 from grader.quiet import quiet_stderr
-from sim.recording import Recording
+from sim.evidence import Recording
 
 
 class Score(float):

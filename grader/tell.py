@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 
-from grader.diagnosis import find_fault
+from grader.diagnosis import find_fault, find_flaw
 from grader.diagnosis.fault import NOT_STARTED
-from sim.recording import Recording
+from sim.evidence import Recording
 
 WIDTH = 100  # characters: a notebook breaks longer lines within words
 BEGIN = (
@@ -16,10 +16,14 @@ BEGIN = (
 
 
 def tell(recording: Recording) -> None:
-    """Print whether the run went well, or the first error with what to do about it. Gives no points."""
+    """Print the most important thing that is wrong with a run, and what to do about it. Gives no points.
+
+    An error, or a run that got stuck, goes before all else; then come causes why something does not work,
+    such as names or QoS that don't match. A run without any of them is told that there is no error.
+    """
     fault = find_fault(recording)
     if fault is None:
-        _say(f"No error. {recording.ended.detail}")
+        _say(find_flaw(recording) or f"No error. {recording.ended.detail}")
     elif fault.sentence == NOT_STARTED:
         _say(BEGIN)
     else:

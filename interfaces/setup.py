@@ -1,4 +1,4 @@
-"""One wheel from all interface packages under definitions/, for every Python from 3.11 on."""
+"""One wheel from sensor_msgs_py and all packages under definitions/, for every Python from 3.11 on."""
 
 import os
 import shutil
@@ -22,19 +22,19 @@ class BuildInterfaces(build_ext):
 
     def run(self) -> None:
         """Build all packages; their share/ goes where the ROS wheels put theirs."""
-        shared: dict[str, list[str]] = {}
+        output = Path(self.build_temp).resolve()
+        shutil.rmtree(output, ignore_errors=True)
+        output.mkdir(parents=True)
         for package in PACKAGES:
-            output = Path(self.build_temp).resolve() / package
-            shutil.rmtree(output, ignore_errors=True)
-            output.mkdir(parents=True)
             self._build(package, output)
-            for file in sorted(output.glob("python/**/*.*")):
-                if file.suffix in (".py", ".so"):
-                    target = Path(self.build_lib, file.relative_to(output / "python"))
-                    target.parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copyfile(file, target)
-            for file in sorted(file for file in output.glob("share/**/*") if file.is_file()):
-                shared.setdefault(str(file.parent.relative_to(output)), []).append(str(file))
+        for file in sorted(output.glob("python/**/*.*")):
+            if file.suffix in (".py", ".so"):
+                target = Path(self.build_lib, file.relative_to(output / "python"))
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(file, target)
+        shared: dict[str, list[str]] = {}
+        for file in sorted(file for file in output.glob("share/**/*") if file.is_file()):
+            shared.setdefault(str(file.parent.relative_to(output)), []).append(str(file))
         self.distribution.data_files = sorted(shared.items())
 
     def _build(self, package: str, output: Path) -> None:
@@ -47,7 +47,7 @@ class BuildInterfaces(build_ext):
 
 setup(
     version=version(),
-    packages=[],
+    packages=["sensor_msgs_py"],
     ext_modules=[Extension(package, [], py_limited_api=True) for package in PACKAGES],
     cmdclass={"build_ext": BuildInterfaces},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import math
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from types import FrameType
 from typing import NoReturn
@@ -15,8 +16,8 @@ from sim.ros.realtime import RealTimeRun
 from sim.world import World, WorldError
 
 DOMAIN = 42  # of its own: a plain `python node.py` elsewhere has 0
-PORT = 8090
-DOMAINS = range(102)  # more would need ports that Linux gives to others
+LAST_DOMAIN = 101  # a greater one would need ports that Linux gives to others
+PORT, LAST_PORT = 8090, 65535
 WRONG = 2  # exit status, as argparse's
 HEAR_IT = """
 In another terminal:
@@ -51,9 +52,7 @@ class PortError(Exception):
 @contextmanager
 def _page(run: RealTimeRun, port: int) -> Iterator[str]:
     """Show the run in browsers; the page's address."""
-    from sim.standalone import (
-        LivePage,
-    )  # here, because it brings libraries that a headless robot does without
+    from sim.standalone import LivePage  # here, for it brings libraries that a headless robot does without
 
     try:
         page = LivePage(run, port)
@@ -82,47 +81,32 @@ def _options(words: list[str] | None) -> argparse.Namespace:
     parser = _Parser(
         "python -m sim", description="A simulated robot as an ordinary ROS 2 process, in real time."
     )
-    parser.add_argument(
-        "--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room"
-    )
-    parser.add_argument(
-        "--world-seed", type=_whole_number, help="make a new room, maze or clutter from this number"
-    )
-    parser.add_argument("--seed", type=_whole_number, default=0, help="for the sensors' noise; default 0")
-    parser.add_argument(
-        "--domain", type=_domain, default=DOMAIN, help=f"ROS domain, 0 to {DOMAINS[-1]}; default {DOMAIN}"
-    )
-    parser.add_argument(
-        "--port", type=_port, default=PORT, help=f"of the picture in a browser, 0 for any; default {PORT}"
-    )
-    parser.add_argument("--headless", action="store_true", help="without the picture")
+    option = parser.add_argument
+    seed = _number("write a whole number, 0 or more")
+    domain = _number(f"a ROS domain is a whole number from 0 to {LAST_DOMAIN}", LAST_DOMAIN)
+    port = _number(f"a port is a whole number from 0 to {LAST_PORT}", LAST_PORT)
+    option("--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room")
+    option("--world-seed", type=seed, help="make a new room, maze or clutter from this number")
+    option("--seed", type=seed, default=0, help="for the sensors' noise; default 0")
+    option("--domain", type=domain, default=DOMAIN, help=f"ROS domain, 0 to {LAST_DOMAIN}; default {DOMAIN}")
+    option("--port", type=port, default=PORT, help=f"of the picture in a browser, 0 for any; default {PORT}")
+    option("--headless", action="store_true", help="without the picture")
     return parser.parse_args(words)
 
 
-def _whole_number(word: str) -> int:
-    if not word.isdecimal():
-        raise argparse.ArgumentTypeError(f"write a whole number, 0 or more; this is {word!r}.")
-    return int(word)
+def _number(expected: str, most: float = math.inf) -> Callable[[str], int]:
+    def number(word: str) -> int:
+        if not word.isdecimal() or int(word) > most:
+            raise argparse.ArgumentTypeError(f"{expected}; this is {word!r}.")
+        return int(word)
 
-
-def _domain(word: str) -> int:
-    if not word.isdecimal() or int(word) not in DOMAINS:
-        raise argparse.ArgumentTypeError(
-            f"a ROS domain is a whole number from 0 to {DOMAINS[-1]}; this is {word!r}."
-        )
-    return int(word)
+    return number
 
 
 def _world(options: argparse.Namespace) -> World:
     if options.world_seed is None:
         return World.load(options.world)
     return World.generate(options.world, seed=options.world_seed)
-
-
-def _port(word: str) -> int:
-    if not word.isdecimal() or int(word) > 65535:
-        raise argparse.ArgumentTypeError(f"a port is a whole number from 0 to 65535; this is {word!r}.")
-    return int(word)
 
 
 def _offer(run: RealTimeRun, address: str | None) -> str:

@@ -1,4 +1,4 @@
-"""The door to playing: a run to watch and to drive, with its picture where there is a notebook."""
+"""The door to playing: a run to watch and to drive, with its picture where there is a notebook; replays."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import builtins
 from collections.abc import Callable
 from typing import Any
 
-from sim.recording import Recording
-from sim.ros.pacing import Pace
-from sim.ros.player import Player
+from sim.evidence import Recording
+from sim.ros.play.pacing import Pace
+from sim.ros.play.player import Player
 from sim.ros.session import Session
 from sim.world import World
 
@@ -41,6 +41,13 @@ def play(
         player.show(view)
     player.begin()
     return player
+
+
+def replay(recording: Recording, *, speed: float) -> Any:
+    """See `Recording.replay`."""
+    from sim.view.replay import replay  # here, for it takes a while
+
+    return replay(recording, speed=speed)
 
 
 def _in_notebook() -> bool:

@@ -9,17 +9,27 @@ from grader.checks.actions import (
     sends_goals,
     serves_action,
 )
-from grader.checks.check import Check, Missed, check
+from grader.checks.check import Check, Missed, check, hinting
 from grader.checks.judge import Verdict, judge
-from grader.checks.logs import answers, logs
-from grader.checks.motion import arrives, follows, keeps_clear, passes, stands_still, travelled
+from grader.checks.logs import Said, answers, come_every, logs
+from grader.checks.mistakes import usual_mistake
+from grader.checks.motion import (
+    arrives,
+    ends_with_a_stop,
+    follows,
+    keeps_clear,
+    passes,
+    stands_still,
+    travelled,
+)
 from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.services import calls, responds, serves
-from grader.checks.topics import publishes, rate, series, subscribes, within
+from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
 
 __all__ = [
     "Check",
     "Missed",
+    "Said",
     "Verdict",
     "accepts",
     "answers",
@@ -27,12 +37,16 @@ __all__ = [
     "calls",
     "cancels",
     "check",
+    "come_every",
+    "ends_with_a_stop",
     "finishes",
     "follows",
     "gives_feedback",
     "has_timer",
+    "hinting",
     "judge",
     "keeps_clear",
+    "lasts",
     "logs",
     "named",
     "no_errors",
@@ -48,5 +62,6 @@ __all__ = [
     "stands_still",
     "subscribes",
     "travelled",
+    "usual_mistake",
     "within",
 ]

@@ -8,10 +8,20 @@ from typing import Any
 
 from grader.checks.check import Missed
 from grader.checks.ends import declared
-from grader.checks.fields import differing, read, told, wanted
-from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, REJECTED, Goal
-from sim.recording import Endpoint, Recording, Seconds, stamps
-from sim.recording import rate as mean_rate
+from grader.checks.fields import differing, read, told, words
+from grader.checks.silence import silence
+from grader.checks.topics import longest_pause
+from sim.evidence import (
+    CANCEL_REJECTED,
+    CANCEL_REQUESTED,
+    REJECTED,
+    Endpoint,
+    Goal,
+    Recording,
+    Seconds,
+    stamps,
+)
+from sim.evidence import rate as mean_rate
 
 Picks = Callable[[Goal], bool]
 
@@ -44,7 +54,7 @@ def sends_goals(recording: Recording, action: str, type: str = "", *, at_least: 
 def accepts(recording: Recording, action: str, *, where: Picks = _all) -> list[Goal]:
     """Every goal is accepted. where: picks the goals.
 
-    Raises Missed for the first that isn't, and without a server; ValueError when nobody sent such a goal.
+    Raises Missed for the first that isn't, and without a server; without such goals as `silence`.
     """
     return _decides(recording, action, where, "accepted", lambda goal: goal.at("accepted") is not None)
 
@@ -58,7 +68,7 @@ def _decides(recording: Recording, action: str, where: Picks, word: str, right: 
     goals = _goals(recording, action, where)
     wrong = [goal for goal in goals if not right(goal)]
     if wrong:
-        raise Missed(f"{_named(wrong[0])} {word}", _state(wrong[0]), credit=1 - len(wrong) / len(goals))
+        raise Missed(f"{_named(wrong[0])} {word}", state(wrong[0]), credit=1 - len(wrong) / len(goals))
     return goals
 
 
@@ -75,7 +85,7 @@ def finishes(
 
     status: succeeded, canceled or aborted. right: gives the fields of the right result and their values for
     a goal's request; other fields may be anything. within: seconds since the goal was accepted; None for any.
-    Raises Missed for the first goal that doesn't, with credit for those that do; ValueError without goals.
+    Raises Missed for the first goal that doesn't, with credit for those that do; without goals as `silence`.
     """
     goals = _goals(recording, action, where)
     misses = [miss for goal in goals if (miss := _unfinished(goal, status, right, within))]
@@ -89,18 +99,18 @@ def _unfinished(
 ) -> tuple[str, str] | None:
     ended, in_time = goal.at(status), f" within {within:g} s" if within is not None else ""
     if goal.status != status or ended is None:
-        return f"{_named(goal)} {status}{in_time}", _state(goal)
+        return f"{_named(goal)} {status}{in_time}", state(goal)
     took = ended - (goal.at("accepted") or 0.0)
     if within is not None and took > within + 1e-9:
         return f"{_named(goal)} {status}{in_time}", f"{status} after {took:.3g} s"
     values = right(goal.request)
     if values and goal.result is None:
-        return f"{wanted(values)} as the result of {_named(goal)}", "no result"
+        return f"{words(values)} as the result of {_named(goal)}", "no result"
     wrong = differing(goal.result, values)
     if not wrong:
         return None
     saw = ", ".join(f"{name}={read(goal.result, name)!r}" for name in wrong)
-    return f"{wanted({name: values[name] for name in wrong})} as the result of {_named(goal)}", saw
+    return f"{words({name: values[name] for name in wrong})} as the result of {_named(goal)}", saw
 
 
 def gives_feedback(
@@ -117,7 +127,7 @@ def gives_feedback(
 
     hz: its rate in Hz of simulated time, to within `tolerance` as a fraction; 0 for any rate.
     rising, falling: a field that never goes back while a goal is executed, such as "distance_remaining".
-    Raises Missed for the first goal that doesn't; ValueError when nobody sent such a goal.
+    Raises Missed for the first goal that doesn't; without such goals as `silence`.
     """
     goals = [goal for goal in _goals(recording, action, where) if goal.at("executing") is not None]
     if not goals:
@@ -137,9 +147,9 @@ def gives_feedback(
 def _keeps_rate(recording: Recording, goal: Goal, hz: float, tolerance: float) -> None:
     expected = f"feedback on {_named(goal)} at {hz:.4g} Hz, within {tolerance:.0%}"
     moments = stamps(goal.feedback)
-    end = next((stamp for stamp, word in goal.events if word == goal.status and goal.over), None)
-    edges = [goal.at("executing") or 0.0, *moments, recording.ended.stamp if end is None else end]
-    pause, since = max((after - before, before) for before, after in itertools.pairwise(edges))
+    end = recording.ended.stamp if goal.ended is None else goal.ended
+    edges = [goal.at("executing") or 0.0, *moments, end]
+    pause, since = longest_pause(edges)
     measured = mean_rate(moments)
     if measured and abs(measured - hz) > tolerance * hz:
         raise Missed(expected, f"{measured:.4g} Hz ({len(moments)} messages)")
@@ -158,17 +168,18 @@ def _goes_one_way(goal: Goal, field: str, sign: int) -> None:
 def cancels(recording: Recording, action: str, *, within: Seconds = 1.0, where: Picks = _all) -> list[Goal]:
     """Every goal that a client wants to cancel ends as canceled within so many seconds of that.
 
-    Raises Missed for the first that doesn't; ValueError when nobody wanted to cancel one.
+    Raises Missed for the first that doesn't; when nobody wanted to cancel one as `silence`.
     """
     asked = [goal for goal in _goals(recording, action, where) if goal.at(CANCEL_REQUESTED) is not None]
     if not asked:
-        raise ValueError(f"nobody canceled a goal for {action}, so there is nothing to judge")
+        speakers = recording.graph.ends("action client", action)
+        raise silence(recording, f"goals for {action} that somebody cancels", "none", speakers)
     for goal in asked:
         began, ended = goal.at(CANCEL_REQUESTED) or 0.0, goal.at("canceled")
         if ended is None or ended - began > within + 1e-9:
             expected = f"{_named(goal)} canceled within {within:g} s of the request at {began:.3g} s"
             late = ended is not None and f"canceled after {ended - began:.3g} s"
-            raise Missed(expected, late or f"{_refused(goal)}{_state(goal)}")
+            raise Missed(expected, late or f"{_refused(goal)}{state(goal)}")
     return asked
 
 
@@ -181,7 +192,10 @@ def _goals(recording: Recording, action: str, where: Picks) -> list[Goal]:
     goals = [goal for goal in recording.goals_of(action) if where(goal)]
     if not goals:
         serves_action(recording, action)
-        raise ValueError(f"nobody sent such a goal to {action}, so there is nothing to judge")
+        saw = f"{len(recording.goals_of(action))}, and none of them is one"
+        raise silence(
+            recording, f"goals for {action} that fit", saw, recording.graph.ends("action client", action)
+        )
     return goals
 
 
@@ -190,8 +204,8 @@ def _named(goal: Goal) -> str:
     return f"the goal {goal.action} ({told(goal.request)}){asked}"
 
 
-def _state(goal: Goal) -> str:
-    """How far a goal came."""
+def state(goal: Goal) -> str:
+    """How far a goal came, in words: "succeeded at 4 s"."""
     if not goal.status:
         return "no decision on it" if goal.server else "nobody took the goal"
     if goal.over:

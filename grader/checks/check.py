@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from sim.recording import Recording
+from sim.evidence import Recording
 
 Picture = Literal["", "path", "topics"]
 
@@ -17,65 +18,110 @@ class Missed(Exception):
     """The student's node did not do what a check asks for.
 
     expected, saw: two short phrases that can be compared.
-    hint: what to do next; left out, the first diagnosis that fits the recording takes its place.
+    hint: what to do next, where the cause is known. Left out, the first diagnosis that fits the recording
+        takes its place, and after that the `guess`: what is most likely missing.
     credit: the fraction 0..1 of the check's points that is earned all the same.
     picture: "path" or "topics" where a figure of the recording says more than words.
+    measured: with a credit, what checks that come after this one are handed.
     """
 
     def __init__(
-        self, expected: str, saw: str, hint: str = "", *, credit: float = 0.0, picture: Picture = ""
+        self,
+        expected: str,
+        saw: str,
+        hint: str = "",
+        *,
+        guess: str = "",
+        credit: float = 0.0,
+        picture: Picture = "",
+        measured: Any = None,
     ) -> None:
         super().__init__(f"expected {expected}; saw {saw}")
-        self.expected, self.saw, self.hint = expected, saw, hint
-        self.credit, self.picture = fraction(credit), picture
+        self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
+        self.credit, self.picture, self.measured = fraction(credit), picture, measured
+
+
+@contextmanager
+def hinting(hint: str = "", *, guess: str = "") -> Iterator[None]:
+    """Give a miss in the block this hint, or this guess, unless it has one of its own."""
+    try:
+        yield
+    except Missed as missed:
+        missed.hint, missed.guess = missed.hint or hint, missed.guess or guess
+        raise
 
 
 @dataclass(frozen=True)
 class Check:
     """One line of a score.
 
-    `sentence` is what the student reads. The check is skipped when one of `after` earned nothing.
+    sentence: what the student reads. after: the checks that it builds on: it is skipped when one of them
+    earned nothing. only: names of the scenarios in which it holds; empty for all. guess: as in `Missed`, for
+    any miss of this check.
     """
 
     name: str
     sentence: str
     points: float
     after: tuple[Check, ...]
-    function: Callable[[Recording], Any]
+    function: Callable[..., Any]
+    only: tuple[str, ...] = ()
+    guess: str = ""
 
-    def __call__(self, recording: Recording) -> float:
-        """The fraction 0..1 that is earned. Raises Missed, or whatever a faulty check raises."""
-        result = self.function(recording)
-        return 1.0 if result is None else fraction(result)
+    def __call__(self, recording: Recording, *measured: Any) -> Any:
+        """What the function measured. Raises Missed, or whatever a faulty check raises."""
+        return self.function(recording, *measured)
+
+    @property
+    def asks(self) -> int:
+        """How many of the results of `after` the function wants: all of them, or none."""
+        return len(inspect.signature(self.function).parameters) - 1
+
+    def holds_in(self, scenario: str) -> bool:
+        """Whether it is judged in the scenario of this name."""
+        return not self.only or scenario in self.only
+
+
+def new_check(
+    function: Callable[..., Any],
+    points: float,
+    after: Check | tuple[Check, ...] = (),
+    only: str | tuple[str, ...] = (),
+    guess: str = "",
+) -> Check:
+    """A check of this function, whose docstring is the sentence that the student reads.
+
+    The function takes a Recording, and after it, if it likes, what each of the checks in `after` has
+    returned. It returns what it measured, if anything, or raises Missed.
+    Raises ValueError for a function without a docstring, with other parameters, or for points that aren't a
+    finite number from 0 up.
+    """
+    name = function.__name__
+    if not (math.isfinite(points) and points >= 0):
+        raise ValueError(f"points must be a finite number from 0 up, not {points!r}")
+    sentence = " ".join((inspect.getdoc(function) or "").split("\n\n")[0].split())
+    if not sentence:
+        raise ValueError(f"{name} needs a docstring: it is the sentence that the student reads")
+    before = (after,) if isinstance(after, Check) else tuple(after)
+    made = Check(
+        name, sentence, float(points), before, function, (only,) if isinstance(only, str) else only, guess
+    )
+    if made.asks not in (0, len(before)):
+        raise ValueError(
+            f"{name} takes a recording and nothing else, or also what each of its {len(before)} checks in "
+            f"`after` has measured; it takes {made.asks} more"
+        )
+    return made
 
 
 def check(*, points: float, after: Check | tuple[Check, ...] = ()) -> Callable[[Callable], Check]:
-    """Make a check of a function whose docstring is the sentence that the student reads.
-
-    The function takes a Recording. It returns nothing when all is well, or the earned fraction 0..1, or
-    raises Missed.
-    Raises ValueError for a function without a docstring, or points that aren't a finite number from 0 up.
-    """
-    if not (math.isfinite(points) and points >= 0):
-        raise ValueError(f"points must be a finite number from 0 up, not {points!r}")
-
-    def decorate(function: Callable[[Recording], Any]) -> Check:
-        sentence = " ".join((inspect.getdoc(function) or "").split("\n\n")[0].split())
-        if not sentence:
-            raise ValueError(
-                f"{function.__name__} needs a docstring: it is the sentence that the student reads"
-            )
-        before = (after,) if isinstance(after, Check) else tuple(after)
-        return Check(function.__name__, sentence, float(points), before, function)
-
-    return decorate
+    """Make a check of a function, as `new_check` does."""
+    return lambda function: new_check(function, points, after)
 
 
 def fraction(value: Any) -> float:
     """`value` as a fraction. Raises ValueError for anything else, True and False included."""
     number = math.nan if isinstance(value, bool) else float(value)
     if not 0.0 <= number <= 1.0:
-        raise ValueError(
-            f"a check returns nothing, or the earned fraction from 0 to 1; this one returned {value!r}"
-        )
+        raise ValueError(f"a credit is the earned fraction, from 0 to 1; this one is {value!r}")
     return number

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks.check import Missed
-from grader.diagnosis.activity import is_robot
 from grader.diagnosis.names import closest, difference
-from sim.recording import INFRASTRUCTURE_TOPICS, Endpoint, Recording
+from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
 
 
 class _Words(NamedTuple):
@@ -44,7 +43,7 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
         hint = f"Both ends of {_a(words.what)} must use the same {words.type}: on {name} it is {type}."
         raise Missed(expected, f"type {wrong.type} on {name}", hint)
     if not found:
-        mine = {end.name for end in ends if not is_robot(recording, end.node)}
+        mine = {end.name for end in ends if end.node not in recording.ours}
         connected = {end.name for end in recording.graph.ends(words.other)}
         others = sorted(mine - INFRASTRUCTURE_TOPICS - connected)  # a connected one is no slip
         near = closest(name, others)

@@ -2,34 +2,53 @@
 
 from __future__ import annotations
 
-import difflib
+import itertools
 import re
 from collections.abc import Callable
+from typing import NamedTuple
 
 from grader.checks.check import Missed
-from sim.recording import Heard, LogLine, Recording, Seconds
+from grader.checks.silence import silence
+from grader.diagnosis.activity import slow_callback
+from sim.evidence import Heard, LogLine, Recording, Seconds
+from sim.nearest import nearest
+
+
+class Said(NamedTuple):
+    """A log line that a pattern was found in, and the texts of the pattern's groups."""
+
+    stamp: Seconds
+    level: str  # as in LogLine
+    text: str
+    groups: tuple[str, ...]
 
 
 def logs(
     recording: Recording, pattern: str, *, level: str = "", at_least: int = 1, example: str = ""
-) -> list[LogLine]:
+) -> list[Said]:
     """The log lines in which a regular expression is found (capital letters don't count).
 
     level: DEBUG, INFO, WARN, ERROR or FATAL; "" for any. example: such a line, for who reads no patterns.
     Raises Missed when there are fewer than `at_least`.
     """
     example = example or pattern
-    texts = [line for line in recording.logs if re.search(pattern, line.text, re.IGNORECASE)]
+    texts = [
+        Said(line.stamp, line.level, line.text, match.groups())
+        for line in recording.logs
+        if (match := re.search(pattern, line.text, re.IGNORECASE))
+    ]
     found = [line for line in texts if level in ("", line.level)]
     if len(found) < at_least:
         many = "a log line" if at_least == 1 else f"{at_least} log lines"
         expected = f"{many}{f' at level {level}' if level else ''} like “{example}”"
-        raise Missed(expected, *_nearest(recording, pattern, example, texts, found, level))
+        guess = "Compare the two lines. And does anything call the method that should log it?"
+        saw, hint = _nearest(recording, pattern, example, texts, found, level)
+        raise Missed(expected, saw, hint, guess=guess if recording.logs else "")
     return found
 
 
 def _nearest(
-    recording: Recording, pattern: str, example: str, texts: list[LogLine], found: list[LogLine], level: str
+    recording: Recording, pattern: str, example: str, texts: list[Said], found: list[Said], level: str
 ) -> tuple[str, str]:
     """What was seen instead, and a hint."""
     if found:
@@ -53,44 +72,113 @@ def _nearest(
 
 def _most_similar(recording: Recording, example: str) -> str:
     folded = {line.text.casefold(): line.text for line in reversed(recording.logs)}
-    return next((folded[near] for near in difflib.get_close_matches(example.casefold(), folded, 1, 0.7)), "")
+    return folded.get(nearest(example.casefold(), folded, 0.7), "")
+
+
+def come_every(
+    recording: Recording, lines: list[Said], period: Seconds, *, credit: float = 0.0
+) -> list[Said]:
+    """The lines, which come one by one from the start of the run to its end, at the pace of a timer.
+
+    credit: what is earned by the lines alone; checks that come after this one are handed them all the same.
+    Raises Missed with their real pace.
+    """
+    stamps = [line.stamp for line in lines]
+    gaps = [after - before for before, after in itertools.pairwise(stamps)]
+    if gaps and all(abs(gap - period) <= 0.1 * period for gap in gaps):
+        late = stamps[0] - recording.begin > 1.6 * period
+        if not late and recording.ended.stamp - stamps[-1] <= 1.6 * period:
+            _set_by_a_timer(recording, period, credit, lines)
+            return lines
+        hint = f"What changes at {stamps[0] if late else stamps[-1]:.3g} s?"
+    elif recording.graph.timers:
+        hint = "One timer sets the pace, its period in seconds. Log one line each time its method is called."
+    else:
+        hint = "The node has no timer: create_timer(period, method) has a method called again and again."
+    expected = f"a line every {period:g} s, from start to end"
+    hint = slow_callback(recording) or hint
+    raise Missed(expected, _pace(stamps, gaps), hint, credit=credit, measured=lines)
+
+
+def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[Said]) -> None:
+    if all(timer.node in recording.ours for timer in recording.graph.timers):
+        hint = (
+            "A node hears nothing and answers nobody while a loop of its own sleeps: "
+            f"create_timer({period:g}, method) has a method called again and again, and leaves the node free."
+        )
+        saw = f"a line every {period:g} s, but no timer"
+        raise Missed("a timer that sets the pace", saw, hint, credit=credit, measured=lines)
+
+
+def _pace(stamps: list[Seconds], gaps: list[Seconds]) -> str:
+    if not stamps:
+        return "no line"
+    if not gaps:
+        return f"one line, at {stamps[0]:.3g} s"
+    if max(gaps) < 1e-6:
+        return f"{len(stamps)} lines at once, at {stamps[0]:.3g} s"
+    if max(gaps) - min(gaps) > 1e-6:
+        return f"pauses between {min(gaps):.3g} s and {max(gaps):.3g} s"
+    return f"a line every {gaps[0]:.3g} s, from {stamps[0]:.3g} s to {stamps[-1]:.3g} s"
 
 
 def answers(
     recording: Recording,
     topic: str,
-    pattern: str | Callable[[Heard], str],
+    pattern: str | Callable[[Heard], str] = "",
     *,
     level: str = "",
     within: Seconds = 0.5,
     where: Callable[[Heard], bool] = lambda heard: True,
+    what: str = "",
+    only: bool = False,
 ) -> None:
     """Every message on a topic is answered by a log line soon after; partial credit for the part that is.
 
     pattern: regular expression, or a function that gives one for each message.
-    where: picks the messages that want an answer.
-    Raises Missed for the first message without an answer, ValueError when there are no messages to answer.
+    where: picks the messages that want an answer. what: what these are, such as "levels below 20 %".
+    only: and none of the student's lines at this level comes after a message that wants no answer.
+    Raises Missed for the first message without an answer, and as `silence` when there is none to answer.
     """
-    asked = [heard for heard in recording.messages(topic) if where(heard)]
+    heard = recording.messages(topic)
+    asked = [one for one in heard if where(one)]
     if not asked:
-        raise ValueError(f"nothing was sent on {topic}, so there is nothing to answer")
-    wanted = [pattern(heard) if callable(pattern) else pattern for heard in asked]
-    open_ = [
-        (heard, text)
-        for heard, text in zip(asked, wanted, strict=True)
-        if not _lines_after(recording, heard.stamp, within, text, level)
-    ]
+        saw = f"none among the {len(heard)} on {topic}" if heard else "none"
+        wanted = what or f"messages on {topic} that want a log line"
+        raise silence(recording, wanted, saw, recording.graph.publishers(topic))
+    text = pattern if callable(pattern) else lambda heard: pattern
+    open_ = [one for one in asked if not _lines_after(recording, one.stamp, within, text(one), level)]
+    at_level = f" at level {level}" if level else ""
     if open_:
-        heard, text = open_[0]
-        expected = (
-            f"a log line{f' at level {level}' if level else ''} like “{text}” after each message on {topic}"
-        )
-        raise Missed(expected, _instead(recording, heard, within), credit=1 - len(open_) / len(asked))
+        like = f" like “{text(open_[0])}”" if pattern else ""
+        each = f"of the {what}" if what else f"message on {topic}"
+        expected = f"a log line{at_level}{like} after each {each}"
+        raise Missed(expected, _instead(recording, open_[0], within), credit=1 - len(open_) / len(asked))
+    if only:
+        _no_others(recording, heard, where, level, f"no other log line{at_level}")
+
+
+def _no_others(
+    recording: Recording, heard: list[Heard], where: Callable[[Heard], bool], level: str, expected: str
+) -> None:
+    """The student's lines at this level come after messages that want one; else raises Missed."""
+
+    def answers_one(line: LogLine) -> bool:
+        before = [one for one in heard if one.stamp <= line.stamp]
+        return bool(before) and where(before[-1])
+
+    lines = [
+        line for line in recording.logs if level in ("", line.level) and not recording.is_ours(line.node)
+    ]
+    others = [line for line in lines if not answers_one(line)]
+    if others:
+        saw = f"“{others[0].text}” at {others[0].stamp:.3g} s"
+        raise Missed(expected, saw, credit=1 - len(others) / len(lines))
 
 
 def _lines_after(recording: Recording, stamp: Seconds, within: Seconds, pattern: str, level: str) -> bool:
     return any(
-        stamp <= line.stamp <= stamp + within
+        stamp <= line.stamp < stamp + within
         and level in ("", line.level)
         and re.search(pattern, line.text, re.IGNORECASE)
         for line in recording.logs
@@ -98,6 +186,6 @@ def _lines_after(recording: Recording, stamp: Seconds, within: Seconds, pattern:
 
 
 def _instead(recording: Recording, heard: Heard, within: Seconds) -> str:
-    near = [line for line in recording.logs if heard.stamp <= line.stamp <= heard.stamp + within]
+    near = [line for line in recording.logs if heard.stamp <= line.stamp < heard.stamp + within]
     said = f"“{near[0].text}” ({near[0].level})" if near else "no line"
     return f"{said} within {within:g} s of the message at {heard.stamp:.3g} s"

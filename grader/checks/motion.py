@@ -8,13 +8,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from grader.checks.check import Missed
-from sim.recording import Pose, Recording, Seconds
+from grader.diagnosis.driving import STOP, last_command_that_moves
+from sim.evidence import Pose, Recording, Seconds
 
 Point = tuple[float, float]
 
 
-def keeps_clear(recording: Recording) -> None:
-    """The robot touches nothing. Raises Missed with the first touch."""
+SLOW_DOWN = "Slow down or turn away earlier: /scan says how far it is to the next wall."
+
+
+def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:
+    """The robot touches nothing. Raises Missed with the first touch, and this hint."""
     last_pose(recording)
     if recording.contacts:
         first, count = recording.contacts[0], len(recording.contacts)
@@ -22,7 +26,7 @@ def keeps_clear(recording: Recording) -> None:
             "no contact with walls or boxes",
             f"{count} {'contact' if count == 1 else 'contacts'}; the first at {first.stamp:.3g} s: "
             f"a {first.what} at ({first.x:.2f}, {first.y:.2f}) m, on the robot's {first.side} side",
-            "Slow down or turn away earlier: /scan says how far it is to the next wall.",
+            hint,
             picture="path",
         )
 
@@ -117,6 +121,16 @@ def stands_still(recording: Recording, *, last: Seconds = 0.5, tolerance: float 
             "Publish a Twist() with all zeros when the robot has arrived.",
             picture="path",
         )
+
+
+def ends_with_a_stop(recording: Recording, *, credit: float = 0.0) -> None:
+    """The last command on /cmd_vel is a stop: the robot doesn't stand only because it waits for another one.
+
+    Raises Missed if not, with this credit.
+    """
+    left = last_command_that_moves(recording)
+    if left:
+        raise Missed("zeros as the last command", left, STOP, credit=credit)
 
 
 def last_pose(recording: Recording) -> Pose:

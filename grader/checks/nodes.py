@@ -7,7 +7,7 @@ import math
 from grader.checks.check import Missed
 from grader.diagnosis import find_fault
 from grader.diagnosis.names import closest, difference
-from sim.recording import Recording, TimerInfo
+from sim.evidence import Recording, TimerInfo
 
 
 def no_errors(recording: Recording) -> None:

@@ -7,9 +7,9 @@ from typing import Any
 
 from grader.checks.check import Missed
 from grader.checks.ends import declared
-from grader.checks.fields import differing, read, told, wanted
-from sim.exchanges import Call
-from sim.recording import Endpoint, Recording, Seconds
+from grader.checks.fields import differing, read, told, words
+from grader.checks.silence import silence
+from sim.evidence import Call, Endpoint, Recording, Seconds
 
 
 def serves(recording: Recording, service: str, type: str = "") -> list[Endpoint]:
@@ -46,12 +46,15 @@ def responds(
     right: gives the fields of the right response and their values for a request, such as
     `lambda request: {"sum": request.a + request.b}`; other fields may be anything.
     where: picks the calls that are judged.
-    Raises Missed for the first that is not, and when nobody offers the service; ValueError without calls.
+    Raises Missed for the first that is not, and when nobody offers the service; without calls as `silence`.
     """
     asked = [call for call in recording.calls_of(service) if where(call) and _due(recording, call, within)]
     if not asked:
         serves(recording, service)
-        raise ValueError(f"nobody called {service}, so there is nothing to answer")
+        saw = f"{len(recording.calls_of(service))}, and none of them is one"
+        raise silence(
+            recording, f"calls of {service} that want an answer", saw, recording.graph.ends("client", service)
+        )
     misses = [miss for call in asked if (miss := _miss(call, right, within))]
     if misses:
         raise Missed(*misses[0], credit=1 - len(misses) / len(asked))
@@ -69,15 +72,14 @@ def _began(call: Call) -> Seconds:
 
 def _miss(call: Call, right: Callable[[Any], Mapping[str, Any]], within: Seconds) -> tuple[str, str] | None:
     """What was expected of an answer and what was seen, for one that isn't as it should be."""
-    question = f"{call.service}{_brackets(call.request)} at {_began(call):.3g} s"
     if call.answered is None or call.answered - _began(call) > within:
-        return f"an answer to {question} within {within:g} s", _no_answer(call)
+        return f"an answer to {question(call)} within {within:g} s", _no_answer(call)
     values = right(call.request)
     wrong = differing(call.response, values)
     if not wrong:
         return None
     saw = ", ".join(f"{name}={read(call.response, name)!r}" for name in wrong)
-    return f"{wanted({name: values[name] for name in wrong})} as the answer to {question}", saw
+    return f"{words({name: values[name] for name in wrong})} as the answer to {question(call)}", saw
 
 
 def _no_answer(call: Call) -> str:
@@ -88,5 +90,7 @@ def _no_answer(call: Call) -> str:
     return "no answer" if call.taken is not None else "nobody took the request"
 
 
-def _brackets(request: Any) -> str:
-    return f" ({text})" if (text := told(request)) else ""
+def question(call: Call) -> str:
+    """A call in words: "/arm (data=True) at 1.5 s"."""
+    text = told(call.request)
+    return f"{call.service}{f' ({text})' if text else ''} at {_began(call):.3g} s"

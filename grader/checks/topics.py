@@ -5,12 +5,14 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from grader.checks.check import Missed
 from grader.checks.ends import declared
-from sim.recording import Endpoint, Heard, Recording, Seconds
-from sim.recording import rate as mean_rate
+from grader.checks.judge import CUT_SHORT
+from sim.evidence import Endpoint, Heard, Recording, Seconds
+from sim.evidence import rate as mean_rate
 
 
 def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int = 1) -> list[Heard]:
@@ -26,7 +28,8 @@ def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int
             f"only {len(heard)} in {recording.ended.stamp:.3g} s" if heard else "a publisher, but no message"
         )
         expected = expected if at_least == 1 else f"{at_least} or more {expected}"
-        raise Missed(expected, saw, picture="topics")
+        again = "Publish at each call of a timer's callback, from start to end." if heard else ""
+        raise Missed(expected, saw, guess=again, picture="topics")
     return heard
 
 
@@ -47,14 +50,35 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     if abs(measured - hz) > tolerance * hz:
         saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
         raise Missed(expected, saw, _rate_hint(recording, measured, hz), picture="topics")
-    edges = [0.0, *stamps, recording.ended.stamp]
-    pause, since = max((after - before, before) for before, after in itertools.pairwise(edges))
+    pause, since = longest_pause([0.0, *stamps, recording.ended.stamp])
     if pause > 2.5 / hz:
         saw = f"no message for {pause:.3g} s, from {since:.3g} s on"
         raise Missed(
             expected, saw, "Publish from start to end, in the callback of a timer.", picture="topics"
         )
     return measured
+
+
+def longest_pause(moments: Sequence[Seconds]) -> tuple[Seconds, Seconds]:
+    """The longest time between two moments in a row, and when it began; zeros for fewer than two."""
+    pairs = itertools.pairwise(moments)
+    return max(((after - before, before) for before, after in pairs), default=(0.0, 0.0))
+
+
+def lasts(recording: Recording, topic: str, *, pause: Seconds = 1.0) -> None:
+    """Messages on a topic come until the end of the run's time: the last one at most `pause` before it.
+
+    Raises Missed if not. A run that was cut short needs none later: its credit is for the part it had.
+    """
+    last = publishes(recording, topic)[-1].stamp
+    end = recording.ended.stamp if recording.ended.reason in CUT_SHORT else recording.seconds
+    if last < end - pause:
+        raise Missed(
+            f"messages on {topic} until the end, at {end:g} s",
+            f"the last one at {last:.3g} s",
+            guess="Publish from start to end, in a callback that is called again and again.",
+            picture="topics",
+        )
 
 
 def _rate_hint(recording: Recording, measured: float, hz: float) -> str:

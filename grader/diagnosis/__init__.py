@@ -1,14 +1,15 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
-from grader.diagnosis import actions, activity, connections, names, services
+from grader.diagnosis import actions, activity, connections, driving, names, services
 from grader.diagnosis.faults import find_fault
-from sim.recording import Recording
+from sim.evidence import Recording
 
-__all__ = ["explain", "find_fault"]
+__all__ = ["explain", "find_fault", "find_flaw"]
 
 # The likelier cause stands first: a slip in a name also leaves a publisher without listeners, and so on.
 DIAGNOSES = (
     activity.slow_callback,
+    names.shared_name,
     names.typing_slip,
     names.service_slip,
     connections.incompatible_qos,
@@ -27,8 +28,24 @@ DIAGNOSES = (
     activity.unused_publisher,
     activity.empty_node,
 )
+# True of right programs, too: they explain a check that was missed, and are no news without one.
+GUESSES = (services.answer_dropped, activity.ended_early)
+# What no check need ask for.
+FLAWS = (
+    activity.busy_listener,
+    driving.refused_command,
+    driving.two_drivers,
+    driving.rare_commands,
+    driving.left_driving,
+)
 
 
 def explain(recording: Recording) -> str:
     """The first diagnosis that fits, or "" when none does."""
     return next((sentence for diagnose in DIAGNOSES if (sentence := diagnose(recording))), "")
+
+
+def find_flaw(recording: Recording) -> str:
+    """What is certainly wrong in a run without an error, the most important first; "" when nothing is."""
+    certain = [diagnose for diagnose in DIAGNOSES if diagnose not in GUESSES]
+    return next((sentence for diagnose in (*certain, *FLAWS) if (sentence := diagnose(recording))), "")

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from sim.exchanges import CANCEL_REJECTED, CANCEL_REQUESTED, Goal
-from sim.recording import Recording
+from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, Goal, Recording
 
 # What rclpy warns of, and does all the same.
 _NO_GOAL_RESPONSE = "did not return a GoalResponse type"

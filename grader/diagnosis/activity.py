@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from sim.recording import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
+from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
 
 
 def slow_callback(recording: Recording) -> str:
     """A timer that fires less often than it should because a callback of its node holds everything up."""
     for timer in recording.graph.timers:
-        if timer.period <= 0 or is_robot(recording, timer.node):
+        if timer.period <= 0 or timer.node in recording.ours:
             continue
-        due = int(recording.ended.stamp / timer.period + 1e-6)
         of_node = [run for run in recording.callbacks if run.node == timer.node]
-        fired = sum(run.kind == "timer" and run.callback == timer.callback for run in of_node)
+        fires = [run for run in of_node if run.kind == "timer" and run.callback == timer.callback]
+        fired, due = len(fires), int(recording.ended.stamp / timer.period + 1e-6)
+        if _was_for_once(fires, of_node, timer.period, recording.ended.stamp):
+            continue
         slowest = max(of_node, key=lambda run: run.duration, default=None)
         if slowest and _holds_up(slowest, of_node, timer.period) and fired < 0.8 * due:
             return (
@@ -25,10 +27,39 @@ def slow_callback(recording: Recording) -> str:
     return ""
 
 
+def _was_for_once(fires: list[CallbackRun], of_node: list[CallbackRun], period: float, end: float) -> bool:
+    """Whether a timer fired once and never again, although its node was free: it was cancelled."""
+    if len(fires) != 1:
+        return False
+    busy = sum(run.duration for run in of_node if run.stamp >= fires[0].stamp)
+    unfinished = max(run.duration for run in of_node)  # what runs at the end is in no recording
+    return end - fires[0].stamp - busy > period + unfinished + 1e-6
+
+
 def _holds_up(slowest: CallbackRun, of_node: list[CallbackRun], period: float) -> bool:
     """Whether a callback keeps the others of its node waiting; one that awaits or has a thread does not."""
     end = slowest.stamp + slowest.duration
     return slowest.duration > period and not any(slowest.stamp < run.stamp < end - 1e-6 for run in of_node)
+
+
+def busy_listener(recording: Recording) -> str:
+    """A subscription that hears only some of its messages, for its callbacks take too long."""
+    for node in dict.fromkeys(end.node for end in recording.graph.subscriptions()):
+        of_node = [run for run in recording.callbacks if run.node == node]
+        taken = [run for run in of_node if run.kind == "subscription"]
+        slowest = max(taken, key=lambda run: run.duration, default=None)
+        if slowest is None or node in recording.ours:
+            continue
+        topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
+        sent = sum(heard.topic in topics and heard.stamp >= taken[0].stamp for heard in recording.heard)
+        busy = sum(run.duration for run in of_node) / (recording.ended.stamp - taken[0].stamp or 1.0)
+        if busy > 0.8 and len(taken) < 0.8 * sent and _holds_up(slowest, of_node, 0.0):
+            return (
+                f"{node} took {len(taken)} of {sent} messages: {slowest.callback} held it for up to "
+                f"{slowest.duration:.3g} s each time, and the next ones came meanwhile. A callback should "
+                "keep what it hears, and return."
+            )
+    return ""
 
 
 def never_spun(recording: Recording) -> str:
@@ -37,7 +68,7 @@ def never_spun(recording: Recording) -> str:
         return ""  # what is blocked did begin
     active = {run.node for run in recording.callbacks}
     for node in recording.graph.nodes:
-        if node in active or is_robot(recording, node):
+        if node in active or node in recording.ours:
             continue
         what = _waiting_work(recording, node)
         if what:
@@ -80,7 +111,7 @@ def unused_publisher(recording: Recording) -> str:
     """A publisher that never sent anything."""
     used = {(heard.sender, heard.topic) for heard in recording.heard}
     for end in recording.graph.publishers():
-        if (end.node, end.name) in used or end.name in INFRASTRUCTURE_TOPICS or is_robot(recording, end.node):
+        if (end.node, end.name) in used or end.name in INFRASTRUCTURE_TOPICS or end.node in recording.ours:
             continue
         what_next = _who_should_publish(recording, end.node)
         return f"{end.node} has a publisher on {end.name}, but never publishes. {what_next}"
@@ -102,22 +133,18 @@ def _who_should_publish(recording: Recording, node: str) -> str:
 
 
 def empty_node(recording: Recording) -> str:
-    """A node that was created, and nothing in it."""
+    """A node that was created, and nothing in it: it does not even log."""
     busy = {
         e.node for e in recording.graph.endpoints if e.name not in INFRASTRUCTURE_TOPICS and "/" in e.name
     }
     busy |= {timer.node for timer in recording.graph.timers}
     # of the services that every node has, too, which are not in the graph
     busy |= {node for call in recording.calls for node in (call.client, call.server)}
+    busy |= {"/" + line.node.replace(".", "/") for line in recording.logs}
     for node in recording.graph.nodes:
         if node not in busy:
             return f"{node} has no publisher, no subscription and no timer: nothing can happen in it."
     return ""
-
-
-def is_robot(recording: Recording, node: str) -> bool:
-    """Is this the simulated robot's node? What it does or leaves is never the student's mistake."""
-    return recording.world is not None and node == "/robot"
 
 
 def _times(count: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from sim.recording import Endpoint, Recording
+from sim.evidence import Endpoint, Recording
 
 # Per policy: what the publisher offers and the subscription asks for when they don't match.
 _MISMATCHES = (

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 
 from grader.diagnosis.parameter_rules import PARAMETER_RULES
+from grader.diagnosis.python_rules import PYTHON_RULES
 from grader.diagnosis.rules import RULES
 from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
-from sim.recording import CallbackError
+from sim.evidence import CallbackError
+from sim.nearest import nearest
 
 _HOMES = {
     "rclpy": "import rclpy",
@@ -44,7 +45,7 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
-    for rule in (*SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES):
+    for rule in (*SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES, *PYTHON_RULES):
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:
             return rule.advice.format(*found.groups())
@@ -57,9 +58,9 @@ def _unknown_name(error: CallbackError) -> str:
     name = next(iter(re.findall(r"name '(\w+)'", error.text)), "")
     if name in _HOMES:
         return f"`{name}` is not imported: write `{_HOMES[name]}` at the top."
-    near = difflib.get_close_matches(name, _HOMES, n=1, cutoff=0.75)
+    near = nearest(name, _HOMES, 0.75)
     if near:
-        return f"Python knows no `{name}`. Did you mean `{near[0]}`? It comes with `{_HOMES[near[0]]}`."
+        return f"Python knows no `{name}`. Did you mean `{near}`? It comes with `{_HOMES[near]}`."
     return (
         f"Python knows no `{name}` here: a typing slip, a missing import, or a value of the node's own, "
         f"which is `self.{name}`."

@@ -6,11 +6,13 @@ import re
 
 from grader.diagnosis.errors import advice
 from grader.diagnosis.fault import NOT_STARTED, Fault
+from grader.diagnosis.other_types import words_of
 from grader.diagnosis.situations import advice_here
-from sim.recording import CallbackError, Ended, Recording
+from sim.evidence import CallbackError, Ended, Recording
 
 # Classes of rclpy that call a student's method inside a callback of their own.
 _RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
+_UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
 # rclpy's own NotImplementedError, for SetBool() and Spin(): that is no exercise that is not started.
 _OF_A_TYPE = re.compile(r"classes can not be instantiated")
 _HINTS = {
@@ -27,6 +29,10 @@ _HINTS = {
     "or await.",
 }
 
+_MAIN_HANGS = (
+    "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
+    "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
+)
 _FLOOD = (
     "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
 )
@@ -52,23 +58,34 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
         )
     return Fault(
         expected="no error",
-        saw=f"{error.type}: {_first_line(error.text)} ({where(error)})",
+        saw=f"{error.type}: {_first_line(error, recording)} ({where(error)})",
         hint=advice_here(error, recording) or advice(error),
         before_start=error.stamp <= 0.0,
     )
 
 
 def _from_end(ended: Ended) -> Fault:
+    hint = _HINTS[ended.reason]
+    if " messages at " in ended.detail:
+        hint = _FLOOD
+    elif ended.reason == "hang" and re.match(r"[a-z_]\w*\(\) at t = \S+ s computed", ended.detail):
+        hint = _MAIN_HANGS
     return Fault(
         expected="a run to the end",
         saw=ended.detail,
-        hint=_FLOOD if " messages at " in ended.detail else _HINTS[ended.reason],
+        hint=hint,
         before_start=ended.stamp <= 0.0,
     )
 
 
 def where(error: CallbackError) -> str:
-    """The place of an error in words: "in Talker.tick, line 12, at 0.5 s"."""
+    """The place of an error in words: "in Talker.tick, line 12, at 0.5 s".
+
+    Of code that Python could not even read it is the line that it stumbled over, not the import of it.
+    """
+    unread = re.search(r"\(([^()]+), line (\d+)\)$", error.text) if error.type in _UNREADABLE else None
+    if unread:
+        return f"in {unread[1]}, line {unread[2]}, at {error.stamp:.3g} s"
     frames = re.findall(r'File "(.*?)", line (\d+), in (.+)', error.traceback)
     own = [(line, name) for file, line, name in frames if "site-packages" not in file]
     callback = error.callback or "a callback"
@@ -78,5 +95,8 @@ def where(error: CallbackError) -> str:
     return f"in {callback}{line}, at {error.stamp:.3g} s"
 
 
-def _first_line(text: str) -> str:
+def _first_line(error: CallbackError, recording: Recording) -> str:
+    text = words_of(error, recording)
+    if error.type in _UNREADABLE:
+        text = re.sub(r" \([^()]+, line \d+\)$", "", text)
     return text.strip().split("\n")[0] or "no message"

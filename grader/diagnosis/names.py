@@ -5,7 +5,21 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-from sim.recording import INFRASTRUCTURE_TOPICS, Recording
+from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
+from sim.nearest import nearest
+
+_LIKENESS = 0.75
+
+
+def shared_name(recording: Recording) -> str:
+    """A node of the student's with the name of one that the exercise or the world brings along."""
+    if not recording.shared:
+        return ""
+    name = min(recording.shared)
+    return (
+        f"Two nodes are called {name}, yours and one that takes part in this exercise, and nobody can tell "
+        "them apart: give yours a name of its own, in super().__init__('...')."
+    )
 
 
 def typing_slip(recording: Recording) -> str:
@@ -48,7 +62,7 @@ def closest(wanted: str, candidates: Iterable[str]) -> str:
     for name in names:
         if _leaf(name) == _leaf(wanted) or _folded(name) == _folded(wanted):
             return name
-    return next(iter(difflib.get_close_matches(wanted, names, n=1, cutoff=0.75)), "")
+    return nearest(wanted, names, _LIKENESS)
 
 
 def difference(found: str, wanted: str) -> str:
@@ -72,7 +86,7 @@ def _space(name: str) -> str:
 
 
 def _alike(one: str, other: str) -> bool:
-    return difflib.SequenceMatcher(None, one, other).ratio() >= 0.75
+    return difflib.SequenceMatcher(None, one, other).ratio() >= _LIKENESS
 
 
 def _folded(name: str) -> str:

@@ -15,6 +15,12 @@ PARAMETER_RULES = (
         "The parameter `{0}` is declared twice: call declare_parameter('{0}', default) once, in __init__.",
     ),
     Rule(
+        "ParameterUninitializedException", r"The parameter '(.+)' is not initialized",
+        "The parameter `{0}` has no value: it was declared without one, and the start gave none. Declare it "
+        "with a default, declare_parameter('{0}', 1.0), or give the program "
+        "parameters={{'{0}': ...}}.",
+    ),
+    Rule(
         "TypeError", r"parameter must be instance of type '<class 'rclpy\.parameter\.Parameter'>'",
         "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with "
         "`from rclpy.parameter import Parameter`.",

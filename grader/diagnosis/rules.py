@@ -81,6 +81,11 @@ RULES = (
         "as in create_publisher(String, 'topic', 10).",
     ),
     Rule(
+        "AttributeError", r"type object 'type' has no attribute '_TYPE_SUPPORT'",
+        "A topic carries messages, and the type of one is wanted there, not a type of Python's: String for "
+        "str, Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import String`.",
+    ),
+    Rule(
         "TypeError", r"Expected QoSProfile or int",
         "The last argument of create_publisher() and create_subscription() is a number, such as 10, "
         "or a QoSProfile.",
@@ -153,10 +158,6 @@ RULES = (
         "NotInitializedException", r"",
         "rclpy.init() has to come before the first node, and rclpy.shutdown() after the last one: "
         "write `rclpy.init()` as the first line of main().",
-    ),
-    Rule(
-        "RCLError", r"called for existing topic name rt(\S+) with incompatible type",
-        "Another node uses {0} with another message type: both ends of a topic must use the same one.",
     ),
     Rule(
         "RCLError", r"Failed to create subscription: invalid allocator",

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from sim.exchanges import is_node_service
-from sim.recording import Recording
+from sim.evidence import Recording, is_node_service
 
 SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 

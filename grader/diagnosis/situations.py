@@ -5,7 +5,10 @@ from __future__ import annotations
 import itertools
 import re
 
-from sim.recording import CallbackError, Recording
+from grader.diagnosis.other_types import other_type
+from grader.diagnosis.rays import rays_without_distance
+from sim.evidence import CallbackError, Recording
+from sim.ros.messages.codec import message_class
 
 _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 
@@ -15,11 +18,15 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
     return (
         _refusal(error, recording)
         or _too_early(error, recording)
+        or _nothing_heard(error, recording)
         or _no_future(error, recording)
         or _no_value(error)
         or _called_with_too_little(error)
         or _gives_something_else(error)
         or _empty_slice(error)
+        or other_type(error, recording)
+        or _not_there(error)
+        or _no_distance(error, recording)
     )
 
 
@@ -62,6 +69,22 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
     return ""
 
 
+def _nothing_heard(error: CallbackError, recording: Recording) -> str:
+    """A field of a message that has not come yet."""
+    found = re.search(r"'NoneType' object has no attribute '(\w+)'", error.text)
+    if found is None:
+        return ""
+    come = {heard.topic for heard in recording.heard if heard.stamp < error.stamp}
+    for end in recording.graph.subscriptions():
+        waits = end.node == error.node and end.name not in come
+        if waits and found[1] in message_class(end.type).get_fields_and_field_types():
+            return (
+                f"No message has come on {end.name} by then, so what keeps the last one is still None. Ask "
+                "for that first, with `is None`; before the first message, send zeros to a robot."
+            )
+    return ""
+
+
 def _no_future(error: CallbackError, recording: Recording) -> str:
     """A done callback that doesn't take the future."""
     takes = r"(\w+)\(\) takes (?:1 positional argument but 2|0 positional arguments but 1)"
@@ -74,11 +97,19 @@ def _no_future(error: CallbackError, recording: Recording) -> str:
 
 
 def _no_value(error: CallbackError) -> str:
-    """A parameter used in place of the value it holds."""
-    taken = re.search(r"get_parameter\([^)]*\)(?!\.)", _last_line(error))
-    if not taken or error.type not in ("AssertionError", "KeyError"):
-        return ""
-    return "get_parameter() gives a parameter, which holds a value: write self.get_parameter('name').value."
+    """A parameter used in place of the value it holds, or one that holds none."""
+    line = _last_line(error)
+    empty = re.search(r"get_parameter\(['\"]([^)]*)['\"]\)\.value", line)
+    if empty and "NoneType" in error.text:
+        return (
+            f"The parameter `{empty[1]}` has no value: it was declared without one, and the start gave none. "
+            f"Declare it with a default, declare_parameter('{empty[1]}', 1.0)."
+        )
+    if error.type in ("AssertionError", "KeyError") and re.search(r"get_parameter\([^)]*\)(?!\.)", line):
+        return (
+            "get_parameter() gives a parameter, which holds a value: write self.get_parameter('name').value."
+        )
+    return ""
 
 
 def _called_with_too_little(error: CallbackError) -> str:
@@ -115,6 +146,30 @@ def _empty_slice(error: CallbackError) -> str:
         f"`[{part[1]}:{part[2]}]` is empty: a slice doesn't go on from the end of a list to its beginning. "
         f"Join two parts: `[*msg.ranges[{part[1]}:], *msg.ranges[:{part[2]}]]`."
     )
+
+
+def _not_there(error: CallbackError) -> str:
+    """A file or a program that is looked for in vain."""
+    name = re.search(r"No such file or directory: '(.*)'", error.text)
+    if error.type != "FileNotFoundError" or name is None:
+        return ""
+    if re.search(r"subprocess|Popen|\brun\(|check_output\(|check_call\(", _last_line(error)):
+        return (
+            f"There is no program `{name[1]}` on this machine. What it would do can often be done in Python: "
+            "a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do."
+        )
+    return (
+        f"There is no file `{name[1]}`. A name without a slash in front is looked for in the folder that the "
+        "program was started in, here the notebook's: `os.getcwd()` names it, `os.listdir()` what is in it."
+    )
+
+
+def _no_distance(error: CallbackError, recording: Recording) -> str:
+    """A ray's inf or nan that was reckoned with as if it were a distance."""
+    if not re.search(r"cannot convert float (?:infinity|NaN)|math domain error", error.text):
+        return ""
+    told = rays_without_distance(recording, error.node, error.stamp)
+    return f"{told} Ask `math.isfinite(distance)` before you reckon with it." if told else ""
 
 
 def _last_line(error: CallbackError) -> str:

@@ -1,6 +1,6 @@
 """Marks submissions in processes of their own, some at a time.
 
-Two warm processes stay: one forks a judge for each submission, the other, in its cage, a student's process
+Two warm processes stay: one forks a judge for each submission, the other, in its sandbox, a student's process
 for each notebook. Here in the marker's process nothing of a submission is run.
 """
 
@@ -12,69 +12,62 @@ import socket
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
-from pathlib import Path
 from time import monotonic
 
-from grader.marking.orders import RESULT, Patience, given
-from grader.marking.plan import Task
-from grader.marking.result import Result, ResultError
-from grader.marking.sandbox import Inmate, Limits, Sandbox, SandboxFailed
+from grader.marking.errors import NotMarked, ResultError, SandboxFailed
+from grader.marking.result import Result
+from grader.marking.sandbox import ConfinedProcess, Limits, Sandbox
+from grader.marking.task import RESULT, JudgeOrder, Task, TimeLimits, send_order
 from sim.ros.remote import Wire, WireError, WireTimeout
 
-WARM = ("grader.marking.warm",)
+PRELOAD = ("grader.marking.preload",)
+JUDGE_ENTRY = "grader.marking.judge.judge_process:main"
 JUDGE = Limits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
 SPARE_S = 120.0  # that a submission may take beside its notebooks
 END_S = 5.0  # for a process that has hung up to be gone
 TRIES = 2
 
 
-class Failed(Exception):
-    """A submission could not be marked. The text says what happened."""
-
-
 class Pool:
     """Marks with `jobs` submissions at a time; a context manager, which leaves no process behind.
 
-    course: where the tasks' folders are, if they aren't absolute. unsafe: students' code runs without a cage;
-    see Sandbox. secret: where private worlds and seeds come from; "" for the public ones. patience, limits:
-    what a submission may take. Raises SandboxMissing and SandboxFailed.
+    unsafe: students' code runs without a sandbox; see Sandbox. secret: where private worlds and seeds come
+    from; "" for the public ones. time_limits, limits: what a submission may take. Raises SandboxMissing and
+    SandboxFailed.
     """
 
     def __init__(
         self,
-        course: Path,
         jobs: int,
         unsafe: bool = False,
         secret: str = "",
-        patience: Patience = Patience(),  # noqa: B008
+        time_limits: TimeLimits = TimeLimits(),  # noqa: B008
         limits: Limits = Limits(),  # noqa: B008
     ) -> None:
-        self._course, self._jobs = course.absolute(), jobs
-        self._secret, self._patience = secret, patience
-        self._running: set[Inmate] = set()
+        self._jobs, self._secret, self._time_limits = jobs, secret, time_limits
+        self._running: set[ConfinedProcess] = set()
         self._closed = False
         with contextlib.ExitStack() as stack:
             # The kernel ends a warm process with the thread that started it: these live as long as the pool.
             self._threads = ThreadPoolExecutor(max(jobs, 2), "mark")
             stack.callback(self._threads.shutdown, cancel_futures=True)
-            court = "grader.marking.court.clerk:main"
-            judges = self._threads.submit(Sandbox, court, WARM, unsafe=True, limits=JUDGE)
-            pupils = self._threads.submit(Sandbox, preload=WARM, unsafe=unsafe, limits=limits)
+            judges = self._threads.submit(Sandbox, JUDGE_ENTRY, PRELOAD, unsafe=True, limits=JUDGE)
+            students = self._threads.submit(Sandbox, preload=PRELOAD, unsafe=unsafe, limits=limits)
             self._judges = stack.enter_context(judges.result())
-            self._pupils = stack.enter_context(pupils.result())
+            self._students = stack.enter_context(students.result())
             stack.callback(self._stop)
             self._stack = stack.pop_all()
 
     def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
         """The results, in the order in which they are ready. Raises nothing for a submission's sake."""
         left = iter(tasks)
-        running = self._more(left, self._jobs)
+        running = self._submit(left, self._jobs)
         while running:
             done, running = wait(running, return_when=FIRST_COMPLETED)
-            running |= self._more(left, len(done))  # first: to file a result takes its time
+            running |= self._submit(left, len(done))  # first: to file a result takes its time
             yield from (future.result() for future in done)
 
-    def _more(self, left: Iterator[Task], count: int) -> set[Future[Result]]:
+    def _submit(self, left: Iterator[Task], count: int) -> set[Future[Result]]:
         return {self._threads.submit(self._mark, task) for task in itertools.islice(left, count)}
 
     def close(self) -> None:
@@ -97,70 +90,68 @@ class Pool:
         for _ in range(TRIES):
             try:
                 return self._once(task)
-            except (Failed, SandboxFailed) as reason:
+            except (NotMarked, SandboxFailed) as reason:
                 why = str(reason)
             if self._closed:
                 break
-        return refused(task, why)
+        return refused_result(task, why)
 
     def _once(self, task: Task) -> Result:
         """Mark in fresh processes. Raises Failed and SandboxFailed."""
-        task = replace(task, folder=self._course / task.folder, release=self._course / task.release)
         with contextlib.ExitStack() as stack:
-            sock, judge = self._started(self._judges, stack)
+            sock, judge = self._start(self._judges, stack)
             wire = Wire(sock, RESULT)
             deadline = monotonic() + self._longest(task)
-            pupils: list[Inmate] = []
+            students: list[ConfinedProcess] = []
             try:
-                wire.send(**given(task, self._secret, self._patience))
+                send_order(sock, JudgeOrder(task, self._secret, self._time_limits))
                 while True:
                     match wire.receive(max(deadline - monotonic(), 0.001)):
-                        case {"pupil": True}:
-                            pupil, inmate = self._started(self._pupils, stack)
-                            pupils.append(inmate)
-                            socket.send_fds(sock, [b"."], [pupil.fileno()])
-                            pupil.close()
+                        case {"student": True}:
+                            student, process = self._start(self._students, stack)
+                            students.append(process)
+                            socket.send_fds(sock, [b"."], [student.fileno()])
+                            student.close()
                         case {"ending": True}:
-                            wire.send(ending=_ending(pupils[-1]))
+                            wire.send(ending=_ending(students[-1]))
                         case {"result": text}:
-                            return _with_use(Result.from_json(text), judge, pupils)
+                            return _with_use(Result.from_json(text), judge, students)
                         case {"failed": why}:
-                            raise Failed(why)
+                            raise NotMarked(why)
             except WireTimeout:
-                raise Failed(f"It took more than {self._longest(task):g} s.") from None
+                raise NotMarked(f"It took more than {self._longest(task):g} s.") from None
             except (WireError, OSError):
-                raise Failed(f"The judge's process broke off. {_ending(judge)}") from None
+                raise NotMarked(f"The judge's process broke off. {_ending(judge)}") from None
             except ResultError as error:
-                raise Failed(f"The judge gave no result: {error}") from None
+                raise NotMarked(f"The judge gave no result: {error}") from None
 
     def _longest(self, task: Task) -> float:
-        notebooks = len(list(task.release.glob("*.ipynb")))
-        return SPARE_S + notebooks * (self._patience.start + self._patience.notebook)
+        return SPARE_S + len(task.release.notebooks) * (self._time_limits.start + self._time_limits.notebook)
 
-    def _started(self, sandbox: Sandbox, stack: contextlib.ExitStack) -> tuple[socket.socket, Inmate]:
+    def _start(self, sandbox: Sandbox, stack: contextlib.ExitStack) -> tuple[socket.socket, ConfinedProcess]:
         """A new process, and the socket to it; both are gone when the stack is."""
         ours, theirs = socket.socketpair()
         stack.enter_context(ours)
-        inmate = sandbox.start(theirs)
-        stack.callback(self._end, inmate)
-        self._running.add(inmate)
+        process = sandbox.start(theirs)
+        stack.callback(self._end, process)
+        self._running.add(process)
         if self._closed:
-            raise Failed("The marking was stopped.")
-        return ours, inmate
+            raise NotMarked("The marking was stopped.")
+        return ours, process
 
-    def _end(self, process: Inmate) -> None:
+    def _end(self, process: ConfinedProcess) -> None:
         process.kill()
         process.wait()
         self._running.discard(process)
 
 
-def refused(task: Task, why: str) -> Result:
+def refused_result(task: Task, why: str) -> Result:
     """The result of a submission that could not be marked, for no fault that anybody knows of."""
     words = "This could not be marked; your instructor will look at it."
     return Result(task.student, task.assignment, task.key, "refused", f"{words} {why}", flags=[why])
 
 
-def _ending(process: Inmate) -> str:
+def _ending(process: ConfinedProcess) -> str:
     """How a process ended that has hung up, as a sentence; "" if it hasn't ended."""
     try:
         return process.wait(END_S).detail
@@ -168,11 +159,11 @@ def _ending(process: Inmate) -> str:
         return ""
 
 
-def _with_use(result: Result, judge: Inmate, pupils: list[Inmate]) -> Result:
+def _with_use(result: Result, judge: ConfinedProcess, students: list[ConfinedProcess]) -> Result:
     """The result with what its processes used: seconds of computing, and memory of the student's, in MB."""
-    processes = (judge, *pupils)
+    processes = (judge, *students)
     for process in processes:
         process.kill()  # a student's may still be in a cell that nobody could interrupt
     computing = sum(process.wait().cpu_s for process in processes)
-    memory = max((pupil.memory() for pupil in pupils), default=0.0)
+    memory = max((student.memory() for student in students), default=0.0)
     return replace(result, timings=result.timings | {"computing": computing, "memory": memory})

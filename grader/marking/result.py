@@ -7,16 +7,14 @@ import math
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from grader.marking.errors import ResultError
+
 MAX_BYTES = 60_000_000  # of one submission's result
 
 # marked: all went as usual. repaired: the notebook had to be mended first. stopped: the student's code was
 # stopped, or ended its process, before the last cell. refused: there was nothing that could be run.
 VERDICTS = ("marked", "repaired", "stopped", "refused")
 SAID = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # what every check's verdict says
-
-
-class ResultError(ValueError):
-    """Data that is no result; the message says what is wrong with it."""
 
 
 @dataclass(frozen=True)

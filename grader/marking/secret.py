@@ -11,7 +11,7 @@ import os
 import stat
 from pathlib import Path
 
-VARIABLE = "COURSE_SECRET"
+from grader.seeds import VARIABLE
 
 
 def read(folder: Path) -> str:

@@ -30,17 +30,16 @@ def compile_package(package: Package, dependencies: Iterable[str]) -> Path:
     Raises:
         BuildError: the compiler, the linker or the loader refused; the message holds their words.
     """
-    objects = package.output / "objects"
-    objects.mkdir(exist_ok=True)
+    objects = package.output / "objects" / package.name
+    objects.mkdir(parents=True, exist_ok=True)
     entry_point = package.python / f"_{package.name}_s.ep.{DISPATCHER}.c"
     units = [*_units(package, objects), entry_point, HERE / "dispatch.cpp"]
     flags = _flags(package)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         compiled = list(pool.map(lambda unit: _compile(unit, objects, flags), units))
-    library = package.python / f"{package.name}_s__{DISPATCHER}.so"
-    _run(["g++", "-shared", "-s", "-o", library, *compiled, *_link_flags(library.name, dependencies)])
-    _check_loads(library)
-    return library
+    _run(["g++", "-shared", "-s", "-o", package.library, *compiled, *_link_flags(package, dependencies)])
+    _check_loads(package.library)
+    return package.library
 
 
 def _units(package: Package, directory: Path) -> list[Path]:
@@ -95,12 +94,16 @@ def _compile(unit: Path, directory: Path, flags: list[str]) -> Path:
     return compiled
 
 
-def _link_flags(soname: str, dependencies: Iterable[str]) -> list[str]:
-    libraries = [f"{package}__{part}" for package in dependencies for part in PARTS]
+def _link_flags(package: Package, dependencies: Iterable[str]) -> list[str]:
+    beside = [other for other in map(package.beside, dependencies) if other.library.exists()]
+    in_wheels = set(dependencies) - {other.name for other in beside}
+    libraries = [f"{name}__{part}" for name in sorted(in_wheels) for part in PARTS]
     lib = ros_prefix() / "lib"
     return [
-        f"-Wl,-soname,{soname}",
+        f"-Wl,-soname,{package.library.name}",
         "-Wl,--as-needed",
+        *(str(other.library) for other in beside),
+        *(f"-Wl,-rpath,$ORIGIN/../{other.name}" for other in beside),
         # From site-packages/PACKAGE up to the environment's lib/, wherever the environment is.
         "-Wl,-rpath,$ORIGIN/../../..",
         f"-L{lib}",

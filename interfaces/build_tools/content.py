@@ -6,7 +6,7 @@ from pathlib import Path
 from build_tools.toolchain import ros_prefix
 
 ROOT = Path(__file__).resolve().parent.parent
-INPUTS = ("setup.py", "pyproject.toml", "build_tools/*", "definitions/*/*/*")
+INPUTS = ("setup.py", "pyproject.toml", "build_tools/*", "definitions/*/*/*", "sensor_msgs_py/*")
 
 
 def version() -> str:

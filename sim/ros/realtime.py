@@ -12,9 +12,9 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from sim import environment
-from sim.recording import INFRASTRUCTURE_TOPICS
-from sim.ros.codec import type_name
-from sim.ros.machines import machines
+from sim.evidence import INFRASTRUCTURE_TOPICS
+from sim.ros.messages.codec import type_name
+from sim.ros.robots.programs import programs_of
 from sim.world import Scene, World, simulate
 
 MAX_GAP = 0.5  # s; a process that was stopped for longer goes on from there instead of catching up
@@ -22,25 +22,18 @@ CHATTER = INFRASTRUCTURE_TOPICS - {"/clock"}
 PATIENCE = 0.1  # s until a stop is noticed when nothing else happens
 
 
-class RealTime:
-    """A scene that moves with the wall clock, from 0 on, whatever time its nodes name.
+class _Executor(SingleThreadedExecutor):
+    """Moves the world on before each callback."""
 
-    Their clocks count from 1970 and may be set at any moment.
-    """
+    def __init__(self, move_on: Callable[[], None]) -> None:
+        super().__init__()
+        self._move_on = move_on
 
-    def __init__(self, scene: Scene) -> None:
-        self._scene = scene
-        self._time, self._seen = 0.0, monotonic()
-
-    def advance(self, until: float) -> None:
-        """Do the physics steps that are due by now."""
-        now = monotonic()
-        self._time += min(now - self._seen, MAX_GAP)
-        self._seen = now
-        self._scene.advance(self._time)
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._scene, name)
+    def wait_for_ready_callbacks(self, *arguments: Any, **keywords: Any) -> Any:
+        """As rclpy's executors; what is ready finds the world where it is by now."""
+        ready = super().wait_for_ready_callbacks(*arguments, **keywords)
+        self._move_on()
+        return ready
 
 
 class RealTimeRun:
@@ -51,16 +44,17 @@ class RealTimeRun:
     """
 
     def __init__(self, world: World, seed: int, domain: int) -> None:
-        self.scene: Any = RealTime(simulate(world, seed))
+        self.scene: Scene = simulate(world, seed)
         self.domain = domain
         self.nodes: list[Node] = []
+        self._time, self._seen = 0.0, monotonic()  # the scene's, and when it was there
 
     def __enter__(self) -> RealTimeRun:
         environment.open_to_this_machine(self.domain)
         # Its own handlers would shut ROS down in the middle of a callback.
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        self._executor = SingleThreadedExecutor()
-        for process in machines(self.scene, None):
+        self._executor = _Executor(self._move_on)
+        for process in programs_of(self.scene):
             self.add(process.target())
         return self
 
@@ -69,6 +63,14 @@ class RealTimeRun:
         for node in self.nodes:
             node.destroy_node()
         rclpy.try_shutdown()
+
+    def _move_on(self) -> None:
+        """Let the scene go along with the wall clock, whatever time the nodes name: theirs may be set."""
+        now = monotonic()
+        self._time += min(now - self._seen, MAX_GAP)
+        self._seen = now
+        self.scene.advance(self._time)
+        self.scene.forget()
 
     def add(self, node: Node) -> None:
         """Run one more node."""
@@ -94,7 +96,7 @@ class RealTimeRun:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
         from geometry_msgs.msg import Twist
 
-        from sim.ros.teleop import SPEED, TURN
+        from sim.ros.play.teleop import SPEED, TURN
 
         node = Node("teleop")
         publisher = node.create_publisher(Twist, "cmd_vel", 10)

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first message: 0.1 s that no run should pay)
 
-from sim.recording import Ended, Recording
-from sim.ros.processes import Process
+from sim.evidence import Ended, Recording
+from sim.ros.engine.program import Process
 from sim.ros.session import Session
 from sim.world import World
 
 
 def run(
     *nodes: Any,
+    companions: Sequence[Any] = (),
     world: str | World | None = None,
     seconds: float = 10.0,
     seed: int = 0,
@@ -26,17 +27,17 @@ def run(
     nodes: Node classes, functions that return a Node or a Process, main() functions, or `Process` objects.
         All run side by side, as programs of their own; what one raises or hangs in is in the recording and
         never raised here.
+    companions: further programs, started before these: the recording knows whose nodes are whose.
     world: name of a world or a World, with a robot in it that hears /cmd_vel; None for no robot.
     seconds: simulated time at which the run ends at the latest.
     seed: for the sensors' noise, and for `random` and numpy's generators in the nodes.
-    until: called with the recording so far whenever time is about to move on; the run ends when it returns
-    True.
+    until: called with the recording so far whenever time is about to move on; True ends the run.
     quiet: don't show what the nodes log and print.
 
     Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
     can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts.
     """
-    session = Session(nodes, world, seconds, seed, until, quiet)
+    session = Session(nodes, world, seconds, seed, until, quiet, companions=companions)
     session.advance()
     if session.interrupted:
         raise KeyboardInterrupt("The run was interrupted.")

@@ -7,18 +7,21 @@ import gc
 import math
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from sim.recording import Ended, Recording
-from sim.ros import hooks
-from sim.ros.capture import FileDescriptor2, Screen, student_streams
-from sim.ros.engine import Engine
-from sim.ros.fibers import SECOND, Nanoseconds, active
-from sim.ros.machines import machines
-from sim.ros.own import OwnChance, OwnProcess
-from sim.ros.processes import Process, StudentProcess, as_process
-from sim.world import Scene, World, simulate
+from sim.evidence import Ended, Recording
+from sim.nanoseconds import SECOND, Nanoseconds
+from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
+from sim.ros.engine.engine import Engine
+from sim.ros.engine.own import OwnChance, OwnProcess
+from sim.ros.engine.processes import StudentProcess
+from sim.ros.engine.program import Process, as_process
+from sim.ros.fibers.scheduler import active
+from sim.ros.ground_truth import GroundTruth
+from sim.ros.hooks.install import rebind
+from sim.ros.robots.programs import programs_of
+from sim.world import World
 
 FOREVER: Nanoseconds = 2**63
 _turn = threading.RLock()  # a process has one of everything: runs in several threads work in turns
@@ -40,7 +43,9 @@ class Session:
         until: Callable[[Recording], bool] | None,
         quiet: bool,
         caller: str = "run",
+        companions: Sequence[Any] = (),
     ) -> None:
+        self._companions = [as_process(node, caller) for node in companions]
         self._specs = [as_process(node, caller) for node in nodes]
         working = active()
         if working is not None and working.thread == threading.get_ident():
@@ -51,7 +56,7 @@ class Session:
             raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
         world = World.load(world) if isinstance(world, str) else world
         self.recording = Recording(world=world, seconds=float(seconds), seed=seed)
-        self.scene: Scene | None = None
+        self.truth: GroundTruth | None = None  # while the run works, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
         self._until = until
@@ -90,13 +95,19 @@ class Session:
                 if self._moments is None:
                     self._open()
                 while self._due <= last and not (enough and enough()):
+                    if self.truth is not None:
+                        self.truth.move_to(self._due)
                     self._due = next(self._moments)
             except StopIteration as end:
                 self._close(end.value)
             except BaseException:
                 self._close(self.recording.ended)
                 raise
-        return limit if self._due > last and not self.over else self.stamp
+        if self._due <= last or self.over:
+            return self.stamp
+        if self.truth is not None:
+            self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
+        return limit
 
     def start(self, spec: Process) -> None:
         """Add a program; it runs from the next moment on."""
@@ -131,14 +142,15 @@ class Session:
 
     def _open(self) -> None:
         """Start all programs: the world's own, then the user's."""
-        for spec in self._specs:
-            hooks.rebind(_names_around(spec.target))
+        for spec in (*self._companions, *self._specs):
+            rebind(_names_around(spec.target))
         if self.recording.world is not None:
-            self.scene = simulate(self.recording.world, self.recording.seed)
+            self.truth = GroundTruth(self.recording)
         self.engine.open()
-        for spec in machines(self.scene, self.recording) if self.scene is not None else []:
-            self.engine.start(spec)
-        watched = [self.engine.start(spec) for spec in self._specs]
+        for spec in programs_of(self.truth.scene) if self.truth is not None else []:
+            self.engine.start(spec, ours=True)
+        watched = [self.engine.start(spec, ours=True) for spec in self._companions]
+        watched += [self.engine.start(spec) for spec in self._specs]
         self._moments = self._course(round(self.recording.seconds * SECOND), watched)
 
     def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Iterator[Nanoseconds]:
@@ -156,7 +168,7 @@ class Session:
         self.engine.recorder.complained(self._stderr.close())
         self._screen.close()
         self._interrupted = self.engine.guard.interrupted
-        self.engine = self.scene = None  # they and rclpy's nodes are full of cycles
+        self.engine = self.truth = None  # they and rclpy's nodes are full of cycles
         gc.collect()
 
 

@@ -9,11 +9,12 @@ from collections.abc import Sequence
 import numpy as np
 from PIL import Image, ImageDraw
 
-from sim.recording import Pose, Recording
+from sim.evidence import Pose, Recording
 from sim.view.figure import KINDS, PATH
-from sim.view.geometry import body_tracks, index_at, placed
+from sim.view.geometry import body_tracks, index_at
 from sim.view.scene import scene, ways
 from sim.world import Body
+from sim.world.obstacles import placed
 
 SMOOTH = 2  # frames are drawn so many times larger, then scaled down
 COLOURS = 32
@@ -89,7 +90,8 @@ class _Stage:
     def _draw(self, draw: ImageDraw.ImageDraw, body: Body, centre: tuple[float, float], pose: Pose) -> None:
         fill = KINDS.get(body.kind, "#8fb8dc")
         if body.outline:
-            draw.polygon(self._pixels(placed(body, pose)), fill=fill, outline="black", width=SMOOTH)
+            corners = self._pixels(placed(body.outline, *pose[1:]))
+            draw.polygon(corners, fill=fill, outline="black", width=SMOOTH)
             return
         (x, y), r = centre, body.radius * self.scale
         draw.ellipse((x - r, y - r, x + r, y + r), fill=fill, outline="black", width=SMOOTH)

@@ -1,4 +1,4 @@
-"""What all pictures draw: a world as plain data, the tracks of its bodies, and bodies at their poses."""
+"""What all pictures draw: a world as plain data, the tracks of its bodies, and their poses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from sim.recording import Pose, Recording
+from sim.evidence import Pose, Recording
 from sim.world import Body, World
 
 
@@ -47,12 +47,6 @@ def index_at(track: Sequence[Pose], stamp: float) -> int:
 def pose_at(track: Sequence[Pose], stamp: float) -> Pose:
     """The last pose that is not later than `stamp`; the first one before that."""
     return track[index_at(track, stamp)]
-
-
-def placed(body: Body, pose: Pose) -> list[tuple[float, float]]:
-    """The corners of a body that is no disc, in the map frame (m)."""
-    c, s = math.cos(pose.yaw), math.sin(pose.yaw)
-    return [(pose.x + c * u - s * v, pose.y + s * u + c * v) for u, v in body.outline]
 
 
 def reach(body: Body) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 import traitlets
 from IPython.display import HTML, DisplayHandle, display
 
-from sim.recording import Recording
+from sim.evidence import Recording
 from sim.view.geometry import world_data
 from sim.view.replay import replay
 from sim.view.scripts import script

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 
-from sim.recording import Recording
-from sim.view.figure import CAUTION, PATH, WARNING, Plot, plot
+from sim.evidence import Recording
+from sim.view.figure import CAUTION, PATH, WARNING, Plot, legend_beside, plot
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
 RADIUS = 0.1  # metres; of a robot that is only given as a pose
@@ -46,7 +46,7 @@ def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording
     if robot is not None:
         _draw_robot(axes, *robot)
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        legend_beside(axes)
     axes.set(aspect="equal", xlabel="x (m)", ylabel="y (m)")
     axes.set_title(f"{info.width} by {info.height} cells of {info.resolution:.3g} m")
     return figure

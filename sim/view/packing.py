@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any, TypeVar
 
-from sim.recording import Recording, rate, stamps
+from sim.evidence import Recording, rate, stamps
 from sim.view.geometry import body_tracks, pose_at, world_data
 
 Item = TypeVar("Item")

@@ -14,7 +14,7 @@ from typing import Any
 
 from PIL import Image
 
-from sim.recording import Recording
+from sim.evidence import Recording
 from sim.view.figure import Plot, png
 from sim.view.packing import pack, run_end
 from sim.view.scene import plot_path

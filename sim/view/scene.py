@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
-from sim.recording import Pose, Recording
-from sim.view.figure import CAUTION, KINDS, MUTED, ROBOTS, SOLID, WARNING, Plot, plot
-from sim.view.geometry import body_tracks, placed, reach
+from sim.evidence import Pose, Recording
+from sim.view.figure import CAUTION, GRID, KINDS, MUTED, ROBOTS, SOLID, WARNING, Plot, legend_beside, plot
+from sim.view.geometry import body_tracks, reach
 from sim.world import Body, World
+from sim.world.obstacles import placed
 
 MARGIN = 0.2  # metres around what is shown
 
@@ -40,7 +41,7 @@ def plot_path(recording: Recording) -> Plot:
     if recording.contacts:
         touched = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*touched.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    legend_beside(axes)
     return figure
 
 
@@ -73,7 +74,7 @@ def scene(recording: Recording) -> tuple[Plot, Axes]:
         ylabel="y (m)",
         title=f"{world.name}, seen from above" if world.machine is None else world.name,
     )
-    axes.grid(color="#e6e9ec", linewidth=0.6)
+    axes.grid(color=GRID, linewidth=0.6)
     axes.set_axisbelow(True)
     return figure, axes
 
@@ -93,7 +94,7 @@ def _draw(axes: Axes, body: Body, pose: Pose, colour: str, alpha: float, label: 
     """The body's outline, and which way it looks if it is a robot."""
     look = {"facecolor": colour, "edgecolor": colour, "alpha": alpha, "label": label}
     if body.outline:
-        axes.add_patch(Polygon(placed(body, pose), **look))
+        axes.add_patch(Polygon(placed(body.outline, *pose[1:]), **look))
     else:
         axes.add_patch(Circle(pose[1:3], body.radius, **look))
     if body.kind == "robot":

@@ -9,8 +9,8 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from sim.recording import Recording, rate, stamps
-from sim.view.figure import CAUTION, MUTED, PATH, SOLID, WARNING, Plot, plot
+from sim.evidence import Recording, rate, stamps
+from sim.view.figure import CAUTION, GRID, MUTED, PATH, SOLID, WARNING, Plot, legend_beside, plot
 from sim.view.units import unit_of
 
 LEVELS = {"DEBUG": MUTED, "INFO": PATH, "WARN": CAUTION, "ERROR": WARNING, "FATAL": "black"}
@@ -65,7 +65,7 @@ def plot_logs(recording: Recording) -> Plot:
             axes.plot(moments, rows, "|", color=colour, markersize=16, markeredgewidth=2, label=level)
     _along_time(recording, axes, names)
     if names:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        legend_beside(axes)
     return figure
 
 
@@ -74,7 +74,7 @@ def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
     axes.set(xlabel="time (s)", xlim=(-0.02 * _end(recording), 1.02 * _end(recording)))
     axes.set_yticks(range(len(rows)), rows)
     axes.set_ylim(max(len(rows), 1) - 0.5, -0.5)
-    axes.grid(axis="x", color="#e6e9ec")
+    axes.grid(axis="x", color=GRID)
 
 
 def _label(recording: Recording, topic: str) -> str:
@@ -103,7 +103,7 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
-    axes.grid(color="#e6e9ec")
+    axes.grid(color=GRID)
     axes.legend(frameon=False)
     return figure
 

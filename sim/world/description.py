@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import itertools
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from sim.nearest import unknown
 from sim.world import worldfile
 from sim.world.bodies import Body
 from sim.world.generate import generate
@@ -27,6 +27,7 @@ _MACHINES = tuple(worldfile.MACHINES.values())
 _MACHINE = Wanted(
     f"one of {', '.join(model.__name__ for model in _MACHINES)}", lambda model: type(model) in _MACHINES
 )
+_NOT_MOBILE = {"robot": RobotModel(), "lidar": LidarModel(), "imu": None, "movable": (), "robots": ()}
 _Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 
 
@@ -43,9 +44,9 @@ class World(Model):
         walls: thin straight walls, each ((x0, y0), (x1, y1)).
         boxes, circles: the obstacles that stand still.
         movable: the boxes that can be pushed.
+        robots: the robots beside the first one, which is named "robot".
         robot, lidar: the figures of the robots and their lidars.
         imu: the figures of the robots' IMUs; None where they have none.
-        robots: the robots beside the first one, which is named "robot".
         machine: the model of a machine that stands here instead of mobile robots, or None.
 
     Raises:
@@ -61,10 +62,10 @@ class World(Model):
     boxes: Annotated[tuple[Box, ...], Wanted("a list of Box")] = ()
     circles: Annotated[tuple[Circle, ...], Wanted("a list of Circle")] = ()
     movable: Annotated[tuple[MovableBox, ...], Wanted("a list of MovableBox")] = ()
+    robots: Annotated[tuple[OtherRobot, ...], Wanted("a list of OtherRobot")] = ()
     robot: RobotModel = field(default_factory=RobotModel)
     lidar: LidarModel = field(default_factory=LidarModel)
     imu: ImuModel | None = None
-    robots: Annotated[tuple[OtherRobot, ...], Wanted("a list of OtherRobot")] = ()
     machine: Annotated[Any, _MACHINE] | None = None
 
     def __post_init__(self) -> None:
@@ -94,13 +95,7 @@ class World(Model):
 
     def _refuse_mobile(self) -> None:
         """A machine stands alone: silently leaving out a robot that somebody described would puzzle them."""
-        for key, default in (
-            ("robot", RobotModel()),
-            ("lidar", LidarModel()),
-            ("imu", None),
-            ("movable", ()),
-            ("robots", ()),
-        ):
+        for key, default in _NOT_MOBILE.items():
             if getattr(self, key) != default:
                 self.refuse(key, "nothing there, for this world holds a machine instead of a mobile robot")
 
@@ -141,9 +136,7 @@ class World(Model):
     def _path(cls, name: str) -> Path:
         names = cls.names()
         if name not in names:
-            close = difflib.get_close_matches(name, names, n=1)
-            guess = f"Did you mean {close[0]!r}? " if close else ""
-            raise WorldError(f"There is no world {name!r}. {guess}The worlds are {', '.join(names)}.")
+            raise WorldError(unknown("world", name, names))
         return _FOLDER / f"{name}.toml"
 
     @classmethod

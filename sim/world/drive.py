@@ -13,6 +13,9 @@ class Drive:
     The wheels are a kinematic body that the robot's body is tied to by joints of finite force. So the wheels
     always do what they are told, and the body follows as long as nothing holds it. Were the body's own
     velocity set instead, it would sink into walls.
+
+    Attributes:
+        body, shape: the robot in the physics.
     """
 
     def __init__(self, space: pymunk.Space, model: RobotModel, start: Pose) -> None:
@@ -28,7 +31,9 @@ class Drive:
         self._distance = self._turn = 0.0
 
     def command(self, v: float, w: float) -> None:
-        """Aim for v (m/s, forwards) and w (rad/s, counter-clockwise), each cut to the model's limit.
+        """From now on, drive at v (m/s, forwards) and w (rad/s, counter-clockwise), within the limits.
+
+        The speed ramps up to it. `command_timeout` (s) after the last command it ramps down to 0.
 
         Raises:
             CommandError: v or w is infinite or not a number.
@@ -71,12 +76,12 @@ class Drive:
 
     @property
     def odometry(self) -> Odometry:
-        """The pose and speed that follow from the wheels alone."""
+        """Where the wheels say the robot is, from (0, 0, 0) at time 0; wrong once something held it."""
         return Odometry(self._x, self._y, wrap(self._turn), self._v, self._w)
 
     @property
     def wheels(self) -> Wheels:
-        """The state of the wheel joints."""
+        """Angles and rates of the two wheel joints."""
         radius, lever = self._model.wheel_radius, self._model.track_width / 2
         return Wheels(
             (self._distance - lever * self._turn) / radius,

@@ -97,13 +97,26 @@ def hints(model: type[Model]) -> dict[str, Any]:
 
 def words(model: type[Model], key: str) -> str:
     """What a field must be, as a phrase that follows "write "."""
-    hint = hints(model)[key]
+    kind, wanted = _parts(hints(model)[key])
+    if wanted:
+        return wanted[-1].words.replace("a number", _WORDS[int]) if kind is int else wanted[-1].words
+    return _WORDS.get(kind) or f"a {kind.__name__}"
+
+
+def nested(model: type[Model], key: str) -> tuple[type[Model] | None, bool]:
+    """The model that a field holds, if it holds one, and whether it is a tuple of such."""
+    kind, _ = _parts(hints(model)[key])
+    many = get_origin(kind) is tuple
+    inner = get_args(kind)[0] if many else kind
+    return (inner if isinstance(inner, type) and issubclass(inner, Model) else None), many
+
+
+def _parts(hint: Any) -> tuple[Any, list[Wanted]]:
+    """The type that a hint is about, and what stands beside it."""
     if get_origin(hint) in (Union, types.UnionType):
         hint = get_args(hint)[0]
-    if get_origin(hint) is Annotated:
-        kind, *_, wanted = get_args(hint)
-        return wanted.words.replace("a number", _WORDS[int]) if kind is int else wanted.words
-    return _WORDS.get(hint) or f"a {hint.__name__}"
+    kind, *wanted = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+    return kind, wanted
 
 
 def shown(value: object) -> str:
@@ -130,33 +143,21 @@ def fit(hint: Any, value: Any) -> Any:
         UnfitError: it is of another type, infinite, not a number, or beyond the limits.
     """
     origin, inner = get_origin(hint), get_args(hint)
+    several, number = isinstance(value, list | tuple), not isinstance(value, bool)
     if origin is Annotated:
         fitted = fit(inner[0], value)
-        if not all(wanted.fits(fitted) for wanted in inner[1:]):
-            raise UnfitError
-        return fitted
-    if origin in (Union, types.UnionType):
+        if all(wanted.fits(fitted) for wanted in inner[1:]):
+            return fitted
+    elif origin in (Union, types.UnionType):
         return None if value is None else fit(inner[0], value)
-    if origin is tuple:
-        return _fit_tuple(inner, value)
-    if hint is float and _is(value, Real) and abs(value) <= sys.float_info.max:
+    elif origin is tuple and several and inner[1:] == (...,):
+        return tuple(fit(inner[0], item) for item in value)
+    elif origin is tuple and several and len(value) == len(inner):
+        return tuple(map(fit, inner, value))
+    elif hint is float and number and isinstance(value, Real) and abs(value) <= sys.float_info.max:
         return float(value) + 0.0  # a zero without a sign, which some libraries would take for less than 0
-    if hint is int and _is(value, Integral):
+    elif hint is int and number and isinstance(value, Integral):
         return int(value)
-    if hint is Any or (hint not in (int, float) and isinstance(value, hint)):
+    elif hint is Any or (origin is None and hint not in (int, float) and isinstance(value, hint)):
         return value
     raise UnfitError
-
-
-def _fit_tuple(inner: tuple[Any, ...], value: Any) -> tuple[Any, ...]:
-    if not isinstance(value, list | tuple):
-        raise UnfitError
-    if inner[1:] == (...,):
-        return tuple(fit(inner[0], item) for item in value)
-    if len(value) != len(inner):
-        raise UnfitError
-    return tuple(map(fit, inner, value))
-
-
-def _is(value: object, kind: type) -> bool:
-    return isinstance(value, kind) and not isinstance(value, bool)

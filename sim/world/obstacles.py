@@ -1,6 +1,8 @@
 """The solid things of a world that are not walls."""
 
+import itertools
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -11,6 +13,17 @@ Segment = tuple[Point, Point]
 
 GRAVITY = 9.80665
 """Standard gravity, m/s^2."""
+
+
+def placed(points: Iterable[Point], x: float, y: float, yaw: float) -> tuple[Point, ...]:
+    """Points of a frame that lies at (x, y, yaw) in the map frame, as points of the map frame."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return tuple((x + c * u - s * v, y + s * u + c * v) for u, v in points)
+
+
+def ring(corners: Sequence[Point]) -> tuple[Segment, ...]:
+    """The lines from each corner to the next, and from the last to the first."""
+    return tuple(itertools.pairwise((*corners, *corners[:1])))
 
 
 @dataclass(frozen=True)
@@ -33,13 +46,11 @@ class Box(Model):
 
     def corners(self) -> tuple[Point, Point, Point, Point]:
         """The corners in the map frame, counter-clockwise."""
-        c, s = math.cos(self.yaw), math.sin(self.yaw)
-        return tuple((self.x + c * u - s * v, self.y + s * u + c * v) for u, v in self.outline())
+        return placed(self.outline(), self.x, self.y, self.yaw)
 
     def sides(self) -> tuple[Segment, ...]:
         """The four sides as segments in the map frame."""
-        corners = self.corners()
-        return tuple(zip(corners, corners[1:] + corners[:1], strict=True))
+        return ring(self.corners())
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,12 @@
 """The figures of mobile robots, and what their wheels say."""
 
-import itertools
 import math
 import re
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from sim.world.model import Angle, Coordinate, Length, Model, Wanted, positive, within
-from sim.world.obstacles import Point
+from sim.world.obstacles import Point, ring
 
 Pose = tuple[Coordinate, Coordinate, Angle]
 
@@ -22,8 +21,7 @@ _ROUTE = "[[x, y], ...], two or more corners (metres), each different from the o
 
 
 def _is_loop(route: tuple[Point, ...]) -> bool:
-    corners = (*route, *route[:1])
-    return not route or (len(route) >= 2 and all(a != b for a, b in itertools.pairwise(corners)))
+    return not route or (len(route) >= 2 and all(a != b for a, b in ring(route)))
 
 
 class CommandError(ValueError):

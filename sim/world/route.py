@@ -5,7 +5,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 
-from sim.world.obstacles import Point
+from sim.world.obstacles import Point, ring
 
 
 class Route:
@@ -15,7 +15,7 @@ class Route:
     """
 
     def __init__(self, corners: Sequence[Point]) -> None:
-        self._legs = list(itertools.pairwise((*corners, corners[0])))
+        self._legs = ring(corners)
         lengths = [math.hypot(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in self._legs]
         self._begins = [0.0, *itertools.accumulate(lengths)]
         self.length = self._begins.pop()

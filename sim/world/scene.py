@@ -7,21 +7,25 @@ from typing import Protocol
 from sim.world.contacts import Contact
 from sim.world.description import World
 from sim.world.lidar import Scan
-from sim.world.machines import Arm, ArmModel, CartPole, CartPoleModel, Joint, JointModel
+from sim.world.machines import kind_of
+from sim.world.mobile_robot import MobileRobot
 from sim.world.simulation import Simulation
-
-_MACHINES = {JointModel: Joint, ArmModel: Arm, CartPoleModel: CartPole}
 
 
 class Scene(Protocol):
     """A world on its way through time, from 0 on."""
 
     world: World
+    robots: dict[str, MobileRobot]  # by name, the first is "robot"; none where there is a machine
+
+    @property
+    def time(self) -> float:
+        """Simulated time of the last physics step, s."""
 
     def advance(self, until: float) -> None:
         """Do the physics steps, if any are due, that end at or before `until` (s).
 
-        Where the steps lie doesn't depend on how often this is called, so a picture may call it too.
+        Where the steps lie doesn't depend on how often this is called.
         """
 
     @property
@@ -36,9 +40,12 @@ class Scene(Protocol):
     def last_scan(self) -> Scan | None:
         """What the lidar saw last; None before the first scan, and where there is no lidar."""
 
+    def forget(self) -> None:
+        """Drop the contacts that have ended, for a run without an end."""
+
 
 def simulate(world: World, seed: int) -> Scene:
     """The simulation that a world asks for; the seed is for all that chance decides in it."""
     if world.machine is None:
         return Simulation(world, seed)
-    return _MACHINES[type(world.machine)](world, seed)
+    return kind_of(world.machine).machine(world, seed)

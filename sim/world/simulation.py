@@ -2,26 +2,23 @@
 
 import math
 
-import numpy as np
-
 from sim.world.contacts import Contact, Touches
 from sim.world.description import World
 from sim.world.lidar import Scan
-from sim.world.mobile_robot import MobileRobot
-from sim.world.robot import DT, RATE, Odometry, Pose, Wheels
+from sim.world.mobile_robot import MobileRobot, Rows
+from sim.world.robot import DT, RATE, Pose
 from sim.world.solids import add_boxes, add_obstacles, check_start, make_space
-
-Rows = list[tuple[float, ...]]
 
 
 class Simulation:
     """The robots in a world, from time 0 on. To start again, make a new one.
 
     Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed is for the
-    sensors' noise. What one asks the simulation itself (pose, command, scan, ...) is for its first robot.
+    sensors' noise.
 
     Attributes:
         robots: all mobile robots by name; the first is "robot", the others are in the world's order.
+        robot: the first one.
 
     Raises:
         WorldError: a robot does not fit at its start, or a box is inside something.
@@ -38,7 +35,7 @@ class Simulation:
             check_start(self._space, world, name, names)
             self.robots[name] = robot = MobileRobot(self, self._space, name, number)
             names[robot.shape] = "robot"
-        self._first = self.robots["robot"]
+        self.robot = self.robots["robot"]
         self._touches = Touches(
             self._space, {robot.shape: robot.log for robot in self.robots.values()}, names
         )
@@ -76,39 +73,16 @@ class Simulation:
         return sides, [(*other.pose[:2], radius) for other in others]
 
     @property
-    def pose(self) -> Pose:
-        """See `MobileRobot.pose`."""
-        return self._first.pose
-
-    @property
-    def odometry(self) -> Odometry:
-        """See `MobileRobot.odometry`."""
-        return self._first.odometry
-
-    @property
-    def wheels(self) -> Wheels:
-        """See `MobileRobot.wheels`."""
-        return self._first.wheels
-
-    @property
-    def bumper(self) -> frozenset[str]:
-        """See `MobileRobot.bumper`."""
-        return self._first.bumper
-
-    @property
     def contacts(self) -> list[Contact]:
-        """See `MobileRobot.contacts`."""
-        return self._first.contacts
+        """All touches of the first robot so far, oldest first."""
+        return self.robot.contacts
 
     @property
     def last_scan(self) -> Scan | None:
-        """See `MobileRobot.last_scan`."""
-        return self._first.last_scan
+        """What the first robot's lidar saw last; None before the first scan."""
+        return self.robot.last_scan
 
-    def command(self, v: float, w: float) -> None:
-        """See `MobileRobot.command`."""
-        self._first.command(v, w)
-
-    def scan(self) -> np.ndarray:
-        """See `MobileRobot.scan`."""
-        return self._first.scan()
+    def forget(self) -> None:
+        """Drop the contacts that have ended, for a run without an end."""
+        for robot in self.robots.values():
+            robot.forget()

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import pymunk
 
 from sim.world.description import World
 from sim.world.model import WorldError
-from sim.world.obstacles import MovableBox
+from sim.world.obstacles import MovableBox, placed, ring
 from sim.world.robot import Pose, wrap
 
 _FRICTION = 0.5
@@ -45,13 +43,8 @@ class PushedBox:
 
     def sides(self) -> list[tuple[float, float, float, float]]:
         """Its four sides in the map frame, each (x0, y0, x1, y1)."""
-        x, y = self.body.position
-        c, s = math.cos(self.body.angle), math.sin(self.body.angle)
-        corners = [(x + c * u - s * v, y + s * u + c * v) for u, v in self._outline]
-        return [
-            (*corner, *following)
-            for corner, following in zip(corners, corners[1:] + corners[:1], strict=True)
-        ]
+        corners = placed(self._outline, *self.body.position, self.body.angle)
+        return [(*start, *end) for start, end in ring(corners)]
 
 
 def make_space() -> pymunk.Space:

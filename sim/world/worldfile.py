@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import itertools
 import tomllib
 from collections.abc import Collection, Iterator
@@ -10,12 +9,10 @@ from dataclasses import MISSING, asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sim.world.imu import ImuModel
-from sim.world.lidar import LidarModel
-from sim.world.machines import ArmModel, CartPoleModel, JointModel
-from sim.world.model import Model, ModelError, UnfitError, WorldError, fit, hints, shown, words
-from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
-from sim.world.robot import OtherRobot, RobotModel
+from sim.nearest import nearest
+from sim.world.machines import KINDS, kind_of
+from sim.world.model import Model, ModelError, UnfitError, WorldError, fit, hints, nested, shown, words
+from sim.world.obstacles import Point, Segment
 
 if TYPE_CHECKING:
     from sim.world.description import World
@@ -25,18 +22,9 @@ CARD_HEADINGS = ("Picture", "Topics", "Frames and units", "Start", "Ends when")
 
 CORNERS = "two or more corners [x, y] (metres), each different from the one before"
 
-# The tables of a world file and what each is read into.
-TABLES: dict[str, type[Model]] = {"robot": RobotModel, "lidar": LidarModel, "imu": ImuModel}
-LISTS: dict[str, type[Model]] = {
-    "boxes": Box,
-    "circles": Circle,
-    "movable": MovableBox,
-    "robots": OtherRobot,
-}
-# At most one of these; it becomes `World.machine`.
-MACHINES: dict[str, type[Model]] = {"joint": JointModel, "arm": ArmModel, "cart_pole": CartPoleModel}
+# A world file holds the fields of `World`, but for its name; at most one of these becomes `World.machine`.
+MACHINES: dict[str, type[Model]] = {kind.key: kind.model for kind in KINDS}
 
-_KEYS = ("bounds", "start", "goal", "walls", *LISTS, *TABLES, *MACHINES, "card")
 _CARD = f"a [card] table with a text for each of {', '.join(CARD_HEADINGS)}"
 _M = TypeVar("_M", bound=Model)
 
@@ -57,15 +45,19 @@ def read(path: Path, world: type[World]) -> World:
         raise WorldError(f"{path.name} is not valid TOML ({error}); correct it there.") from error
     except (ValueError, RecursionError) as error:  # a number of 5000 digits, a list in a thousand lists
         raise WorldError(f"{path.name} is not a world file ({error}); correct it there.") from error
-    return _Reader(path.name).world(data, world, path.stem)
+    if "card" not in data:
+        raise WorldError(f"{path.name}: card is missing; write {_CARD}.")
+    try:
+        return _world(world, data, name=path.stem, card=_card(data["card"]))
+    except WorldError as fault:
+        raise WorldError(f"{path.name}: {fault}") from fault
 
 
 def to_data(world: World) -> dict[str, Any]:
     """A world as plain data: the keys and values of its file, with name and card as texts."""
     data = {key: value for key, value in asdict(world).items() if value is not None}
     if world.machine is not None:
-        kind = next(key for key, model in MACHINES.items() if type(world.machine) is model)
-        data[kind] = data.pop("machine")
+        data[kind_of(world.machine).key] = data.pop("machine")
     return data
 
 
@@ -75,116 +67,97 @@ def from_data(data: Any, world: type[World]) -> World:
     Raises:
         WorldError: the data holds a wrong key or value.
     """
-    reader = _Reader("the world")
     if not isinstance(data, dict):
         raise WorldError(f"the world is {shown(data)}; write a table of its keys and values.")
-    rest = {key: value for key, value in data.items() if key not in ("name", "card")}
-    named = {key: data.get(key) for key in ("name", "card")}
-    return reader.make("", world, named | reader.fields(rest, world))
+    rest = {key: value for key, value in data.items() if key != "name"}
+    try:
+        return _world(world, rest, name=data.get("name"), card=data.get("card"))
+    except WorldError as fault:
+        raise WorldError(f"the world: {fault}") from fault
 
 
-class _Reader:
-    """Turns parsed TOML into a world; knows the file's name for the error sentences."""
+def _world(world: type[World], data: dict[str, Any], **named: Any) -> World:
+    """The world that this data describes, of this name and with this card."""
+    keys = [key for key in hints(world) if key not in ("name", "card", "machine")]
+    _check_known("", data, [*keys, *MACHINES, "card"])
+    machines = [key for key in MACHINES if key in data]
+    if len(machines) > 1:
+        raise WorldError(f"{' and '.join(machines)} are both here; keep one of them.")
+    _check_there("", data, world, ("bounds",) if machines else ("bounds", "start"))
+    values = {key: data[key] for key in keys if key in data} | named
+    if "walls" in data:
+        values["walls"] = tuple(_segments(data["walls"], words(world, "walls")))
+    for key in machines:
+        values["machine"] = _table(key, data[key], MACHINES[key])
+    return _made("", values, world)
 
-    def __init__(self, file: str) -> None:
-        self._file = file
 
-    def world(self, data: dict[str, Any], world: type[World], name: str) -> World:
-        if "card" not in data:
-            raise WorldError(f"{self._file}: card is missing; write {_CARD}.")
-        fields = self.fields(data, world)
-        return self.make("", world, fields | {"name": name, "card": self._card(data["card"])})
+def _made(place: str, values: dict[str, Any], model: type[_M]) -> _M:
+    """A model with these values, in which tables stand for inner models."""
+    read = {}
+    for key, value in values.items():
+        inner, many = nested(model, key)
+        read[key] = value if inner is None else (_tables if many else _table)(place + key, value, inner)
+    try:
+        return model(**read)
+    except ModelError as error:
+        raise WorldError(place + error.fault) from error
 
-    def fields(self, data: dict[str, Any], world: type[World]) -> dict[str, Any]:
-        """All that is in the data, but the card."""
-        self._check_known("", data, _KEYS)
-        machines = [key for key in MACHINES if key in data]
-        if len(machines) > 1:
-            raise WorldError(f"{self._file}: {' and '.join(machines)} are both here; keep one of them.")
-        self._check_there("", data, world, ("bounds",) if machines else ("bounds", "start"))
-        read: dict[str, Any] = {key: data[key] for key in ("bounds", "start", "goal") if key in data}
-        if "walls" in data:
-            read["walls"] = tuple(self._walls(data["walls"], words(world, "walls")))
-        read |= {key: self._list(key, data[key], model) for key, model in LISTS.items() if key in data}
-        read |= {key: self._table(key, data[key], model) for key, model in TABLES.items() if key in data}
-        for key in machines:
-            read["machine"] = self._table(key, data[key], MACHINES[key])
-        return read
 
-    def make(self, place: str, model: type[_M], values: dict[str, Any]) -> _M:
-        """A model with these values."""
+def _tables(place: str, tables: Any, model: type[_M]) -> tuple[_M, ...]:
+    if not isinstance(tables, list | tuple) or not all(isinstance(table, dict) for table in tables):
+        *keys, last = hints(model)
+        raise _wrong(place, tables, f"a [[{place}]] table for each, with {', '.join(keys)} and {last}")
+    return tuple(_table(f"{place}[{index}]", table, model) for index, table in enumerate(tables))
+
+
+def _table(place: str, table: Any, model: type[_M]) -> _M:
+    if not isinstance(table, dict):
+        raise _wrong(place, table, f"a [{place}] table with any of {', '.join(hints(model))}")
+    _check_known(f"{place}.", table, hints(model))
+    needed = [item.name for item in fields(model) if item.default is item.default_factory is MISSING]
+    _check_there(f"{place}.", table, model, needed)
+    return _made(f"{place}.", table, model)
+
+
+def _segments(walls: Any, wanted: str) -> Iterator[Segment]:
+    if not isinstance(walls, list | tuple):
+        raise _wrong("walls", walls, wanted)
+    for index, wall in enumerate(walls):
         try:
-            return model(**values)
-        except ModelError as error:
-            raise WorldError(f"{self._file}: {place}{error.fault}") from error
-
-    def _walls(self, walls: object, wanted: str) -> Iterator[Segment]:
-        if not isinstance(walls, list | tuple):
-            raise self._wrong("walls", walls, wanted)
-        for index, wall in enumerate(walls):
-            try:
-                corners = fit(tuple[Point, ...], wall)
-            except UnfitError:
-                corners = ()
-            if len(corners) < 2 or any(a == b for a, b in itertools.pairwise(corners)):
-                raise self._wrong(f"walls[{index}]", wall, CORNERS)
-            yield from itertools.pairwise(corners)
-
-    def _list(self, key: str, tables: object, model: type[_M]) -> tuple[_M, ...]:
-        if not isinstance(tables, list | tuple) or not all(isinstance(table, dict) for table in tables):
-            keys = _keys(model)
-            needed = f"{', '.join(keys[:-1])} and {keys[-1]}"
-            raise self._wrong(key, tables, f"a [[{key}]] table for each, with {needed}")
-        return tuple(self._table(f"{key}[{index}]", table, model) for index, table in enumerate(tables))
-
-    def _table(self, key: str, table: object, model: type[_M]) -> _M:
-        keys = _keys(model)
-        if not isinstance(table, dict):
-            raise self._wrong(key, table, f"a [{key}] table with any of {', '.join(keys)}")
-        place = f"{key}."
-        self._check_known(place, table, keys)
-        self._check_there(place, table, model, _required(model))
-        inner = {name: hint for name, hint in hints(model).items() if _is_model(hint) and name in table}
-        tables = {name: self._table(place + name, table[name], hint) for name, hint in inner.items()}
-        return self.make(place, model, table | tables)
-
-    def _card(self, card: object) -> str:
-        if not isinstance(card, dict):
-            raise self._wrong("card", card, _CARD)
-        self._check_known("card.", card, CARD_HEADINGS)
-        for heading in CARD_HEADINGS:
-            if heading not in card:
-                raise WorldError(f"{self._file}: card.{heading} is missing; write a short text.")
-            text = card[heading]
-            if not isinstance(text, str) or not text.strip():
-                raise self._wrong(f"card.{heading}", text, "a short text")
-        return "\n".join(f"{heading}: {' '.join(card[heading].split())}" for heading in CARD_HEADINGS)
-
-    def _check_known(self, place: str, table: dict[str, Any], known: Collection[str]) -> None:
-        for key in table:
-            if key not in known:
-                close = difflib.get_close_matches(key, known, n=1)
-                cure = f"did you mean {close[0]}?" if close else f"the keys are {', '.join(known)}."
-                raise WorldError(f"{self._file}: {place}{key} is not a known key; {cure}")
-
-    def _check_there(
-        self, place: str, table: dict[str, Any], model: type[Model], needed: Collection[str]
-    ) -> None:
-        for key in needed:
-            if key not in table:
-                raise WorldError(f"{self._file}: {place}{key} is missing; write {words(model, key)}.")
-
-    def _wrong(self, place: str, value: object, wanted: str) -> WorldError:
-        return WorldError(f"{self._file}: {place} is {shown(value)}; write {wanted}.")
+            corners = fit(tuple[Point, ...], wall)
+        except UnfitError:
+            corners = ()
+        if len(corners) < 2 or any(a == b for a, b in itertools.pairwise(corners)):
+            raise _wrong(f"walls[{index}]", wall, CORNERS)
+        yield from itertools.pairwise(corners)
 
 
-def _is_model(hint: object) -> bool:
-    return isinstance(hint, type) and issubclass(hint, Model)
+def _card(card: Any) -> str:
+    if not isinstance(card, dict):
+        raise _wrong("card", card, _CARD)
+    _check_known("card.", card, CARD_HEADINGS)
+    for heading in CARD_HEADINGS:
+        if heading not in card:
+            raise WorldError(f"card.{heading} is missing; write a short text.")
+        if not isinstance(card[heading], str) or not card[heading].strip():
+            raise _wrong(f"card.{heading}", card[heading], "a short text")
+    return "\n".join(f"{heading}: {' '.join(card[heading].split())}" for heading in CARD_HEADINGS)
 
 
-def _keys(model: type[Model]) -> list[str]:
-    return [field.name for field in fields(model)]
+def _check_known(place: str, table: dict[str, Any], known: Collection[str]) -> None:
+    for key in table:
+        if key not in known:
+            near = nearest(key, known)
+            cure = f"did you mean {near}?" if near else f"the keys are {', '.join(known)}."
+            raise WorldError(f"{place}{key} is not a known key; {cure}")
 
 
-def _required(model: type[Model]) -> list[str]:
-    return [field.name for field in fields(model) if field.default is field.default_factory is MISSING]
+def _check_there(place: str, table: dict[str, Any], model: type[Model], needed: Collection[str]) -> None:
+    for key in needed:
+        if key not in table:
+            raise WorldError(f"{place}{key} is missing; write {words(model, key)}.")
+
+
+def _wrong(place: str, value: object, wanted: str) -> WorldError:
+    return WorldError(f"{place} is {shown(value)}; write {wanted}.")

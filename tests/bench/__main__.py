@@ -15,7 +15,7 @@ PARTS = (
     "repeats",
     "digests",
     "grading",
-    "cage",
+    "sandbox",
     "marking",
     "pace",
     "view",

@@ -11,8 +11,8 @@ from pathlib import Path
 import nbformat
 import psutil
 
-from grader.marking.release import copy_of_course, release
-from grader.marking.samples import SHARES, submission
+from grader.marking.release.make_exercises import copy_of_course, release
+from grader.marking.release.samples import SHARES, submission
 from tests.bench.report import table
 
 ASSIGNMENT = "02_topics"

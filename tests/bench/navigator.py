@@ -19,7 +19,7 @@ from grader.checks import travelled
 from grader.exercises import navigator
 from grader.exercises.navigator.ground import shortest
 from sim import run
-from sim.recording import Recording
+from sim.evidence import Recording
 from sim.world import World
 from tests.bench.report import table
 

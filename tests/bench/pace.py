@@ -5,9 +5,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from grader.marking.office.cli import USUAL_JOBS
-from grader.marking.plan import Task
+from grader.marking.command.cli import USUAL_JOBS
+from grader.marking.handed_in.submission import load_release, read_folder
 from grader.marking.pool import Pool
+from grader.marking.task import Task
 from tests.bench.report import table
 
 STUDENTS = 8
@@ -15,18 +16,17 @@ COURSE = Path.cwd()
 
 
 def paced(assignment: str, folder: Path) -> list[object]:
-    """Mark right submissions of so many students in their cages; a line of the table."""
+    """Mark right submissions of so many students in their sandboxes; a line of the table."""
     shutil.copytree(COURSE / "solutions" / assignment, folder / assignment)
-    released = COURSE / "exercises" / assignment
-    tasks = [
-        Task(f"student_{number}", assignment, folder / assignment, released, "0" * 64)
-        for number in range(STUDENTS)
-    ]
+    released = load_release(COURSE / "exercises" / assignment)
+    read = read_folder(folder / assignment, released)
+    tasks = [Task(f"student_{number}", released, read, "0" * 64) for number in range(STUDENTS)]
     began = time.perf_counter()
-    with Pool(COURSE, USUAL_JOBS, secret="a secret") as pool:
+    with Pool(USUAL_JOBS, secret="a secret") as pool:
         results = list(pool.mark(tasks))
     wall = time.perf_counter() - began
-    if {result.points for result in results} != {100.0}:
+    cells = [cell for result in results for notebook in result.notebooks for cell in notebook.cells]
+    if not cells or any(cell.points < cell.max for cell in cells):
         raise RuntimeError(f"the solutions of {assignment} did not get all points")
     judged = sum(result.timings["judged"] for result in results)
     return [assignment, f"{judged / STUDENTS:.0f}", f"{wall / STUDENTS:.2f}", f"{judged / wall:.0f}"]

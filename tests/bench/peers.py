@@ -52,9 +52,9 @@ def ours(segments: np.ndarray, discs: np.ndarray, lidar: LidarModel) -> float:
     simulation = Simulation(world)
     steps, begin = 0, time.perf_counter()
     while time.perf_counter() - begin < SECONDS:
-        simulation.command(V, W)
+        simulation.robot.command(V, W)
         simulation.advance((steps + 1) * DT)
-        simulation.scan()
+        simulation.robot.scan()
         steps += 1
     return steps / (time.perf_counter() - begin)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grader.exercises import navigator
 from sim import run
-from sim.recording import Recording
+from sim.evidence import Recording
 from sim.view import animate
 from tests.bench.navigator import solution
 from tests.bench.report import avoider_run

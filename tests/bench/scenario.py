@@ -40,16 +40,15 @@ def stock(rate: int) -> Counts:
     from rclpy.executors import SingleThreadedExecutor
     from rosgraph_msgs.msg import Clock
 
-    from sim import Recording, World
-    from sim.ros.robot import Robot
+    from sim import World
+    from sim.ros.robots.robot import Robot
     from sim.world import Simulation
     from tests.bench.avoider import Avoider
 
     world = World.load("room")
     rclpy.init(args=["--ros-args", "-p", "use_sim_time:=true"])
-    recording = Recording(world=world)
     simulation = Simulation(world)
-    robot, student = Robot(simulation, simulation.robots["robot"], recording), Avoider()
+    robot, student = Robot(world, simulation.robot), Avoider()
     publisher, robot.clock_pub = robot.clock_pub, _Silent()
     executor = SingleThreadedExecutor()
     executor.add_node(robot)
@@ -58,6 +57,7 @@ def stock(rate: int) -> Counts:
     clock = Clock()
     for tick in range(1, SECONDS * rate + 1):
         clock.clock.sec, clock.clock.nanosec = divmod(tick * SECOND // rate, SECOND)
+        simulation.advance(tick / rate)
         publisher.publish(clock)
         settle(executor)
     executor.shutdown()
@@ -69,7 +69,7 @@ def stock(rate: int) -> Counts:
         "scans": student.scans,
         "odoms": student.odoms,
         "commands": student.commands,
-        "pose": recording.path[-1][1:],
+        "pose": simulation.robot.pose,
     }
 
 

@@ -47,12 +47,12 @@ def frames() -> list[tuple]:
     from sim.world import World, simulate
 
     scene = simulate(World.load("room"), 0)
-    scene.command(0.4, 0.5)
+    scene.robot.command(0.4, 0.5)
     found = []
     for index in range(RATE * SECONDS):
         scene.advance(index / RATE)
         if index % 3 != 1:  # 20 Hz
-            scene.scan()
+            scene.robot.scan()
         found.append((index / RATE, scene.poses, scene.last_scan))
     return found
 

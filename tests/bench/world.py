@@ -60,7 +60,7 @@ def lidar() -> None:
     ]
     model = LidarModel()
     scanners = {
-        "ours (numpy)": Lidar(model, segments, discs).distances,
+        "ours": Lidar(model, segments, discs).distances,
         "pymunk segment_query_first": pymunk_scanner(segments, discs, model.rays),
     }
     times, scans = {}, {}
@@ -90,7 +90,7 @@ def physics() -> None:
         begin = time.perf_counter()
         for step in range(1, steps + 1):
             if step % 10 == 1:
-                simulation.command(0.4, 0.8 * math.sin(step * DT))
+                simulation.robot.command(0.4, 0.8 * math.sin(step * DT))
             simulation.advance(step * DT)
         seconds = time.perf_counter() - begin
         rows.append([name, f"{steps / seconds:.0f}", f"{PHYSICS_SECONDS / seconds:.0f}"])

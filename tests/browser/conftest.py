@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.marking.release import release
-from grader.marking.samples import SHARES, submit_samples
+from grader.marking.release.make_exercises import release
+from grader.marking.release.samples import SHARES, submit_samples
 from tests.browser.lab import ROOT, Lab, copy_for_students, server
 from tests.browser.pictures import COUNT_FRAMES
 from tests.marking.tiny import tiny

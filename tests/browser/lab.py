@@ -19,8 +19,7 @@ from playwright.sync_api import Locator, Page
 ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
-START_SECONDS = 60
-CELL_SECONDS = 60
+START_SECONDS = CELL_SECONDS = 300  # only against hanging: a busy machine is slow
 KERNEL_READY = """async () => {
     const panel = window.jupyterapp.shell.currentWidget;
     await panel.context.ready;
@@ -58,6 +57,7 @@ ASK = """async code => {
     await future.done;
     return said;
 }"""
+BACKGROUND = "getComputedStyle(document.body).getPropertyValue('--jp-layout-color1').trim()"
 SOURCES = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].map(
     cell => cell.sharedModel.getSource())"""
 OUTPUTS = """index => window.jupyterapp.shell.currentWidget.content.model.cells.get(index).outputs.toJSON()"""
@@ -124,6 +124,7 @@ class Lab:
     """A browser tab with JupyterLab in it."""
 
     def __init__(self, page: Page, address: str):
+        page.set_default_timeout(CELL_SECONDS * 1000)
         self.page = page
         self.address = address
 
@@ -136,9 +137,9 @@ class Lab:
 
     def wait_for_kernel(self) -> None:
         """Wait until the notebook shows and its kernel is idle."""
-        self.page.wait_for_selector(".jp-Notebook .jp-Cell", timeout=60_000)
+        self.page.wait_for_selector(".jp-Notebook .jp-Cell")
         self.page.evaluate(KERNEL_READY)
-        self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
+        self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]')
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
@@ -157,7 +158,7 @@ class Lab:
 
     def wait_for_cell(self, index: int) -> None:
         """Wait until a cell is done."""
-        self.page.wait_for_function(CELL_DONE, arg=index, timeout=CELL_SECONDS * 1000)
+        self.page.wait_for_function(CELL_DONE, arg=index)
 
     def cell(self, index: int) -> Locator:
         """Return a cell of the notebook, as it shows."""
@@ -198,11 +199,12 @@ class Lab:
             self._use_theme("JupyterLab Light")
 
     def _use_theme(self, name: str) -> None:
+        before = self.page.evaluate(BACKGROUND)
         self.page.evaluate(
             "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
         )
-        self.page.wait_for_selector(f"body[data-jp-theme-name='{name}']", state="attached")
-        self.page.wait_for_timeout(800)  # the style sheet comes after the name
+        # the style sheet comes after the name
+        self.page.wait_for_function(f"before => {BACKGROUND} !== before", arg=before)
 
     def shut_down(self) -> None:
         """Shut down all kernels of the server, so that what a test leaves playing ends here."""
@@ -222,7 +224,7 @@ class Lab:
         """Click nbgrader's Validate button and return what its dialog says."""
         self.page.get_by_role("button", name="Validate").click()
         dialog = self.page.locator(".jp-Dialog", has_text="Validation Results")
-        dialog.wait_for(timeout=CELL_SECONDS * 1000)
+        dialog.wait_for()
         said = dialog.inner_text()
         dialog.locator("button.jp-mod-accept").click()
         return said

@@ -19,7 +19,7 @@ COUNT_FRAMES = """
 """
 PIXELS = """canvas => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(
     () => done(canvas.toDataURL()))))"""
-SECONDS = 30  # how long to wait for what should come at once: a busy machine is slow
+SECONDS = 300  # only against hanging: a busy machine is slow
 
 
 def watch(page: Page) -> list[str]:

@@ -7,7 +7,7 @@ import nbformat
 import pytest
 
 from grader.__main__ import main
-from grader.marking.demo import mark_samples
+from grader.marking.release.demo import mark_samples
 from sim.view.replay import PLAYER_SCRIPT
 from tests.browser.lab import ROOT, server
 from tests.browser.pictures import Picture, watch

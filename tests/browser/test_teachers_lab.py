@@ -5,10 +5,10 @@ from contextlib import chdir
 
 import pytest
 
-from grader.marking.office.mark import Settings, mark
+from grader.marking.command.mark_class import Settings, mark_class
 from tests.browser.lab import ROOT, Lab, server
 from tests.marking.classroom import ASSIGNMENT, classroom, submit
-from tests.marking.office.marking import opening
+from tests.marking.fake_pool import opening
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +17,7 @@ def address(tmp_path_factory):
     course = classroom(tmp_path_factory.mktemp("class"))
     submit(course, "anna", "bob")
     with chdir(course.root):
-        mark(course, ASSIGNMENT, Settings(feedback=False), opening(course))
+        mark_class(course, ASSIGNMENT, Settings(feedback=False), opening(course))
     shutil.copytree(ROOT / "jupyter", course.root / "jupyter")
     with server(course.root, settings="jupyter/teach") as url:
         yield url
@@ -38,7 +38,7 @@ def test_lab_opens_on_the_formgrader_and_a_marked_submission_can_be_seen(browser
     lab = Lab(page, address)
     page.goto(address)
     panel = page.frame_locator("iframe[src*='formgrader']")
-    panel.get_by_role("link", name=ASSIGNMENT).first.wait_for(timeout=60_000)
+    panel.get_by_role("link", name=ASSIGNMENT).first.wait_for()
     lab.screenshot("teach")
     commands = ("open-formgrader", "open-create-assignment")
     assert [lab.has_command(f"nbgrader:{name}") for name in commands] == [True, True]

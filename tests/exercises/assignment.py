@@ -2,30 +2,66 @@
 
 from __future__ import annotations
 
+import copy
+import re
 from types import ModuleType
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import pytest
 
 from grader import Exercise
-from tests.exercises.score_tables import NOT_STARTED, executed, exercise_of, graded, page, shown, students
+from grader.diagnosis import find_flaw
+from tests.exercises.at_times import TIMES, working
+from tests.exercises.evidence import Evidence
+from tests.exercises.score_tables import (
+    NOT_STARTED,
+    executed,
+    exercise_of,
+    graded,
+    graded_exercises,
+    page,
+    shown,
+    students,
+)
+
+LONG = 50.0  # s of simulated time, of all runs of an exercise
+RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
+
+
+def first_runs(exercise: Exercise, number: int) -> Exercise:
+    """The exercise with its first runs only; whole where a check holds in some of its scenarios only."""
+    if any(check.only for check in exercise.checks):
+        return exercise
+    short = copy.copy(exercise)
+    short.seeds, short.scenarios = exercise.seeds[:number], exercise.scenarios[:number]
+    return short
 
 
 class Assignment:
     """The tests of one assignment.
 
-    folder: its name in solutions/. package: its exercises. names: its exercises, in the notebook's order.
+    folder: its name in solutions/. package: its exercises. names: those that its notebook grades, in order.
     """
 
     folder: ClassVar[str]
     package: ClassVar[ModuleType]
     names: ClassVar[tuple[str, ...]]
 
+    def __init_subclass__(cls) -> None:
+        cls.names = graded_exercises(cls.folder)
+
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Run a test for each exercise, or for each of its nodes, as its arguments ask."""
-        if "node" in metafunc.fixturenames:
-            pairs = [(name, node) for name in self.names for node in students(self.topic(), name)]
-            metafunc.parametrize(("exercise", "node"), pairs)
+        if "times" in metafunc.fixturenames:
+            rows = [
+                pytest.param(name, times, marks=[pytest.mark.soak] if self.is_long(name) else [])
+                for name in self.names
+                for times in TIMES
+            ]
+            metafunc.parametrize(("exercise", "times"), rows)
+        elif "node" in metafunc.fixturenames:
+            rows = [self.row(name, node) for name in self.names for node in students(self.topic(), name)]
+            metafunc.parametrize(("exercise", "node"), rows)
         elif "exercise" in metafunc.fixturenames:
             metafunc.parametrize("exercise", self.names)
 
@@ -45,10 +81,68 @@ class Assignment:
         most = cls.judge(exercise).points
         return [name for name, text in page(cls.topic(), exercise).items() if text == f"{name}: {most:g}"]
 
-    def test_a_node_earns_its_points_and_words(self, exercise, node):
-        score = self.judge(exercise).grade(students(self.topic(), exercise)[node])
+    @classmethod
+    def is_long(cls, exercise: str) -> bool:
+        """Whether its runs are so long that soak tests alone run all of its nodes."""
+        return sum(scenario.seconds for scenario, _ in cls.judge(exercise).runs()) >= LONG
+
+    @classmethod
+    def telling(cls, exercise: str) -> list[str]:
+        """The right nodes, and as many wrong ones as miss every sentence of the page."""
+        names, missed = cls.right(exercise), set()
+        for name, text in page(cls.topic(), exercise).items():
+            more = {line for line in text.splitlines() if line.startswith("- ")} - missed
+            missed |= more
+            names += [name] if more else []
+        return names
+
+    @classmethod
+    def row(cls, exercise: str, node: str) -> Any:
+        """A node's place in the table, with the marks that say when it is run."""
+        first, told = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
+        marks = [pytest.mark.soak] if cls.is_long(exercise) and node not in cls.telling(exercise) else []
+        marks += [pytest.mark.pythons] if node in first or RAISED.search(told) else []
+        return pytest.param(exercise, node, marks=marks)
+
+    @pytest.fixture
+    def program(self, exercise, node, monkeypatch) -> Any:
+        """A student's program, whose runs are made once."""
+        evidence = Evidence.of_nodes(self.topic())
+        monkeypatch.setattr("sim.run", evidence.keeping(f"{exercise}-{node}"))
+        return students(self.topic(), exercise)[node]
+
+    def test_a_node_earns_its_points_and_words(self, exercise, node, program):
+        """A right one in all its runs; a wrong one in as many as show what its page says of it.
+
+        And to a right one the first look says that there is no error.
+        """
+        judge, said = self.judge(exercise), page(self.topic(), exercise).get(node)
+        number = len(judge.runs()) if node in self.right(exercise) else 1
+        score = first_runs(judge, number).grade(program)
+        if shown(node, score) != said:
+            score = judge.grade(program)
+        assert shown(node, score) == said
+        assert score.broken == []
+        if node in self.right(exercise):
+            assert [find_flaw(recording) for recording in score.recordings] == [""] * number
+
+    @pytest.mark.soak
+    def test_no_run_shows_more_than_a_page_says(self, exercise, node, program):
+        score = self.judge(exercise).grade(program)
         assert shown(node, score) == page(self.topic(), exercise).get(node)
         assert score.broken == []
+
+    def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
+        """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""
+        judge, nodes = first_runs(self.judge(exercise), 1), students(self.topic(), exercise)
+        seconds = max(scenario.seconds for scenario, _ in judge.runs())
+        programs = [working(nodes[name], times, seconds) for name in self.right(exercise)]
+        program = next(filter(None, programs), None)
+        if program is None:
+            return  # its right answers are whole programs, whose spinning can't be held up
+        score = judge.grade(program)
+        assert score.broken == []
+        assert times != "never" or score < judge.points
 
     def test_a_page_speaks_of_every_student_of_its_exercise(self, exercise):
         assert list(page(self.topic(), exercise)) == list(students(self.topic(), exercise))
@@ -64,7 +158,6 @@ class Assignment:
         cells = graded("solutions", self.folder)
         assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
         assert [cell.points for cell in cells.values()] == [cell.most for cell in cells.values()]
-        assert sum(cell.most for cell in cells.values()) == 100
 
     def test_the_starter_earns_nothing_and_is_told_so_kindly(self):
         for name, cell in graded("exercises", self.folder).items():

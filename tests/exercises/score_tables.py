@@ -2,9 +2,11 @@
 
 An exercise has a module of nodes, tests/students/<assignment>/<exercise>.py, and a page, tests/exercises/
 <assignment>/<exercise>.txt, that says what each of the nodes earns and the red lines it gets, word by word.
-Only the numbers of code lines read N: they change with every edit of the module.
+Only the numbers of code lines read N: they change with every edit of the module. And what Python itself says
+is said as by Python 3.12.
 
-    python -m tests.exercises.score_tables nodes    writes the pages anew: read what changed, then commit
+    python -m tests.exercises.score_tables nodes          writes the pages anew: read what changed
+    python -m tests.exercises.score_tables nodes/heart    writes this one
 """
 
 from __future__ import annotations
@@ -25,8 +27,11 @@ from nbformat import NotebookNode
 
 from grader import Exercise, Score
 from sim import Process
+from tests.exercises.evidence import Evidence
 
 ROOT = Path(__file__).parents[2]
+# What Python 3.11 says of an error, and 3.12 and later: a student reads the words of the one that runs.
+REWORDED = {"min() arg is an empty sequence": "min() iterable argument is empty"}
 NOT_STARTED = "This exercise is not started yet"
 
 
@@ -46,6 +51,8 @@ def misses(score: Score) -> tuple[Miss, ...]:
 
 
 def _without_numbers(saw: str) -> str:
+    for old, new in REWORDED.items():
+        saw = saw.replace(old, new)
     return re.sub(r"(, (?:at )?line) \d+", r"\1 N", saw)
 
 
@@ -98,16 +105,27 @@ class Answer(NamedTuple):
 
 @functools.cache
 def executed(folder: str, assignment: str) -> dict[str, Answer]:
-    """Run the notebook of an assignment in a copy of its folder; what its code cells show, by their ids.
+    """What the code cells of an assignment's notebook show once it has run, by their ids.
 
     folder: "solutions", "exercises" or "course".
     """
+    cells = notebook_run(folder, assignment).cells
+    return {cell.id: _answer(cell) for cell in cells if cell.cell_type == "code"}
+
+
+def notebook_run(folder: str, assignment: str) -> NotebookNode:
+    """The notebook of an assignment, run to its end in a copy of its folder."""
+    made = Evidence.of_notebooks(folder, assignment).get("notebook", lambda: _run(ROOT / folder / assignment))
+    return nbformat.reads(made, 4)
+
+
+def _run(beside: Path) -> str:
     with tempfile.TemporaryDirectory() as place:
-        copy = Path(shutil.copytree(ROOT / folder / assignment, Path(place, assignment)))
+        copy = Path(shutil.copytree(beside, Path(place, beside.name)))  # lessons write files
         notebook = nbformat.read(next(copy.glob("*.ipynb")), 4)
         client = NotebookClient(notebook, timeout=120, kernel_name="python3", allow_errors=True)
         client.execute(cwd=str(copy))
-    return {cell.id: _answer(cell) for cell in notebook.cells if cell.cell_type == "code"}
+    return nbformat.writes(notebook)
 
 
 def graded(folder: str, assignment: str) -> dict[str, Answer]:
@@ -139,10 +157,21 @@ def _plain(page: str) -> str:
 
 def exercise_of(answer: Answer, exercises: Any) -> Exercise:
     """The exercise that a test cell such as `nodes.hello.grade(Hello)` grades."""
-    return getattr(exercises, re.fullmatch(r"(?:\w+\.)?(\w+)\.grade\(.*\)", answer.source)[1])
+    return getattr(exercises, _GRADES.fullmatch(answer.source)[1])
+
+
+def graded_exercises(assignment: str) -> tuple[str, ...]:
+    """The names of the exercises that the test cells of a notebook in solutions/ grade, in order."""
+    (path,) = (ROOT / "solutions" / assignment).glob("*.ipynb")
+    sources = [cell.source for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
+    return tuple(found[1] for source in sources if (found := _GRADES.fullmatch(source)))
+
+
+_GRADES = re.compile(r"(?:\w+\.)?(\w+)\.grade\(.*\)")
 
 
 if __name__ == "__main__":
-    for assignment in sys.argv[1:]:
-        for module in (ROOT / "tests" / "students" / assignment).glob("[!_]*.py"):
+    for wanted in sys.argv[1:]:
+        assignment, _, exercise = wanted.partition("/")
+        for module in (ROOT / "tests" / "students" / assignment).glob(f"{exercise or '[!_]*'}.py"):
             write_page(assignment, module.stem)

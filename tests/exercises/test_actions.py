@@ -8,7 +8,6 @@ from tests.exercises.score_tables import executed
 class TestActions(Assignment):
     folder = "04_actions"
     package = actions
-    names = ("fibonacci", "steps", "customer", "stoppable", "turn", "courier", "square")
 
     def test_the_lesson_shows_what_it_speaks_of(self):
         cells = executed("course", self.folder)

@@ -7,7 +7,6 @@ from tests.exercises.assignment import Assignment
 class TestNavigator(Assignment):
     folder = "06_navigator"
     package = navigator
-    names = ("compass", "drive", "costmap", "plan", "follow", "navigate")
 
     def test_a_tutorials_listing_with_a_fixed_goal_is_right_as_it_is(self):
         assert "tutorial_main" in self.right("drive")

@@ -8,7 +8,6 @@ from tests.exercises.score_tables import executed
 class TestNodes(Assignment):
     folder = "01_nodes"
     package = nodes
-    names = ("hello", "counter", "battery", "heart", "whole_main", "weather")
 
     def test_the_lesson_shows_what_it_speaks_of(self):
         cells = executed("course", self.folder)

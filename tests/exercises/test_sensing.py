@@ -7,4 +7,3 @@ from tests.exercises.assignment import Assignment
 class TestSensing(Assignment):
     folder = "05_sensing"
     package = sensing
-    names = ("stop", "sectors", "avoid", "heading", "gyro", "wall", "guard")

@@ -9,7 +9,6 @@ from tests.students.services._client import main as client_main
 class TestServices(Assignment):
     folder = "03_services"
     package = services
-    names = ("add", "calibrate", "arming", "door", "ticks", "parameters", "launch", "modes")
 
     def test_a_client_of_the_students_own_may_ask_beside_ours(self):
         score = services.add.grade(students("services", "add")["main"], client_main)

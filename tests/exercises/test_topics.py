@@ -7,4 +7,3 @@ from tests.exercises.assignment import Assignment
 class TestTopics(Assignment):
     folder = "02_topics"
     package = topics
-    names = ("greeting", "temperature", "commands", "chatters", "imu", "remapping", "square")

@@ -1,8 +1,9 @@
 """Recordings written by hand, for what a check should see."""
 
 from sim import Recording, World
-from sim.recording import Contact, Ended, Endpoint, Graph, Heard, LogLine, Pose
-from sim.ros.codec import encode, type_name
+from sim.evidence import Ended, Endpoint, Graph, Heard, LogLine, Pose
+from sim.ros.messages.codec import encode, type_name
+from sim.world import Contact
 
 
 def recording(*, seconds=10.0, **evidence):

@@ -7,7 +7,7 @@ from std_msgs.msg import String
 
 from grader import Exercise, Missed, Scenario, Score, check
 from grader.checks import logs, publishes, rate
-from grader.exercise import private_seed
+from grader.seeds import private_seed
 from sim import Process, World
 from tests.students import misfits, mistakes
 from tests.students.engine import output
@@ -178,9 +178,9 @@ def mistaken(recording):
     return recording.no_such_thing
 
 
-def test_a_mistake_of_ours_costs_nothing_and_is_flagged(capfd):
+def test_a_mistake_of_ours_is_flagged(capfd):
     score = Exercise("talk", "A talker", checks=[sends, mistaken]).grade(misfits.Talker)
-    assert (score, statuses(score)) == (3.0, {"sends": "passed", "mistaken": "broken"})
+    assert (score, statuses(score)) == (1.0, {"sends": "passed", "mistaken": "broken"})
     assert [verdict.name for verdict in score.broken] == ["mistaken"]
     said = capfd.readouterr()
     assert (said.out, said.err) == ("to be taken back\n\n", "")
@@ -209,7 +209,7 @@ def test_a_world_may_be_drawn_from_the_seed_without_showing_it(monkeypatch):
 
 def test_a_world_that_does_not_exist_is_a_mistake_of_ours():
     score = Exercise("talk", "A talker", checks=[sends], world="rom").grade(misfits.Talker)
-    assert (score, statuses(score)) == (1.0, {"sends": "broken"})
+    assert (score, statuses(score)) == (0.0, {"sends": "broken"})
     assert "Did you mean 'room'?" in score.broken[0].alarm
 
 
@@ -263,7 +263,7 @@ def test_companions_may_depend_on_the_seed():
 @pytest.mark.parametrize("companion", [FaultyCompanion, Process(FaultyCompanion, name="asker")])
 def test_an_error_of_a_companion_is_a_mistake_of_ours(companion):
     score = Exercise("listen", "A listener", checks=[hears], companions=[companion]).grade(misfits.Listener)
-    assert (score, statuses(score)) == (1.0, {"hears": "broken"})
+    assert (score, statuses(score)) == (0.0, {"hears": "broken"})
     assert "CompanionError: /" in score.broken[0].alarm
     assert "KeyError: 'ours'" in score.broken[0].alarm
 
@@ -299,17 +299,16 @@ def test_a_run_can_end_early():
 
 
 def test_seeds_are_public_without_a_secret(monkeypatch):
-    monkeypatch.delenv("COURSE_SECRET", raising=False)
-    exercise = Exercise("talk", "A talker", checks=[sends], seeds=(1, 2))
-    assert [seed for _, seed in exercise.runs] == [1, 2]
+    exercise = Exercise("talk", "A talker", checks=[sends], seeds=(1, 2), seconds=1)
+    assert [seed for _, seed in exercise.runs()] == [1, 2]
     monkeypatch.setenv("COURSE_SECRET", "")
-    assert [seed for _, seed in exercise.runs] == [1, 2]
+    assert [recording.seed for recording in exercise.grade(misfits.Talker).recordings] == [1, 2]
 
 
 def test_seeds_are_derived_from_the_secret_where_there_is_one(monkeypatch):
     monkeypatch.setenv("COURSE_SECRET", "hush")
     exercise = Exercise("talk", "A talker", checks=[sends], seeds=(1, 2), seconds=1)
-    seeds = [seed for _, seed in exercise.runs]
+    seeds = [seed for _, seed in exercise.runs("hush")]
     # `printf 'talk 0' | openssl dgst -sha256 -hmac hush`, first 8 hex digits
     assert seeds[0] == 0xDE17FF43
     assert seeds == [private_seed("hush", "talk", 0), private_seed("hush", "talk", 1)]
@@ -321,7 +320,6 @@ def test_seeds_are_derived_from_the_secret_where_there_is_one(monkeypatch):
 @pytest.mark.parametrize(
     "changes, sentence",
     [
-        ({"checks": []}, "exercise talk: its checks have no points"),
         ({"checks": [sends, sends]}, "exercise talk: two checks are called sends"),
         ({"checks": [paced, sends]}, "exercise talk: paced comes after sends, so list sends first"),
         ({"seeds": ()}, "exercise talk: give at least one seed"),
@@ -331,3 +329,125 @@ def test_an_exercise_that_cannot_work_is_refused(changes, sentence):
     with pytest.raises(ValueError) as caught:
         Exercise(**{"name": "talk", "title": "A talker", "checks": [sends], **changes})
     assert str(caught.value) == sentence
+
+
+def test_an_exercise_without_points_judges_nothing():
+    with pytest.raises(ValueError, match=r"^exercise talk: its checks have no points$"):
+        Exercise("talk", "A talker").grade(misfits.Talker)
+
+
+def test_declaring_a_check_registers_it_and_hands_on_what_was_measured():
+    talking = Exercise("talk", "A talker")
+    seen = []
+
+    @talking.check(1)
+    def sends_text(run):
+        """The node sends text."""
+        return publishes(run, "/chatter", "std_msgs/msg/String")
+
+    @talking.check(2, after=sends_text)
+    def says_hello(run, messages):
+        """It says hello."""
+        seen.append(len(messages))
+
+    assert talking.checks == [sends_text, says_hello]
+    assert talking.grade(misfits.Talker) == 3.0
+    assert seen == [len(talking.grade(misfits.Talker).recordings[0].messages("/chatter"))] * 2
+
+
+def test_a_check_that_missed_hands_on_only_what_it_says_it_measured():
+    def exercise(**measured):
+        talking = Exercise("talk", "A talker")
+
+        @talking.check(2)
+        def half(run):
+            """Half of it."""
+            raise Missed("all", "half", credit=0.5, **measured)
+
+        @talking.check(1, after=half)
+        def asks_for_more(run, found):
+            """More of it."""
+            assert found == "half"
+
+        return talking
+
+    assert statuses(exercise(measured="half").grade(misfits.Talker))["asks_for_more"] == "passed"
+    assert exercise().grade(misfits.Talker).broken[0].alarm.endswith(
+        "ValueError: half missed without saying what it measured: asks_for_more can't be judged\n"
+    )
+
+
+def test_the_guess_stands_last_after_hint_and_diagnosis():
+    guessing = Exercise("talk", "A talker")
+
+    @guessing.check(1, guess="Perhaps the topic is another.")
+    def hears_more(run):
+        """It hears more."""
+        raise Missed("more", "less")
+
+    assert red_line(guessing.grade(misfits.Talker))[3] == "Perhaps the topic is another."
+    assert "fired" in red_line(guessing.grade(misfits.SleepyTalker))[3]
+
+
+def test_a_check_may_hold_in_some_scenarios_only():
+    two = Exercise("two", "Two worlds", scenarios=[Scenario("yard", 1.0, name="wide"), Scenario("room", 1.0)])
+    judged = []
+
+    @two.check(1)
+    def everywhere(run):
+        """It holds everywhere."""
+        judged.append(("everywhere", run.world.name))
+
+    @two.check(1, only="wide", after=everywhere)
+    def in_the_yard(run):
+        """It holds in the yard."""
+        judged.append(("in_the_yard", run.world.name))
+
+    assert two.grade(misfits.Talker) == 2.0
+    assert judged == [("everywhere", "yard"), ("in_the_yard", "yard"), ("everywhere", "room")]
+
+    with pytest.raises(ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"):
+        two.check(1, after=in_the_yard)(asks)
+    with pytest.raises(ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is no scenario of it$"):
+        two.check(1, only="narrow")(unnamed)
+
+
+def unnamed(run):
+    """A sentence."""
+
+
+def asks(run, measured):
+    """It asks for what another check has measured."""
+
+
+def test_a_check_waits_for_another_one_only_where_that_one_holds():
+    two = Exercise("two", "Two worlds", scenarios=[Scenario("yard", 1.0, name="wide"), Scenario("room", 1.0)])
+    judged = []
+
+    @two.check(1, only="wide")
+    def in_the_yard(run):
+        """It holds in the yard."""
+        raise Missed("all", "nothing")
+
+    @two.check(1, after=in_the_yard)
+    def everywhere(run):
+        """It holds everywhere."""
+        judged.append(run.world.name)
+
+    assert statuses(two.grade(misfits.Talker)) == {"in_the_yard": "failed", "everywhere": "skipped"}
+    assert judged == ["room"]
+
+
+def test_a_node_with_the_name_of_one_of_ours_is_told_so():
+    listen = Exercise("listen", "A listener", companions=[Questioner])
+
+    @listen.check(1)
+    def is_asked(run):
+        """It is asked."""
+        if "/questioner" not in run.ours:
+            raise Missed("questions", "none of ours")
+
+    assert red_line(listen.grade(Process(misfits.Talker, name="questioner")))[3] == (
+        "Two nodes are called /questioner, yours and one that takes part in this exercise, and nobody can tell "
+        "them apart: give yours a name of its own, in super().__init__('...')."
+    )

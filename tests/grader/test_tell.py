@@ -1,6 +1,7 @@
 from grader import tell
-from sim import Recording
-from sim.recording import CallbackError, Ended
+from sim import Recording, run
+from sim.evidence import CallbackError, Ended
+from tests.students import misfits
 
 
 def ended(reason, detail, *errors):
@@ -39,4 +40,12 @@ def test_a_run_that_hangs(capsys):
         "Talker.tick never returned.\n"
         "Hint: Look there for a loop that never ends (`while True:` without a way out), or a wait for\n"
         "something that never comes. A callback should do one small step and return.\n"
+    )
+
+
+def test_a_run_without_an_error_in_which_something_is_wrong(capsys):
+    tell(run(misfits.BestEffortTalker, misfits.Listener, seconds=3, quiet=True))
+    assert capsys.readouterr().out == (
+        "On /chatter the QoS doesn't fit: /talker publishes with reliability best_effort, /listener asks for\n"
+        "reliable, so nothing arrives. Use the same reliability at both ends.\n"
     )

@@ -16,6 +16,7 @@ NO_WHEELS = (
     "Building the ROS interfaces needs the ROS wheels, but rosidl_generator_c is missing: "
     "run `pip install 'ros-jazzy-rclpy[fastrtps]' ros-jazzy-common-interfaces` and try again."
 )
+MISSING = "try_msgs uses {}, which no installed ROS wheel provides and which is not built before it."
 
 
 def needs(missing: str, verb: str, command: str) -> str:
@@ -81,13 +82,23 @@ def test_a_package_without_definitions_is_refused(tmp_path):
 def test_a_definition_that_uses_a_package_nobody_provides_is_refused(tmp_path):
     with pytest.raises(BuildError) as stop:
         generate(package(tmp_path, Lost="lost_msgs/Thing thing\nstd_msgs/Header header\n"))
-    assert str(stop.value) == "try_msgs uses lost_msgs, which no installed ROS wheel provides."
+    assert str(stop.value) == MISSING.format("lost_msgs")
 
 
-def test_a_definition_that_uses_a_package_built_here_is_refused_too(tmp_path):
+def test_a_definition_that_uses_a_package_that_is_built_later_is_refused_too(tmp_path):
     with pytest.raises(BuildError) as stop:
-        generate(package(tmp_path, Late="tf2_msgs/TFMessage transforms\n"))
-    assert str(stop.value) == "try_msgs uses tf2_msgs, which no installed ROS wheel provides."
+        generate(package(tmp_path, Early="tf2_msgs/TFMessage transforms\n"))
+    assert str(stop.value) == MISSING.format("tf2_msgs")
+
+
+def test_a_package_may_use_one_that_is_built_before_it(tmp_path):
+    first = package(tmp_path / "first", Number="int32 data\n")
+    compile_package(first, generate(first))
+    second = package(tmp_path / "second", Numbers="try_msgs/Number[] all\n")
+    later = Package("use_msgs", second.source, first.output)
+    library = compile_package(later, generate(later))
+    used = subprocess.run(["ldd", library], capture_output=True, text=True, check=True, timeout=60).stdout
+    assert str(library.parent / ".." / "try_msgs" / first.library.name) in used
 
 
 def test_a_failing_compiler_is_quoted_with_its_command(monkeypatch, tmp_path):

@@ -41,6 +41,7 @@ def environment(python: str, directory: Path) -> Path:
     return made
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(not UV, reason="uv, which makes the other environments, is not installed")
 @pytest.mark.parametrize("minor", OTHERS)
 def test_the_wheel_works_under_another_python(minor, tmp_path, came_back, came_back_under):

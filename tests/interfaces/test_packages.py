@@ -1,5 +1,7 @@
 """Every definition is a type that the real rclpy imports, fills, sends and reads."""
 
+import functools
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
@@ -8,16 +10,38 @@ from ament_index_python import get_package_share_directory, get_resource
 from build_tools.toolchain import ros_prefix
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.type_support import check_for_type_support
+from rosidl_adapter.parser import (
+    MessageSpecification,
+    parse_action_string,
+    parse_message_string,
+    parse_service_string,
+)
 
 DEFINITIONS = Path(__file__).resolve().parents[2] / "interfaces" / "definitions"
 PACKAGES = sorted(path.name for path in DEFINITIONS.iterdir())
 INTERFACES = sorted(str(file.relative_to(DEFINITIONS)) for file in DEFINITIONS.glob("*/*/*.*"))
 PARTS = {"msg": [], "srv": ["Request", "Response"], "action": ["Goal", "Result", "Feedback"]}
+PARSERS = {"msg": parse_message_string, "srv": parse_service_string, "action": parse_action_string}
+UPSTREAM = tomllib.loads((DEFINITIONS.parent / "upstream_constants.toml").read_text(encoding="utf-8"))
 
 
 def load(interface: str) -> type:
+    """The type of a definition, or of a part of it such as nav2_msgs/action/Spin_Goal."""
     package, kind, name = Path(interface).with_suffix("").parts
-    return getattr(import_module(f"{package}.{kind}"), name)
+    return functools.reduce(getattr, name.split("_"), import_module(f"{package}.{kind}"))
+
+
+def specifications(interface: str) -> list[tuple[str, MessageSpecification]]:
+    """The messages of a definition, each with what its name has after the interface's."""
+    package, kind, name = Path(interface).with_suffix("").parts
+    parsed = PARSERS[kind](package, name, (DEFINITIONS / interface).read_text(encoding="utf-8"))
+    return [(f"_{part}", getattr(parsed, part.lower())) for part in PARTS[kind]] or [("", parsed)]
+
+
+def constants_and_defaults(specification: MessageSpecification) -> dict[str, object]:
+    constants = {constant.name: constant.value for constant in specification.constants}
+    defaults = {field.name: field.default_value for field in specification.fields}
+    return constants | {name: value for name, value in defaults.items() if value is not None}
 
 
 @pytest.mark.parametrize("interface", INTERFACES)
@@ -51,32 +75,17 @@ def test_tools_find_a_package_and_its_definitions_through_the_ament_index(packag
             assert (share / kind / name).read_bytes() == (DEFINITIONS / interface).read_bytes()
 
 
-def test_constants_have_the_values_that_servers_compare_with():
-    from control_msgs.action import FollowJointTrajectory
-    from control_msgs.msg import JointComponentTolerance
-    from nav2_msgs.action import (
-        BackUp,
-        ComputePathToPose,
-        DriveOnHeading,
-        FollowPath,
-        FollowWaypoints,
-        NavigateToPose,
-        Spin,
-    )
-    from nav2_msgs.srv import ManageLifecycleNodes
-    from tf2_msgs.msg import TF2Error
+@pytest.mark.parametrize("interface", INTERFACES)
+def test_constants_and_defaults_are_upstreams(interface):
+    name = str(Path(interface).with_suffix(""))
+    written = {f"{name}{part}": constants_and_defaults(spec) for part, spec in specifications(interface)}
+    assert written == {part: UPSTREAM.get(part, {}) for part in written}
 
-    assert NavigateToPose.Result.NONE == 0
-    assert FollowPath.Result.CONTROLLER_TIMED_OUT == 107
-    assert ComputePathToPose.Result.NO_VALID_PATH == 208
-    assert FollowWaypoints.Result.TASK_EXECUTOR_FAILED == 601
-    assert Spin.Result.COLLISION_AHEAD == 703
-    assert BackUp.Result.COLLISION_AHEAD == 714
-    assert DriveOnHeading.Result.COLLISION_AHEAD == 723
-    assert ManageLifecycleNodes.Request.CLEANUP == 6
-    assert FollowJointTrajectory.Result.GOAL_TOLERANCE_VIOLATED == -5
-    assert JointComponentTolerance.ROTATION == 5
-    assert TF2Error.TRANSFORM_ERROR == 6
+
+@pytest.mark.parametrize("name", UPSTREAM)
+def test_the_built_type_has_upstreams_constants_and_defaults(name):
+    built = load(name)()  # an instance has its type's constants, too
+    assert {each: getattr(built, each) for each in UPSTREAM[name]} == UPSTREAM[name]
 
 
 def test_a_whole_number_in_a_float_field_is_sent_as_that_number():

@@ -10,9 +10,11 @@ from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 from nbgrader.converters import GenerateAssignment
 
-from grader.marking.office.course import Course
-from grader.marking.plan import Task
+from grader.marking.command.intake import TaskReader, find_submissions
+from grader.marking.gradebook.course import Course
+from grader.marking.handed_in.submission import load_release
 from grader.marking.result import CellResult, NotebookResult, Result
+from grader.marking.task import Task
 from tests.marking.tiny import ROOT, answer, grade
 
 ASSIGNMENT = "01_class"
@@ -88,9 +90,15 @@ def released(course: Course) -> NotebookNode:
     return nbformat.read(course.release(ASSIGNMENT) / f"{NOTEBOOK}.ipynb", 4)
 
 
+def tasks(course: Course, secret: str = "") -> list[Task]:
+    """The tasks of marking what lies there now, sorted by student."""
+    reader = TaskReader(load_release(course.release(ASSIGNMENT)), secret)
+    return [reader.read(*submission) for submission in find_submissions(course, ASSIGNMENT).items()]
+
+
 def result(course: Course, task: Task, **changes: Any) -> Result:
     """What marking gives, from the submission's own bytes: the same each time, different points for each."""
-    notebook = nbformat.read(task.folder / f"{NOTEBOOK}.ipynb", 4)
+    notebook = nbformat.reads(task.handed_in.contents[f"{NOTEBOOK}.ipynb"].decode(), 4)
     cells = []
     for cell in notebook.cells:
         if cell.id in POINTS:

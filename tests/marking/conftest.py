@@ -1,11 +1,17 @@
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 
-from grader.marking.plan import Task
-from tests.marking.pool.assignment import hand_in, release
+from grader.marking.gradebook.course import Course
+from grader.marking.task import Task
+from tests.marking.assignment import hand_in, release
+from tests.marking.classroom import classroom, submit
+from tests.marking.student_processes import plain_sandbox, start_student, student  # noqa: F401
 from tests.marking.tiny import tiny
+
+TIME = "2026-01-01 10:00:00 UTC"
 
 
 @pytest.fixture
@@ -26,3 +32,20 @@ def waiting(tmp_path, gate) -> Task:
     """A submission whose cell waits at the gate."""
     cell = f"open({str(gate)!r}, 'w').write('x')"
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
+
+
+@pytest.fixture(scope="session")
+def template(tmp_path_factory) -> Path:
+    """A class in which anna, bob and eve have handed in; made once, for nbgrader takes its time."""
+    course = classroom(tmp_path_factory.mktemp("class"))
+    submit(course, "anna", "bob", "eve", time=TIME)
+    return course.root
+
+
+@pytest.fixture
+def course(template: Path, tmp_path: Path, monkeypatch) -> Course:
+    """A copy of that class for one test, which runs in its folder."""
+    folder = tmp_path / "class"
+    shutil.copytree(template, folder)
+    monkeypatch.chdir(folder)
+    return Course(folder)

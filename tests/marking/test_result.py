@@ -4,7 +4,8 @@ from dataclasses import replace
 import pytest
 
 from grader.marking import result as results
-from grader.marking.result import CellResult, NotebookResult, Result, ResultError
+from grader.marking.errors import ResultError
+from grader.marking.result import CellResult, NotebookResult, Result
 from tests.marking.classroom import verdict
 
 CELLS = [

@@ -3,8 +3,9 @@ import os
 import pytest
 
 from grader.marking import secret
-from grader.marking.command import CommandFailed, nbgrader
-from grader.marking.demo import mark_samples
+from grader.marking.errors import CommandFailed
+from grader.marking.release.demo import mark_samples
+from grader.marking.release.nbgrader_command import nbgrader
 from tests.marking.tiny import ROOT, answer, course, grade
 
 

@@ -7,19 +7,34 @@ from dataclasses import replace
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from rclpy.node import Node
 from std_msgs.msg import Int32
 
-from sim import Recording, run
-from sim.exchanges import Call, Goal
-from sim.recording import Ended, Heard, rate, stamps
-from sim.ros.codec import decode, encode
-from sim.ros.storage import ATTACHMENT, FORMAT, StorageError
+from sim import Process, Recording, run
+from sim.evidence import Call, Ended, Goal, Heard, rate, stamps
+from sim.evidence.storage import ATTACHMENT, FORMAT, StorageError
+from sim.ros.messages.codec import encode
+from sim.ros.messages.decoder import decode
 from tests.students.engine import actions, errors, mains, names, services, threads
 
 CALL = Call("/add", "example_interfaces/srv/AddTwoInts", "/customer", b"\0\1\0\0", 1.0)
 CALLS = [CALL, replace(CALL, asked=1.1), replace(CALL, raw_response=b"\0"), replace(CALL, raised="KeyError")]
 GOAL = Goal("/fibonacci", "example_interfaces/action/Fibonacci", "/customer", "00" * 16, b"\0\1\0\0", 1.0)
 GOALS = [GOAL, replace(GOAL, received=1.5), replace(GOAL, events=[(1.0, "accepted")])]
+
+
+class Ticker(Node):
+    def __init__(self):
+        super().__init__("ticker")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.get_logger().info("tick")
+
+
+class Faulty(Ticker):
+    def tick(self):
+        return 1 / 0
 
 
 @pytest.fixture(scope="module")
@@ -151,9 +166,9 @@ def test_others_can_read_the_messages(driven, tmp_path):
     assert decode(schema.name, message.data) == Int32(data=1)
     odometry = next(s.data.decode() for s, c, _ in read if c.topic == "/odom")
     assert [line for line in odometry.splitlines() if line.startswith("MSG: ")] == [
-        "MSG: std_msgs/Header", "MSG: builtin_interfaces/Time", "MSG: geometry_msgs/PoseWithCovariance",
-        "MSG: geometry_msgs/Pose", "MSG: geometry_msgs/Point", "MSG: geometry_msgs/Quaternion",
-        "MSG: geometry_msgs/TwistWithCovariance", "MSG: geometry_msgs/Twist", "MSG: geometry_msgs/Vector3",
+        "MSG: builtin_interfaces/Time", "MSG: geometry_msgs/Point", "MSG: geometry_msgs/Pose",
+        "MSG: geometry_msgs/PoseWithCovariance", "MSG: geometry_msgs/Quaternion", "MSG: geometry_msgs/Twist",
+        "MSG: geometry_msgs/TwistWithCovariance", "MSG: geometry_msgs/Vector3", "MSG: std_msgs/Header",
     ]  # fmt: skip
 
 
@@ -230,3 +245,43 @@ def test_a_newer_format_is_refused(tmp_path):
 def test_a_damaged_attachment_is_refused(tmp_path, data):
     path = mcap_with(tmp_path / "bad.mcap", {ATTACHMENT: data})
     assert str(path) in refused(path)
+
+
+def test_a_window_of_time_is_a_recording():
+    whole = run(Ticker, world="yard", seconds=4, quiet=True)
+    part = whole.during(1.5, 3.0)
+    assert [line.stamp for line in part.logs] == [2.0]
+    assert [round(pose.stamp, 3) for pose in (part.path[0], part.path[-1])] == [1.5, 2.95]
+    assert (part.begin, part.stamp, part.ended.stamp, part.graph) == (1.5, 3.0, 3.0, whole.graph)
+    assert {1.5 <= heard.stamp < 3.0 for heard in part.heard} == {True}
+    assert [line.stamp for line in part.during(0.0).logs] == [2.0]
+    assert [line.stamp for line in whole.during(3.0).logs] == [3.0, 4.0]
+
+
+def test_the_pose_at_a_time():
+    driven = run(world="yard", seconds=1)
+    assert driven.pose_at(0.5).stamp == pytest.approx(0.5)
+    assert driven.pose_at(7.0) == driven.path[-1]
+    with pytest.raises(ValueError, match=r"^this run has no robot: give the exercise a world$"):
+        run(Ticker, seconds=1, quiet=True).pose_at(0.5)
+
+
+def test_a_recording_knows_whose_nodes_are_whose():
+    pilot = Process(Ticker, name="pilot", namespace="/tower")
+    both = run(Ticker, companions=[pilot], world="yard", seconds=1, quiet=True)
+    assert both.ours == {"/robot", "/tower/pilot"}
+    assert [both.is_ours(name) for name in ("/tower/pilot", "tower.pilot", "/ticker", "ticker")] == [
+        True, True, False, False
+    ]  # fmt: skip
+
+
+def test_a_students_node_that_takes_the_name_of_ours_makes_it_vouch_for_nothing():
+    both = run(Ticker, companions=[Ticker], seconds=1, quiet=True)
+    assert (both.ours, both.shared) == (set(), {"/ticker"})
+
+
+def test_an_error_of_a_companion_is_a_failure_of_ours():
+    faulty = run(Ticker, companions=[Process(Faulty)], seconds=2, quiet=True)
+    assert [error.type for error in faulty.failures] == ["ZeroDivisionError"]
+    assert faulty.failures == faulty.errors
+    assert run(Faulty, seconds=2, quiet=True).failures == []

@@ -144,6 +144,19 @@ def main_that_never_ends():
         pass
 
 
+class LoopsInItsConstructor(Node):
+    def __init__(self):
+        super().__init__("looper")
+        while True:
+            pass
+
+
+class LoopsInACallback(Talker):
+    def tick(self):
+        while True:
+            pass
+
+
 class Echo(Node):
     """Answers each message with another on the same topic: it hears itself."""
 

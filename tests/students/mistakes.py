@@ -126,6 +126,12 @@ class NameBeforeType(Node):
         self.create_publisher("chatter", String, 10)
 
 
+class PublishesPythonsText(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_publisher(str, "chatter", 10)
+
+
 class QueueLengthAsText(Node):
     def __init__(self):
         super().__init__("talker")

@@ -30,6 +30,20 @@ class DeclaresTwice(Wheel):
         self.declare_parameter("radius", 0.2)
 
 
+class DeclaresWithoutAValue(Wheel):
+    def change(self):
+        self.remove_on_set_parameters_callback(self.check)
+        self.declare_parameter("width", Parameter.Type.DOUBLE)
+        return self.get_parameter("width").value
+
+
+class ReckonsWithoutAValue(Wheel):
+    def change(self):
+        self.remove_on_set_parameters_callback(self.check)
+        self.declare_parameter("width")
+        return self.get_parameter("width").value * 2
+
+
 class SetsPairs(Wheel):
     def change(self):
         self.set_parameters([("radius", 0.2)])

@@ -3,6 +3,7 @@ import ast
 import json
 import re
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -20,11 +21,17 @@ GRADER = re.compile(r"grader")
 LAYERS = [
     pytest.param(ROS, ("sim/ros/", "grader/exercises/"), id="ROS"),
     pytest.param(JUPYTER, ("sim/view/", "grader/score.py", "grader/marking/"), id="Jupyter"),
-    pytest.param(PICTURES, ("sim/view/", "grader/pictures.py", "grader/marking/warm.py"), id="matplotlib"),
+    pytest.param(PICTURES, ("sim/view/", "grader/pictures.py", "grader/marking/preload.py"), id="matplotlib"),
     pytest.param(NBGRADER, ("grader/marking/",), id="nbgrader"),
     pytest.param(GRADER, ("grader/",), id="grader"),
 ]
 DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
+
+# What is in sim/ros, in one direction: each imports only from itself and from those before it.
+ROOMS = (
+    *("messages", "fibers", "recorder", "engine", "hooks", "robots"),
+    *("ground_truth", "session", "play", "remote", "run", "realtime"),
+)
 
 
 def imports(source: str) -> Iterator[str]:
@@ -61,9 +68,75 @@ def notebook_code(path: Path) -> str:
     return re.sub(r"^(\s*)[%!].*$", r"\1pass", python, flags=re.M)
 
 
+def module_name(file: str) -> str:
+    """The name that a module in a file such as "sim/world/__init__.py" is imported by."""
+    return file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+
+
+def arrows(files: dict[str, str], *, annotations: bool) -> dict[str, set[str]]:
+    """Which of these modules each imports, wherever the statement stands; they are given as name to source.
+
+    annotations: also those under `if TYPE_CHECKING:`.
+    """
+    found: dict[str, set[str]] = {}
+    for module, source in files.items():
+        tree = ast.parse(source)
+        typing = {
+            id(inner)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+            for inner in ast.walk(node)
+        }
+        names = [
+            name
+            for node in ast.walk(tree)
+            if annotations or id(node) not in typing
+            for name in _imported(node, files)
+        ]
+        found[module] = {name for name in names if name in files and name != module}
+    return found
+
+
+def _imported(node: ast.AST, files: dict[str, str]) -> Iterator[str]:
+    if isinstance(node, ast.Import):
+        yield from (name.name for name in node.names)
+    elif isinstance(node, ast.ImportFrom) and node.module:
+        for name in node.names:  # a module of a package, or a name in a module
+            inner = f"{node.module}.{name.name}"
+            yield inner if inner in files else node.module
+
+
+def circle(graph: dict[str, set[str]]) -> list[str]:
+    """The names on a way from one module back to it, or [] if there is none."""
+    try:
+        tuple(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        return error.args[1]
+    return []
+
+
+def room(module: str) -> str | None:
+    """The folder or module of sim/ros in which a module lies; None elsewhere."""
+    parts = module.split(".")
+    return parts[2] if parts[:2] == ["sim", "ros"] and len(parts) > 2 else None
+
+
 @pytest.mark.parametrize(("names", "allowed"), LAYERS)
 def test_a_layer_is_known_only_where_the_map_says(names, allowed):
     assert strangers(allowed, names, modules()) == []
+
+
+def test_the_process_that_nobody_trusts_imports_nothing_of_those_who_judge_it():
+    shared, own = "grader.marking.outputs", "grader.marking.student_process"
+    places = ("grader/marking/student_process/", "grader/marking/outputs.py")
+    used = {
+        f"{file} imports {module}"
+        for file, source in modules()
+        if file.startswith(places)
+        for module in imports(source)
+        if module.startswith("grader.marking.") and not module.startswith((shared, own))
+    }
+    assert used == set()
 
 
 @pytest.mark.parametrize("folder", ["course", "solutions"])
@@ -79,7 +152,7 @@ def test_notebooks_use_the_doors_only(folder):
 
 def test_a_wrong_import_is_found_wherever_it_stands():
     source = "def f():\n    if True:\n        from rclpy.node import Node\nimport geometry_msgs.msg, math\n"
-    files = [("sim/world/robot.py", source), ("sim/ros/engine.py", source)]
+    files = [("sim/world/robot.py", source), ("sim/ros/engine/engine.py", source)]
     assert strangers(("sim/ros/",), ROS, iter(files)) == [
         "sim/world/robot.py imports geometry_msgs.msg",
         "sim/world/robot.py imports rclpy.node",
@@ -88,3 +161,38 @@ def test_a_wrong_import_is_found_wherever_it_stands():
 
 def test_only_the_two_packages_are_installed_and_both_have_modules():
     assert {file.split("/")[0] for file, _ in modules()} == set(PACKAGES)
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    """Annotations may: a part is given what it is a part of, and its name there runs nothing."""
+    files = {module_name(file): source for file, source in modules()}
+    assert circle(arrows(files, annotations=False)) == []
+
+
+def test_the_rooms_of_the_engine_import_in_one_direction():
+    files = {module_name(file): source for file, source in modules()}
+    back = [
+        f"{module} imports {other}"
+        for module, others in arrows(files, annotations=True).items()
+        for other in others
+        if room(module) is not None and room(other) is not None
+        if ROOMS.index(room(other)) > ROOMS.index(room(module))
+    ]
+    assert back == []
+
+
+def test_a_run_hangs_one_attribute_on_objects_that_are_not_its_own():
+    assert [file for file, source in modules() if re.search(r"\._sim_|[\"']_sim_", source)] == []
+
+
+def test_a_circle_is_found_wherever_the_imports_stand():
+    files = {
+        "sim.a": "from sim import b",
+        "sim.b": "def f():\n    import sim.c",
+        "sim.c": "from sim.a import x\nif TYPE_CHECKING:\n    from sim.d import y",
+        "sim.d": "import sim.c",
+    }
+    assert set(circle(arrows(files, annotations=False))) == {"sim.a", "sim.b", "sim.c"}
+    apart = {name: source for name, source in files.items() if name in ("sim.c", "sim.d")}
+    assert circle(arrows(apart, annotations=False)) == []
+    assert set(circle(arrows(apart, annotations=True))) == {"sim.c", "sim.d"}

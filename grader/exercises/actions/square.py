@@ -5,101 +5,93 @@ from __future__ import annotations
 import itertools
 import math
 
-from grader.checks import Missed, arrives, check, passes
+from grader.checks import Missed, arrives, hinting, passes
 from grader.exercise import Exercise
 from grader.exercises.actions.asking import DRIVE
-from grader.exercises.actions.evidence import ended, hinting
 from grader.exercises.actions.servers import DriveServer, SpinServer
 from grader.exercises.actions.turning import SPIN
-from sim.exchanges import Goal
-from sim.recording import Recording
+from sim.evidence import Goal, Recording
 
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 NEAR = 0.15  # metres
 
+square = Exercise(
+    "square_by_actions",
+    "A square out of actions",
+    world="yard",
+    seconds=50,
+    companions=[DriveServer, SpinServer],
+)
 
-@check(points=4)
-def sends_both_kinds(recording: Recording) -> None:
+
+@square.check(4)
+def sends_both_kinds(run: Recording) -> None:
     """The node sends goals to /drive_on_heading and to /spin."""
     for action in (DRIVE, SPIN):
-        if not recording.goals_of(action):
+        if not run.goals_of(action):
             hint = "In go: await self.finish(self.drive, ...), then await self.finish(self.spin, ...)."
-            with hinting(hint):
-                raise Missed(f"goals for {action}", "none")
+            raise Missed(f"goals for {action}", "none", hint)
 
 
-@check(points=4, after=sends_both_kinds)
-def waits_for_the_end(recording: Recording) -> None:
+@square.check(4, after=sends_both_kinds)
+def waits_for_the_end(run: Recording) -> None:
     """A goal is sent only when the one before has ended."""
-    goals = sorted(_goals(recording), key=lambda goal: goal.asked or 0.0)
-    for before, after in itertools.pairwise(goals):
-        end = ended(before)
-        if end is None or end > (after.asked or 0.0) + 1e-9:
+    for before, after in itertools.pairwise(_goals(run)):
+        if before.ended is None or before.ended > after.asked + 1e-9:
             hint = "Accepted isn't done: finish awaits handle.get_result_async(), too, and go awaits finish."
-            with hinting(hint):
-                saw = f"that one {'never ended' if end is None else f'ended at {end:.3g} s'}"
-                expected = f"{after.action} sent after the end of {before.action}, not at {after.asked:.3g} s"
-                raise Missed(expected, saw)
+            how = "never ended" if before.ended is None else f"ended at {before.ended:.3g} s"
+            expected = f"{after.action} sent after the end of {before.action}, not at {after.asked:.3g} s"
+            raise Missed(expected, f"that one {how}", hint)
 
 
-@check(points=4, after=(sends_both_kinds, waits_for_the_end))
-def passes_the_corners(recording: Recording) -> None:
+@square.check(4, after=(sends_both_kinds, waits_for_the_end))
+def passes_the_corners(run: Recording) -> None:
     """The robot passes (1, 0), (1, 1) and (0, 1), in this order."""
     try:
-        passes(recording, CORNERS, tolerance=NEAR)
+        passes(run, CORNERS, tolerance=NEAR)
     except Missed as missed:
-        raise Missed(
-            missed.expected, missed.saw, _hint(recording), credit=missed.credit, picture="path"
-        ) from None
+        missed.hint = _hint(run)  # the goals say more than the robot's path
+        raise
 
 
-@check(points=2, after=passes_the_corners)
-def comes_back(recording: Recording) -> None:
+@square.check(2, after=passes_the_corners)
+def comes_back(run: Recording) -> None:
     """It ends where it began, and all goals have succeeded."""
-    failed = [goal for goal in _goals(recording) if goal.status != "succeeded"]
+    failed = next((goal for goal in _goals(run) if goal.status != "succeeded"), None)
     if failed:
-        saw = f"{failed[0].action} {failed[0].status or 'without a decision'}"
+        saw = f"{failed.action} {failed.status or 'without a decision'}"
         raise Missed("all goals succeeded", saw, "Four times: drive 1 m, then turn by pi / 2.")
     try:
-        passes(recording, CORNERS, tolerance=NEAR)
+        passes(run, CORNERS, tolerance=NEAR)
     except Missed as missed:
         raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
-    with hinting(_no_quarter(recording) or "Four sides and four turns, and then no more goals."):
-        arrives(recording, (0.0, 0.0), tolerance=NEAR)
+    with hinting(_no_quarter(run) or "Four sides and four turns, and then no more goals."):
+        arrives(run, (0.0, 0.0), tolerance=NEAR)
 
 
-def _goals(recording: Recording) -> list[Goal]:
-    return recording.goals_of(DRIVE) + recording.goals_of(SPIN)
+def _goals(run: Recording) -> list[Goal]:
+    """Those of both kinds, in the order they were sent."""
+    return sorted(run.goals_of(DRIVE) + run.goals_of(SPIN), key=lambda goal: goal.asked or 0.0)
 
 
-def _hint(recording: Recording) -> str:
-    angles = [goal.request.target_yaw for goal in recording.goals_of(SPIN)]
+def _hint(run: Recording) -> str:
+    angles = [goal.request.target_yaw for goal in run.goals_of(SPIN)]
     if any(abs(angle) > math.tau for angle in angles):
         return f"target_yaw was {max(angles, key=abs):.3g}: its unit is rad; a quarter turn is math.pi / 2."
     if any(angle < 0 for angle in angles):
         return "The robot turned right: a positive target_yaw turns left."
-    drives = recording.goals_of(DRIVE)
+    drives = run.goals_of(DRIVE)
     refused = next((goal for goal in drives if goal.status == "aborted"), None)
     if refused:
         return f"A drive was aborted: {refused.result.error_msg}."
     if any(abs(goal.request.target.x - 1.0) > 0.01 for goal in drives):
         return "A side is 1 m: target.x = 1.0."
     words = "Four times: drive 1 m ahead, then turn left by pi / 2 rad. The picture shows your way."
-    return _no_quarter(recording) or words
+    return _no_quarter(run) or words
 
 
-def _no_quarter(recording: Recording) -> str:
+def _no_quarter(run: Recording) -> str:
     """What to say where a turn is by another angle than a quarter turn; "" where none is."""
-    angles = (goal.request.target_yaw for goal in recording.goals_of(SPIN))
+    angles = (goal.request.target_yaw for goal in run.goals_of(SPIN))
     other = next((angle for angle in angles if abs(angle - math.pi / 2) > 0.01), None)
     return "" if other is None else f"target_yaw was {other:.3g}: a quarter turn is math.pi / 2, 1.5708 rad."
-
-
-square = Exercise(
-    "square_by_actions",
-    "A square out of actions",
-    [sends_both_kinds, waits_for_the_end, passes_the_corners, comes_back],
-    world="yard",
-    seconds=50,
-    companions=[DriveServer, SpinServer],
-)

@@ -68,20 +68,25 @@ class Ground:
 
     def lengths(self, free: np.ndarray, goal: Point) -> np.ndarray:
         """How far it is from each cell to the goal over free cells (m); inf where there is no way."""
+        width = self.columns + 4  # with two closed cells around, so that no step leaves the array
+        open_ = np.zeros((self.rows + 4, width), bool)
+        open_[2:-2, 2:-2] = free
+        lengths = np.full(open_.shape, np.inf)
         column, row = self.cell(goal)
-        padded = np.full((self.rows + 4, self.columns + 4), np.inf)
-        inner = padded[2:-2, 2:-2]
-        inner[row, column] = 0.0
-        closed = ~free
-        closed[row, column] = False
-        before = None
-        while before is None or not np.array_equal(inner, before):
-            before = inner.copy()
-            for dx, dy in _STEPS:
-                from_there = padded[2 + dy : 2 + dy + self.rows, 2 + dx : 2 + dx + self.columns]
-                np.minimum(inner, from_there + math.hypot(dx, dy) * RESOLUTION, out=inner)
-                inner[closed] = np.inf
-        return inner.copy()
+        flat, flat_open = lengths.ravel(), open_.ravel()
+        reached = np.array([(row + 2) * width + column + 2])
+        flat[reached] = 0.0
+        steps = np.array([[dy * width + dx] for dx, dy in _STEPS])
+        costs = np.array([[math.hypot(dx, dy) * RESOLUTION] for dx, dy in _STEPS])
+        while reached.size:
+            # No step is shorter than a cell: to what is that near to the nearest there is no shorter way.
+            near = flat[reached] < flat[reached].min() + RESOLUTION
+            there, length = reached[near] + steps, flat[reached[near]] + costs
+            shorter = flat_open[there] & (length < flat[there])
+            there, length = there[shorter], length[shorter]
+            np.minimum.at(flat, there, length)
+            reached = np.unique(np.concatenate((reached[~near], there)))
+        return lengths[2:-2, 2:-2].copy()
 
 
 def _clearance(world: World, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -4,29 +4,43 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from grader.checks import Missed, check, publishes, subscribes
+from grader.checks import Missed, hinting, publishes, subscribes, usual_mistake
+from grader.checks.silence import silence
 from grader.exercise import Exercise
-from grader.exercises.advice import advising
 from grader.exercises.navigator.ground import Point
+from grader.exercises.navigator.measures import cells_of, tenths
 from grader.exercises.navigator.partners import MapServer, PointClicker, made_for
-from grader.exercises.navigator.progress import tenths
 from grader.exercises.navigator.worlds import world_of
-from sim.recording import Recording
+from sim.evidence import Heard, Recording, Seconds
 
 GRID, POINT = "nav_msgs/msg/OccupancyGrid", "geometry_msgs/msg/PointStamped"
 COSTMAP = "/global_costmap/costmap"
 RADIUS = 0.2  # metres by which walls are to be thicker
 
+Formula = Callable[[Any, Point], Point]  # of the map's info and a clicked point
 
-@check(points=1)
-def hears_the_map(recording: Recording) -> None:
+costmap = Exercise(
+    "costmap",
+    "Cells and walls",
+    world=lambda seed: world_of("clutter", seed),
+    seconds=8,
+    companions=lambda seed: [
+        made_for(MapServer, world=world_of("clutter", seed)),
+        made_for(PointClicker, world=world_of("clutter", seed)),
+    ],
+    seeds=(4, 9),
+)
+
+
+@costmap.check(1)
+def hears_the_map(run: Recording) -> Any:
     """The node hears /map, though it was published before."""
-    with advising(recording, "Subscribe to OccupancyGrid messages on /map, with the profile LATCHED."):
-        for end in subscribes(recording, "/map", GRID):
+    with hinting(guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED."):
+        for end in subscribes(run, "/map", GRID):
             if end.qos["durability"] != "transient_local":
                 raise Missed(
                     "a subscription to /map with the durability transient_local",
@@ -34,49 +48,73 @@ def hears_the_map(recording: Recording) -> None:
                     "The map was published before the node was there. It comes later only to those who "
                     "subscribe with the profile LATCHED in place of a queue depth.",
                 )
+    return run.messages("/map", "/map_server")[0].message
 
 
-@check(points=2, after=hears_the_map)
-def publishes_a_costmap(recording: Recording) -> None:
+@costmap.check(2, after=hears_the_map)
+def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     """The node publishes an OccupancyGrid on /global_costmap/costmap, with the form of /map."""
-    with advising(recording, "Publish it in on_map, as soon as the map is there."):
-        publishes(recording, COSTMAP, GRID)
-    given, made = _map(recording), recording.messages(COSTMAP)[-1].message
-    forms = [_form(given), _form(made)]
-    if forms[0] != forms[1]:
-        raise Missed(forms[0], forms[1], "Send the map's own header and info along: only the data changes.")
+    with hinting(guess="Publish it in on_map, as soon as the map is there."):
+        made = publishes(run, COSTMAP, GRID)[-1].message
+    expected, saw = _form(given), _form(made)
+    if expected == saw:
+        expected, saw = (f"{len(msg.data)} cells in data" for msg in (given, made))
+    if expected != saw:
+        raise Missed(expected, saw, "Send the map's own header and info along: only the data changes.")
+    return given, made
 
 
-@check(points=5, after=hears_the_map)
-def answers_clicks(recording: Recording) -> None:
+@costmap.check(
+    5, after=hears_the_map, guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down."
+)
+def answers_clicks(run: Recording, given: Any) -> None:
     """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
-    with advising(recording, "Work one out by hand: the cell is (x - origin) / resolution, rounded down."):
-        publishes(recording, "/cell_centre", POINT)
-        info, wrong = _map(recording).info, []
-        clicks = recording.messages("/clicked_point")
-        for click in clicks:
-            asked = click.message.point.x, click.message.point.y
-            told = _answer(recording, click.stamp)
-            if told is None or math.dist(told, _middle(info, asked)) > 0.001:
-                wrong.append((click.stamp, asked, told))
-        if wrong:
-            raise _wrong_cells(info, wrong, len(clicks))
+    publishes(run, "/cell_centre", POINT)
+    clicks = _clicks(run)
+    if not clicks:
+        raise silence(run, "messages on /clicked_point", "none", run.graph.publishers("/clicked_point"))
+    wrong = [click for click in clicks if not click.fits(given.info, _middle)]
+    if wrong:
+        stamp, point, told = wrong[0]
+        x, y = _middle(given.info, point)
+        saw = "no answer" if told is None else f"({told[0]:.3f}, {told[1]:.3f})"
+        answered = [click for click in wrong if click.told]
+
+        def explains(slip: Formula) -> bool:
+            return bool(answered) and all(click.fits(given.info, slip) for click in answered)
+
+        raise Missed(
+            f"({x:.3f}, {y:.3f}) m after the click on ({point[0]:.3f}, {point[1]:.3f}) m at {stamp:.3g} s",
+            f"{saw}; {len(wrong)} of {len(clicks)} are wrong" if len(wrong) > 1 else saw,
+            usual_mistake(_SLIPS, explains),
+            credit=tenths(min(1 - len(wrong) / len(clicks), 0.5)),
+        )
 
 
-def _wrong_cells(info: Any, wrong: list[tuple[float, Point, Point | None]], asked: int) -> Missed:
-    stamp, click, told = wrong[0]
-    x, y = _middle(info, click)
-    saw = "no answer" if told is None else f"({told[0]:.3f}, {told[1]:.3f})"
-    if len(wrong) > 1:
-        saw += f"; {len(wrong)} of {asked} are wrong"
-    expected = f"({x:.3f}, {y:.3f}) m after the click on ({click[0]:.3f}, {click[1]:.3f}) m at {stamp:.3g} s"
-    answered = [(point, answer) for _, point, answer in wrong if answer is not None]
-    fitting = (
-        hint
-        for hint, slip in _SLIPS.items()
-        if answered and all(math.dist(answer, slip(info, point)) < 0.001 for point, answer in answered)
-    )
-    return Missed(expected, saw, next(fitting, ""), credit=tenths(min(1 - len(wrong) / asked, 0.5)))
+class Click(NamedTuple):
+    """A click on the map, and the point that the node told after it, if any; in metres."""
+
+    stamp: Seconds
+    point: Point
+    told: Point | None
+
+    def fits(self, info: Any, formula: Formula) -> bool:
+        """Is it what the formula gives?"""
+        return self.told is not None and math.dist(self.told, formula(info, self.point)) <= 0.001
+
+
+def _clicks(run: Recording) -> list[Click]:
+    """All clicks of ours, with the first point told before the next one comes."""
+    found = []
+    for heard in run.messages("/clicked_point"):
+        if run.is_ours(heard.sender):
+            told = run.during(heard.stamp - 1e-6, heard.stamp + 0.45).messages("/cell_centre")
+            found.append(Click(heard.stamp, _point(heard), _point(told[0]) if told else None))
+    return found
+
+
+def _point(heard: Heard) -> Point:
+    return heard.message.point.x, heard.message.point.y
 
 
 def _middle(info: Any, point: Point) -> Point:
@@ -101,7 +139,7 @@ def _origin_half_way(info: Any, point: Point) -> Point:
     return x - corner.x, y - corner.y
 
 
-_SLIPS: dict[str, Callable[[Any, Point], Point]] = {
+_SLIPS: dict[str, Formula] = {
     "The map begins at info.origin, not at (0, 0): take the origin away before you divide.": _without_origin,
     "Add the map's origin again in to_point.": _origin_half_way,
     "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.": (
@@ -119,27 +157,27 @@ _SLIPS: dict[str, Callable[[Any, Point], Point]] = {
 }
 
 
-@check(points=8, after=publishes_a_costmap)
-def inflates(recording: Recording) -> None:
+@costmap.check(8, after=publishes_a_costmap)
+def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
     """In the costmap every cell within 0.2 m of an occupied one is 100, and no other cell has changed."""
-    given, made = (_cells(msg) for msg in (_map(recording), recording.messages(COSTMAP)[-1].message))
-    far = _distance_to_occupied(given) * _map(recording).info.resolution
-    known, half = given != -1, 0.5 * _map(recording).info.resolution
+    given, made = map(cells_of, maps)
+    resolution = maps[0].info.resolution
+    far = _distance_to_occupied(given) * resolution
+    known, half = given != -1, 0.5 * resolution
     due = known & (given != 100) & (far <= RADIUS + 1e-6)
     sure = due & (far <= RADIUS - half)
     missing, lost = sure & (made != 100), known & (given == 100) & (made != 100)
     extra = known & (far > RADIUS + half) & (made != given)
-    faults = int(missing.sum() + lost.sum() + extra.sum())
-    if not faults:
+    faults = {"missing": missing, "too many": extra, "no longer occupied": lost}
+    if not any(cells.any() for cells in faults.values()):
         return
-    saw = ", ".join(
-        f"{int(cells.sum())} {words}"
-        for cells, words in ((missing, "missing"), (extra, "too many"), (lost, "no longer occupied"))
-        if cells.any()
+    count = sum(int(cells.sum()) for cells in faults.values())
+    raise Missed(
+        f"{int(due.sum())} cells more that are 100",
+        ", ".join(f"{int(cells.sum())} {words}" for words, cells in faults.items() if cells.any()),
+        guess=_inflation_hint(given, made, missing, extra, far),
+        credit=tenths(0.8 * (1 - count / sure.sum())),
     )
-    credit = tenths(0.8 * (1 - faults / sure.sum()))
-    with advising(recording, _inflation_hint(given, made, missing, extra, far)):
-        raise Missed(f"{int(due.sum())} cells more that are 100", saw, credit=credit)
 
 
 def _inflation_hint(
@@ -163,22 +201,6 @@ def _inflation_hint(
     return "Is it cells[row, column]: first the row (y), then the column (x)?"
 
 
-def _map(recording: Recording) -> Any:
-    return recording.messages("/map")[0].message
-
-
-def _answer(recording: Recording, stamp: float) -> Point | None:
-    """The first point told after a click, before the next click comes."""
-    for heard in recording.messages("/cell_centre"):
-        if stamp - 1e-6 <= heard.stamp < stamp + 0.45:
-            return heard.message.point.x, heard.message.point.y
-    return None
-
-
-def _cells(msg: Any) -> np.ndarray:
-    return np.array(msg.data, dtype=np.int16).reshape(msg.info.height, msg.info.width)
-
-
 def _distance_to_occupied(cells: np.ndarray) -> np.ndarray:
     """How far each cell's middle is from that of the nearest occupied cell, in cells."""
     rows, columns = np.indices(cells.shape)
@@ -194,17 +216,3 @@ def _form(msg: Any) -> str:
         f"{msg.info.width} by {msg.info.height} cells of {msg.info.resolution:.3g} m from "
         f"({corner.x:.2f}, {corner.y:.2f}) m in the frame “{msg.header.frame_id}”"
     )
-
-
-costmap = Exercise(
-    "costmap",
-    "Cells and walls",
-    [hears_the_map, publishes_a_costmap, answers_clicks, inflates],
-    world=lambda seed: world_of("clutter", seed),
-    seconds=8,
-    companions=lambda seed: [
-        made_for(MapServer, world=world_of("clutter", seed)),
-        made_for(PointClicker, world=world_of("clutter", seed)),
-    ],
-    seeds=(4, 9),
-)

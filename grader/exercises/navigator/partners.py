@@ -21,6 +21,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
 from grader.exercises.navigator.ground import RESOLUTION, Point, drivable, ground
+from sim.nanoseconds import SECOND
+from sim.ros.messages.template import STAMP, Template
 from sim.world import World
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -102,16 +104,20 @@ class Localization(Node):
     def __init__(self) -> None:
         super().__init__("localization")
         self.publisher = self.create_publisher(TFMessage, "/tf", 10)
+        transform = TransformStamped(child_frame_id="odom")
+        transform.header.frame_id = "map"
+        x, y, yaw = self.start
+        move = transform.transform
+        move.translation.x, move.translation.y = x, y
+        move.rotation.z, move.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+        message = TFMessage(transforms=[transform])
+        self.message = Template(message, [f"transforms.0.{field}" for field in STAMP])
         self.create_timer(0.05, self.tell)
 
     def tell(self) -> None:
         """Publish the transform from map to odom."""
-        transform = TransformStamped(child_frame_id="odom")
-        transform.header.frame_id, transform.header.stamp = "map", self.get_clock().now().to_msg()
-        x, y, yaw = self.start
-        transform.transform.translation.x, transform.transform.translation.y = x, y
-        transform.transform.rotation.z, transform.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-        self.publisher.publish(TFMessage(transforms=[transform]))
+        now = self.get_clock().now().nanoseconds
+        self.publisher.publish(self.message.fill(*divmod(now, SECOND)))
 
 
 class Wanderer(Node):

@@ -3,29 +3,14 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import rclpy
-from rclpy.logging import get_logger
 from rclpy.node import Node
 
-from grader.exercise import Scenario
-from sim.recording import Recording
-from sim.ros.remote import PREPARATIONS, Remote
+from sim.evidence import Recording
 
-LOGGER, OBSERVER = "after_main", "observer"
-
-
-class AfterMain(Scenario):
-    """One run in which every main() is followed by a log line on how it ended; `trace_of` reads it."""
-
-    def run(self, nodes: Sequence[Any], seed: int) -> Recording:
-        """As Scenario.run."""
-        for node in nodes:
-            if isinstance(node, Remote):  # there, where main() runs, it is looked around
-                node.preparation = LOGGER
-        return super().run([_observed(node) for node in nodes], seed)
+OBSERVER = "observer"
 
 
 class Trace(NamedTuple):
@@ -39,15 +24,15 @@ class Trace(NamedTuple):
 def trace_of(recording: Recording) -> Trace | None:
     """What main() left behind; None when it never came to its end."""
     for line in recording.logs:
-        if line.node == LOGGER:
+        if line.node == OBSERVER:
             words = dict(part.split("=") for part in line.text.split(" "))
             return Trace(words["raised"], words["still_up"] == "True", words["nodes"])
     return None
 
 
-def _observed(main: Any) -> Any:
-    """The same main(), which then looks around before its program is over. Anything else stays as it is."""
-    if isinstance(main, type | Remote) or not callable(main):
+def observed(main: Any) -> Any:
+    """The same main(), which then logs how it ended; `trace_of` reads it. Anything else stays as it is."""
+    if isinstance(main, type) or not callable(main):
         return main
 
     @functools.wraps(main)
@@ -64,9 +49,6 @@ def _observed(main: Any) -> Any:
     return main_and_look
 
 
-PREPARATIONS[LOGGER] = _observed
-
-
 def _look(raised: str) -> None:
     still_up = rclpy.ok()
     if not still_up:
@@ -74,6 +56,6 @@ def _look(raised: str) -> None:
     observer = Node(OBSERVER)
     found = observer.get_node_names_and_namespaces()
     left = ",".join(sorted(f"{space.rstrip('/')}/{name}" for name, space in found if name != OBSERVER))
-    get_logger(LOGGER).info(f"raised={raised} still_up={still_up} nodes={left}")
+    observer.get_logger().info(f"raised={raised} still_up={still_up} nodes={left}")
     observer.destroy_node()
     rclpy.shutdown()

@@ -2,71 +2,67 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, check
-from grader.exercise import Exercise
-from grader.exercises.nodes.after_main import AfterMain, trace_of
-from grader.exercises.nodes.lines import lines_like
-from sim.recording import Recording
+import re
+
+from grader.checks import Missed, hinting, logs
+from grader.exercise import Exercise, Scenario
+from grader.exercises.nodes.after_main import Trace, observed, trace_of
+from sim.evidence import Recording, Seconds
+
+whole_main = Exercise(
+    "whole_main", "A main() that cleans up", scenarios=[Scenario(seconds=7, prepare=observed)]
+)
 
 
-@check(points=3)
-def counts_down(recording: Recording) -> None:
+@whole_main.check(3)
+def counts_down(run: Recording) -> Seconds:
     """main() makes the node and lets it work: 3, 2, 1."""
-    hint = "Callbacks run while the node spins: rclpy.spin(node)."
-    try:
-        found = [line.text for line, _ in lines_like(recording, r"\d$", "3")]
-    except Missed as missed:
-        raise Missed("the lines 3, 2, 1", "none of them", hint) from missed
+    lines = [line for line in run.logs if re.fullmatch(r"\W*\d", line.text)]
+    found, expected = [line.text for line in lines], "the lines 3, 2, 1"
+    if not found:
+        raise Missed(expected, "none of them", "Callbacks run while the node spins: rclpy.spin(node).")
     if found != ["3", "2", "1"]:
-        raise Missed("the lines 3, 2, 1", ", ".join(found), "Make one node, and spin until Ctrl-C ends it.")
+        raise Missed(expected, ", ".join(found), "Make one node, and spin until Ctrl-C ends it.")
+    return lines[-1].stamp
 
 
-@check(points=4, after=counts_down)
-def ends_quietly(recording: Recording) -> None:
+@whole_main.check(4, after=counts_down)
+def ends_quietly(run: Recording) -> Trace:
     """Ctrl-C leads main() to its end, without a traceback."""
-    trace = trace_of(recording)
+    trace = trace_of(run)
     if trace is None:
         hint = "After Ctrl-C nothing may spin again: the try block stands around all of the spinning."
-        raise Missed("main() at its end", f"main() still running at {recording.ended.stamp:g} s", hint)
+        raise Missed("main() at its end", f"main() still running at {run.ended.stamp:g} s", hint)
     if trace.raised:
         hint = "See the error above."
         if trace.raised == "KeyboardInterrupt":
             hint = "After the try block comes `except KeyboardInterrupt:`, and there `pass` is enough."
         cleaned = not (trace.still_up and trace.nodes)
         saw = f"{trace.raised} came out of main()"
-        raise Missed("main() at its end", saw, hint, credit=0.5 * cleaned)
+        raise Missed("main() at its end", saw, hint, credit=0.5 * cleaned, measured=trace)
+    return trace
 
 
-@check(points=3, after=ends_quietly)
-def says_engine_off(recording: Recording) -> None:
+@whole_main.check(3, after=(ends_quietly, counts_down))
+def says_engine_off(run: Recording, trace: Trace, counted: Seconds) -> None:
     """After Ctrl-C the node logs “Engine off”."""
-    hint = "What has to be done at the end, whatever happens, stands in the finally block."
-    lines = [line for line, _ in lines_like(recording, r"engine off", "Engine off", hint=hint)]
-    last = max(line.stamp for line in recording.logs if line.text == "1")
-    if lines[-1].stamp <= last:
-        raise Missed(f"“Engine off” after Ctrl-C, at {last + 1:g} s", f"it at {lines[-1].stamp:.3g} s", hint)
+    with hinting("What has to be done at the end, whatever happens, stands in the finally block."):
+        last = logs(run, r"^\W*?engine off", example="Engine off")[-1].stamp
+        if last <= counted:
+            raise Missed(f"“Engine off” after Ctrl-C, at {counted + 1:g} s", f"it at {last:.3g} s")
 
 
-@check(points=3, after=ends_quietly)
-def destroys_the_node(recording: Recording) -> None:
+@whole_main.check(3, after=ends_quietly)
+def destroys_the_node(run: Recording, trace: Trace) -> None:
     """The node is destroyed."""
-    left = trace_of(recording).nodes
-    if left:
+    if trace.nodes:
         hint = "destroy_node() belongs into the finally block, where it is reached whatever happens."
-        raise Missed("no node left after main()", f"{left} is still there", hint)
+        raise Missed("no node left after main()", f"{trace.nodes} is still there", hint)
 
 
-@check(points=2, after=ends_quietly)
-def shuts_down(recording: Recording) -> None:
+@whole_main.check(2, after=ends_quietly)
+def shuts_down(run: Recording, trace: Trace) -> None:
     """ROS is shut down."""
-    if trace_of(recording).still_up:
+    if trace.still_up:
         hint = "What rclpy.init() began, rclpy.shutdown() ends: last line of the finally block."
         raise Missed("rclpy.ok() to be False after main()", "it is still True", hint)
-
-
-whole_main = Exercise(
-    "whole_main",
-    "A main() that cleans up",
-    [counts_down, ends_quietly, says_engine_off, destroys_the_node, shuts_down],
-    scenarios=[AfterMain(seconds=7)],
-)

@@ -2,75 +2,69 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, check
+from grader.checks import Missed, Said, come_every, hinting, logs
+from grader.checks.fields import listed
 from grader.exercise import Exercise
-from grader.exercises.nodes.lines import come_every, in_words, lines_like
-from sim.recording import LogLine, Recording
+from sim.evidence import Recording
+
+battery = Exercise("battery", "A battery that warns", seconds=12)
 
 
-def _charges(recording: Recording) -> list[tuple[int, LogLine]]:
-    lines = lines_like(recording, r"battery\W+(\d+)", "Battery: 90 %")
-    return [(int(found[1]), line) for line, found in lines]
-
-
-def _has_level(recording: Recording, charges: range, level: str) -> float:
-    """The part of the lines about these charges that have the level. Raises Missed for the first without."""
-    ours = [(charge, line) for charge, line in _charges(recording) if charge in charges]
-    wrong = [(charge, line) for charge, line in ours if line.level != level]
-    if not ours:
-        raise Missed(f"lines from {charges[-1]} % to {charges[0]} %", "none", "Look at your last case: else.")
-    if wrong:
-        charge, line = wrong[0]
-        edges = {charges[0], charges[-1]}
-        at_the_edge = {charge for charge, _ in wrong} <= edges and len(wrong) < len(ours)
-        question = "> or >=?" if at_the_edge else "where do they lead?"
-        hint = f"Follow your comparisons for {charge} %, one after the other: {question}"
-        expected, saw = f"“{line.text}” at level {level}", f"it at level {line.level}"
-        raise Missed(expected, saw, hint, credit=1 - len(wrong) / len(ours))
-    return 1.0
-
-
-@check(points=3)
-def reports_the_charge(recording: Recording) -> None:
+@battery.check(3)
+def reports_the_charge(run: Recording) -> list[Said]:
     """A line comes every second, from “Battery: 90 %” down to “Battery: 0 %”."""
-    lines = _charges(recording)
-    found = [charge for charge, _ in lines]
+    lines = logs(run, r"^\W*?battery\W+(\d+)", example="Battery: 90 %")
+    found = [_charge(line) for line in lines]
     wanted = [max(0, 90 - 10 * index) for index in range(max(len(found), 10))]
     if found != wanted[: len(found)]:
         hint = "One line for each measurement, at one level: if, elif, else."
-        raise Missed(in_words(wanted), in_words(found), hint, credit=0.5)
-    come_every(recording, [line for _, line in lines], 1.0, credit=0.5)
+        raise Missed(listed(wanted), listed(found), hint, credit=0.5, measured=lines)
+    return come_every(run, lines, 1.0, credit=0.5)
 
 
-@check(points=3, after=reports_the_charge)
-def informs(recording: Recording) -> float:
+@battery.check(3, after=reports_the_charge)
+def informs(run: Recording, lines: list[Said]) -> None:
     """Above 30 % the line is at info level."""
-    return _has_level(recording, range(40, 91, 10), "INFO")
+    _have_level(run, lines, range(40, 91, 10), "INFO")
 
 
-@check(points=3, after=reports_the_charge)
-def warns(recording: Recording) -> float:
+@battery.check(3, after=reports_the_charge)
+def warns(run: Recording, lines: list[Said]) -> None:
     """From 30 % down to above 10 % it is a warning."""
-    return _has_level(recording, range(20, 31, 10), "WARN")
+    _have_level(run, lines, range(20, 31, 10), "WARN")
 
 
-@check(points=3, after=reports_the_charge)
-def alarms(recording: Recording) -> float:
+@battery.check(3, after=reports_the_charge)
+def alarms(run: Recording, lines: list[Said]) -> None:
     """At 10 % and below it is an error."""
-    return _has_level(recording, range(0, 11, 10), "ERROR")
+    _have_level(run, lines, range(0, 11, 10), "ERROR")
 
 
-@check(points=3)
-def shows_debug_lines(recording: Recording) -> None:
+def _have_level(run: Recording, lines: list[Said], charges: range, level: str) -> None:
+    """The lines about these charges have the level. Raises Missed for the first without."""
+    about = [line for line in lines if _charge(line) in charges]
+    wrong = [line for line in about if line.level != level]
+    if not about:
+        hint = "Look at your last case: else."
+        if run.ended.stamp - lines[-1].stamp < 2 * (lines[-1].stamp - lines[-2].stamp if lines[1:] else 1.0):
+            hint = "The run was over before the charge came down so far: first let a line come every second."
+        raise Missed(f"lines from {charges[-1]} % to {charges[0]} %", "none", hint)
+    if wrong:
+        edges = {charges[0], charges[-1]}
+        at_the_edge = {_charge(line) for line in wrong} <= edges and len(wrong) < len(about)
+        question = "> or >=?" if at_the_edge else "where do they lead?"
+        hint = f"Follow your comparisons for {_charge(wrong[0])} %, one after the other: {question}"
+        expected, saw = f"“{wrong[0].text}” at level {level}", f"it at level {wrong[0].level}"
+        raise Missed(expected, saw, hint, credit=1 - len(wrong) / len(about))
+
+
+def _charge(line: Said) -> int:
+    return int(line.groups[0])
+
+
+@battery.check(3)
+def shows_debug_lines(run: Recording) -> None:
     """A debug line “Measuring” can be seen every second."""
-    hint = "Debug lines are hidden until the logger's level is set to DEBUG."
-    lines = lines_like(recording, "measuring", "Measuring", level="DEBUG", hint=hint)
-    come_every(recording, [line for line, _ in lines], 1.0)
-
-
-battery = Exercise(
-    "battery",
-    "A battery that warns",
-    [reports_the_charge, informs, warns, alarms, shows_debug_lines],
-    seconds=12,
-)
+    with hinting("Debug lines are hidden until the logger's level is set to DEBUG." if run.logs else ""):
+        lines = logs(run, r"^\W*?measuring", level="DEBUG", example="Measuring")
+    come_every(run, lines, 1.0)

@@ -2,55 +2,50 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, check, named
+from grader.checks import Missed, Said, come_every, hinting, logs, named
+from grader.checks.fields import listed
 from grader.exercise import Exercise
-from grader.exercises.nodes.lines import Found, come_every, in_words, lines_like
-from sim.recording import Recording
+from sim.evidence import Recording
+
+hello = Exercise("hello", "A node that says hello", seconds=3)
+HELLO = r"^\W*?Hello, robot!"
 
 
-@check(points=7)
-def says_hello(recording: Recording) -> None:
+@hello.check(7)
+def says_hello(run: Recording) -> None:
     """The node logs “Hello, robot!” at info level."""
-    try:
-        lines_like(recording, r"Hello, robot!", "Hello, robot!", level="INFO")
-    except Missed as missed:
-        if recording.logs or recording.prints:
-            raise
-        hint = "Debug lines are hidden, so use info; and a method that nobody calls says nothing."
-        raise Missed(missed.expected, missed.saw, hint) from None
+    silent = "Debug lines are hidden, so use info; and a method that nobody calls says nothing."
+    with hinting("" if run.logs or run.prints else silent):
+        logs(run, HELLO, level="INFO", example="Hello, robot!")
 
 
-@check(points=3, after=says_hello)
-def says_it_once(recording: Recording) -> None:
+@hello.check(3, after=says_hello)
+def says_it_once(run: Recording) -> None:
     """It says so once."""
-    count = len(lines_like(recording, r"Hello, robot!", "Hello, robot!"))
+    count = len(logs(run, HELLO))
     if count > 1:
         raise Missed("one line", f"{count} lines", "__init__ runs once for each node: there is the place.")
 
 
-hello = Exercise("hello", "A node that says hello", [says_hello, says_it_once], seconds=3)
+counter = Exercise("counter", "A node that counts", seconds=4)
 
 
-@check(points=3)
-def called_counter(recording: Recording) -> None:
+@counter.check(3)
+def called_counter(run: Recording) -> None:
     """The node is called counter."""
-    named(recording, "/counter")
+    named(run, "/counter")
 
 
-def _counts(recording: Recording) -> list[Found]:
-    return lines_like(recording, r"count\W+(\d+)", "Count: 1", level="INFO")
-
-
-@check(points=5)
-def logs_counts(recording: Recording) -> None:
+@counter.check(5)
+def logs_counts(run: Recording) -> list[Said]:
     """The node logs lines like “Count: 1” at info level."""
-    _counts(recording)
+    return logs(run, r"^\W*?count\W+(\d+)", level="INFO", example="Count: 1")
 
 
-@check(points=6, after=logs_counts)
-def counts_up(recording: Recording) -> None:
+@counter.check(6, after=logs_counts)
+def counts_up(run: Recording, lines: list[Said]) -> None:
     """The count begins at 1 and goes up by 1 from line to line."""
-    counts = [int(found[1]) for _, found in _counts(recording)]
+    counts = [int(line.groups[0]) for line in lines]
     wanted = list(range(1, len(counts) + 1))
     if counts == wanted:
         return
@@ -59,18 +54,10 @@ def counts_up(recording: Recording) -> None:
         hint = "A variable of a method is gone when it returns: keep the count in self, from __init__ on."
     elif counts[0] == 0:
         hint = "The first count is 1: add before you log."
-    raise Missed(in_words(wanted), in_words(counts), hint)
+    raise Missed(listed(wanted), listed(counts), hint)
 
 
-@check(points=6, after=logs_counts)
-def counts_every_half_second(recording: Recording) -> None:
+@counter.check(6, after=logs_counts)
+def counts_every_half_second(run: Recording, lines: list[Said]) -> None:
     """A count comes every 0.5 s."""
-    come_every(recording, [line for line, _ in _counts(recording)], 0.5)
-
-
-counter = Exercise(
-    "counter",
-    "A node that counts",
-    [called_counter, logs_counts, counts_up, counts_every_half_second],
-    seconds=4,
-)
+    come_every(run, lines, 0.5)

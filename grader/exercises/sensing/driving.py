@@ -4,39 +4,39 @@ from __future__ import annotations
 
 import math
 
-from grader.checks import Missed, check, keeps_clear, publishes, series, stands_still, travelled
+from grader.checks import Missed, keeps_clear, publishes, series, stands_still, travelled
 from grader.exercise import Exercise
-from grader.exercises.advice import advising
 from grader.exercises.sensing.places import furnished_room, hall
-from sim.recording import Recording
+from sim.evidence import Recording
 
 TWIST = "geometry_msgs/msg/Twist"
 STOP_AT = 1.0  # metres before the wall
 
+stop = Exercise("stop", "Stop before the wall", world=hall, seconds=30, seeds=(1, 2))
 
-@check(points=2)
-def sets_off(recording: Recording) -> None:
+
+@stop.check(2)
+def sets_off(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
-    publishes(recording, "/cmd_vel", TWIST)
-    if max(pose.x for pose in recording.path) < 0.5:
+    publishes(run, "/cmd_vel", TWIST)
+    far = max(pose.x for pose in run.path)
+    if far < 0.5:
         raise Missed(
             "a robot that drives ahead while nothing is nearer than 1 m",
-            f"it comes {max(pose.x for pose in recording.path):.2f} m far",
-            _why_it_stands(recording),
+            f"it comes {far:.2f} m far",
+            _why_it_stands(run),
             picture="path",
         )
 
 
-@check(points=4, after=sets_off)
-def stops_in_time(recording: Recording) -> None:
+@stop.check(4, after=sets_off)
+def stops_in_time(run: Recording) -> None:
     """It stops when the wall is nearer than 1 m, and at once."""
-    if recording.world is None:
-        raise ValueError("this exercise needs a hall")
-    gap = recording.world.bounds[2] - recording.path[-1].x
-    if recording.contacts:
+    gap = run.world.bounds[2] - run.path[-1].x
+    if run.contacts:
         raise Missed(
             "a stop before the wall",
-            f"the robot drove into it at {recording.contacts[0].stamp:.3g} s",
+            f"the robot drove into it at {run.contacts[0].stamp:.3g} s",
             "Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
             "comparison the right way round?",
             picture="path",
@@ -50,12 +50,12 @@ def stops_in_time(recording: Recording) -> None:
         )
 
 
-@check(points=2, after=stops_in_time)
-def says_stop(recording: Recording) -> None:
+@stop.check(2, after=stops_in_time)
+def says_stop(run: Recording) -> None:
     """It stays there, and goes on sending zeros."""
-    stands_still(recording)
-    stamp, speed = series(recording, "/cmd_vel", "linear.x")[-1]
-    if speed or recording.ended.stamp - stamp > 0.5:
+    stands_still(run)
+    stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
+    if speed or run.ended.stamp - stamp > 0.5:
         raise Missed(
             "zeros on /cmd_vel as long as the wall is near",
             f"{speed:g} m/s as the last command, at {stamp:.3g} s",
@@ -65,13 +65,13 @@ def says_stop(recording: Recording) -> None:
         )
 
 
-def _why_it_stands(recording: Recording) -> str:
-    speeds = [speed for _, speed in series(recording, "/cmd_vel", "linear.x")]
+def _why_it_stands(run: Recording) -> str:
+    speeds = [speed for _, speed in series(run, "/cmd_vel", "linear.x")]
     if any(speed < 0 for speed in speeds):
         return "linear.x is negative: that is backwards."
     if any(speeds):
         return "The commands stop too early, or come too rarely: publish one in every callback."
-    if any(turn for _, turn in series(recording, "/cmd_vel", "angular.z")):
+    if any(turn for _, turn in series(run, "/cmd_vel", "angular.z")):
         return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
     return (
         "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line "
@@ -87,74 +87,60 @@ def _why_it_stops_there(gap: float) -> str:
     return "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (metres)."
 
 
-stop = Exercise(
-    "stop",
-    "Stop before the wall",
-    [sets_off, stops_in_time, says_stop],
-    world=hall,
-    seconds=30,
-    seeds=(1, 2),
-)
-
-
 FAR, LONG = 1.0, 4.0  # metres: from the start, and of the way
 
+avoid = Exercise("avoid", "Turn until it is free", world=furnished_room, seconds=60, seeds=(1, 2))
 
-@check(points=2)
-def wanders_off(recording: Recording) -> None:
+
+@avoid.check(2)
+def wanders_off(run: Recording) -> None:
     """The robot moves, with commands on /cmd_vel."""
-    publishes(recording, "/cmd_vel", TWIST)
-    first = recording.path[0]
-    if all(math.dist(first[1:], pose[1:]) < 0.05 for pose in recording.path):
-        with advising(
-            recording, "Ahead with linear.x, or, where something is near ahead, a turn: angular.z."
-        ):
-            raise Missed("a robot that drives or turns", "a robot that stands", picture="path")
+    publishes(run, "/cmd_vel", TWIST)
+    first = run.path[0]
+    if all(math.dist(first[1:], pose[1:]) < 0.05 for pose in run.path):
+        guess = "Ahead with linear.x, or, where something is near ahead, a turn: angular.z."
+        raise Missed("a robot that drives or turns", "a robot that stands", guess=guess, picture="path")
 
 
-@check(points=3, after=wanders_off)
-def drives_on(recording: Recording) -> None:
+@avoid.check(3, after=wanders_off)
+def drives_on(run: Recording) -> None:
     """It does not get stuck: in 60 s it comes 4 m far, or more."""
-    way = travelled(recording)
+    way = travelled(run)
     if way < LONG:
         credit = 0.7 * way / LONG if way > 1.0 else 0.0
-        hint = _why_it_is_stuck(recording)
+        hint = _why_it_is_stuck(run)
         raise Missed(f"a way of {LONG:g} m", f"{way:.2f} m", hint, credit=credit, picture="path")
 
 
-@check(points=5, after=drives_on)
-def hits_nothing(recording: Recording) -> None:
+@avoid.check(5, after=drives_on)
+def hits_nothing(run: Recording) -> None:
     """It touches nothing for 60 s."""
     try:
-        keeps_clear(recording)
+        keeps_clear(run)
     except Missed as missed:
-        first = recording.contacts[0]
-        raise Missed(
-            missed.expected,
-            missed.saw,
-            _why_it_hits(first.side),
-            credit=0.5 * min(first.stamp / recording.seconds, 1.0),
-            picture="path",
-        ) from None
+        first = run.contacts[0]
+        missed.hint = _why_it_hits(first.side)
+        missed.credit = 0.5 * min(first.stamp / run.seconds, 1.0)
+        raise
 
 
-@check(points=4, after=drives_on)
-def gets_about(recording: Recording) -> None:
+@avoid.check(
+    4, after=drives_on, guess="Drive straight on while it is free ahead, and turn only when it is not."
+)
+def gets_about(run: Recording) -> None:
     """It gets about: at some time it is 1 m from where it started, or further."""
-    start = recording.path[0]
-    far = max(math.dist((start.x, start.y), (pose.x, pose.y)) for pose in recording.path)
+    start = run.path[0]
+    far = max(math.dist((start.x, start.y), (pose.x, pose.y)) for pose in run.path)
     if far < FAR:
-        with advising(recording, "Drive straight on while it is free ahead, and turn only when it is not."):
-            raise Missed(
-                f"the robot {FAR:g} m from its start, or further", f"at most {far:.2f} m", picture="path"
-            )
+        expected = f"the robot {FAR:g} m from its start, or further"
+        raise Missed(expected, f"at most {far:.2f} m", picture="path")
 
 
-def _why_it_is_stuck(recording: Recording) -> str:
+def _why_it_is_stuck(run: Recording) -> str:
     """The usual reasons for a short way."""
-    turns = [abs(turn) > 0.05 for _, turn in series(recording, "/cmd_vel", "angular.z")]
-    if recording.contacts:
-        return f"It pushes against something. {_why_it_hits(recording.contacts[0].side)}"
+    turns = [abs(turn) > 0.05 for _, turn in series(run, "/cmd_vel", "angular.z")]
+    if run.contacts:
+        return f"It pushes against something. {_why_it_hits(run.contacts[0].side)}"
     if sum(turns) > 0.6 * len(turns):
         return (
             "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way "
@@ -176,13 +162,3 @@ def _why_it_hits(side: str) -> str:
         "Look ahead in every scan: the rays from -30 to 30 degrees lie at both ends of msg.ranges. When "
         "one of them is nearer than 0.5 m, turn on the spot: linear.x is 0 then."
     )
-
-
-avoid = Exercise(
-    "avoid",
-    "Turn until it is free",
-    [wanders_off, drives_on, hits_nothing, gets_about],
-    world=furnished_room,
-    seconds=60,
-    seeds=(1, 2),
-)

@@ -10,12 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sim.recording import Recording, Seconds
+from sim.evidence import Heard, Recording, Seconds, stamps
 
 RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
 STEP = 0.1  # seconds between the moments that are looked at
 FRESH = 0.2  # seconds: younger commands and scans are good for sure
 FREE, BLOCKED = 1.0, 0.45  # metres ahead: the limit is 0.5 m
+
+Window = tuple[Seconds, Seconds]  # begin and end
 
 
 class Moment(NamedTuple):
@@ -27,27 +29,29 @@ class Moment(NamedTuple):
     sent: tuple[float, float] | None  # None if nothing was sent lately
 
 
-def stamps_of(recording: Recording, topic: str) -> list[Seconds]:
-    """When something was sent on a topic."""
-    return [heard.stamp for heard in recording.messages(topic)]
+def silences(run: Recording, topic: str) -> list[Window]:
+    """Where nothing of ours came on a topic for more than 1.5 s."""
+    return _gaps(stamps(_ours(run, topic)))
 
 
-def gaps(moments: list[Seconds]) -> list[tuple[Seconds, Seconds]]:
-    """Where nothing came for more than 1.5 s."""
+def delays(run: Recording) -> list[Window]:
+    """Where for more than 1.5 s all scans that came were more than half a second old."""
+    in_time = [stamp for stamp, age, _ in _scans(run) if age < 0.5]
+    return [gap for gap in _gaps(in_time) if gap not in silences(run, LIDAR)]
+
+
+def _ours(run: Recording, topic: str) -> list[Heard]:
+    return [heard for heard in run.messages(topic) if run.is_ours(heard.sender)]
+
+
+def _gaps(moments: list[Seconds]) -> list[Window]:
     return [(a, b) for a, b in itertools.pairwise(moments) if b - a > 1.5]
 
 
-def lateness_of(recording: Recording) -> list[tuple[Seconds, Seconds]]:
-    """Where for more than 1.5 s all scans that came were more than half a second old."""
-    in_time = [stamp for stamp, age, _ in _scans(recording) if age < 0.5]
-    silent = gaps(stamps_of(recording, LIDAR))
-    return [gap for gap in gaps(in_time) if gap not in silent]
-
-
-def _scans(recording: Recording) -> list[tuple[Seconds, Seconds, float]]:
+def _scans(run: Recording) -> list[tuple[Seconds, Seconds, float]]:
     """When each scan came, how old it was then, and the nearest distance within 60 degrees of ahead."""
     found = []
-    for heard in recording.messages(LIDAR):
+    for heard in _ours(run, LIDAR):
         message = heard.message
         measured = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
         ahead = np.array(message.ranges[:61] + message.ranges[-60:])
@@ -55,12 +59,12 @@ def _scans(recording: Recording) -> list[tuple[Seconds, Seconds, float]]:
     return found
 
 
-def moments_of(recording: Recording) -> Iterator[Moment]:
+def moments_of(run: Recording) -> Iterator[Moment]:
     """What a guard knew, and what it sent, every tenth of a second."""
-    scans, asked, sent = _scans(recording), _commands(recording, RAW), _commands(recording, OUT)
+    scans, asked, sent = _scans(run), _commands(_ours(run, RAW)), _commands(run.messages(OUT))
     scan_at = _latest(scans)
     asked_at, sent_at = _latest(asked), _latest(sent)
-    for index in range(10, int(recording.ended.stamp / STEP)):
+    for index in range(10, int(run.ended.stamp / STEP)):
         now = index * STEP + 0.01  # beside the moments at which timers fire
         seen = [scan_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
         wishes = [asked_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
@@ -83,8 +87,8 @@ def _cautious(ahead: list[float]) -> float:
     return float("nan")
 
 
-def _commands(recording: Recording, topic: str) -> list[tuple[Seconds, float, float]]:
-    sent = [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+def _commands(messages: list[Heard]) -> list[tuple[Seconds, float, float]]:
+    sent = [(heard.stamp, heard.message) for heard in messages]
     return [(stamp, twist.linear.x, twist.angular.z) for stamp, twist in sent]
 
 

@@ -10,12 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grader.checks import Missed, check, publishes, subscribes
+from grader.checks import Missed, hinting, lasts, publishes, subscribes
 from grader.exercise import Exercise, Scenario
-from grader.exercises.advice import advising
 from grader.exercises.sensing.partners import Circling, StrangeLidar
 from grader.exercises.sensing.places import furnished_room
-from sim.recording import Heard, Recording, Seconds, stamps
+from sim.evidence import Heard, Recording, Seconds, stamps
 
 SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
 MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
@@ -75,46 +74,57 @@ def _least(rays: np.ndarray) -> float:
     return float(known.min()) if len(known) else math.inf
 
 
-@check(points=3)
-def says_three_distances(recording: Recording) -> None:
+sectors = Exercise(
+    "sectors",
+    "Ahead, left and right",
+    scenarios=[
+        Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
+        Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
+    ],
+)
+
+
+@sectors.check(3)
+def says_three_distances(run: Recording) -> list[Look]:
     """The node hears /scan, and publishes Float64 messages on /front, /left and /right."""
-    subscribes(recording, "/scan", SCAN)
-    for topic in MIDDLES:
-        with advising(
-            recording, "A publisher for each of the three, and a message on each after every scan."
-        ):
-            publishes(recording, topic, FLOAT64, at_least=5)
+    subscribes(run, "/scan", SCAN)
+    with hinting(guess="A publisher for each of the three, and a message on each after every scan."):
+        for topic in MIDDLES:
+            publishes(run, topic, FLOAT64, at_least=5)
+    return list(_looks(run))
 
 
-@check(points=5, after=says_three_distances)
-def knows_the_directions(recording: Recording) -> None:
+@sectors.check(5, after=says_three_distances)
+def knows_the_directions(run: Recording, looks: list[Look]) -> list[Look]:
     """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
-    looks = list(_looks(recording))
     wrong = [look for look in looks if look.sector.kind == "plain" and not look.right]
     if wrong:
-        _miss(wrong[0], _why_wrong(recording, looks, wrong))
+        _miss(wrong[0], _why_wrong(run, looks, wrong))
+    for topic in MIDDLES:
+        lasts(run, topic)
+    return looks
 
 
-@check(points=4, after=knows_the_directions)
-def leaves_out_lost_rays(recording: Recording) -> None:
+@sectors.check(4, after=knows_the_directions)
+def leaves_out_lost_rays(run: Recording, looks: list[Look]) -> None:
     """Rays that got lost (nan) change nothing."""
     hint = "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False."
-    _all_right(recording, "lost", hint)
+    _all_right(looks, "lost", hint)
 
 
-@check(points=3, after=knows_the_directions)
-def knows_near_and_far(recording: Recording) -> None:
+@sectors.check(3, after=knows_the_directions)
+def knows_near_and_far(run: Recording, looks: list[Look]) -> None:
     """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
     near = "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is."
-    _all_right(recording, "near", near)
+    _all_right(looks, "near", near)
     far = "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default."
-    _all_right(recording, "empty", far)
+    _all_right(looks, "empty", far)
 
 
-def _all_right(recording: Recording, kind: str, hint: str) -> None:
-    wrong = next((look for look in _looks(recording) if look.sector.kind == kind and not look.right), None)
+def _all_right(looks: list[Look], kind: str, hint: str) -> None:
+    wrong = [look for look in looks if look.sector.kind == kind and not look.right]
     if wrong:
-        _miss(wrong, hint)
+        _miss(wrong[0], hint)
 
 
 def _miss(look: Look, hint: str) -> None:
@@ -125,7 +135,7 @@ def _miss(look: Look, hint: str) -> None:
     )
 
 
-def _why_wrong(recording: Recording, looks: list[Look], wrong: list[Look]) -> str:
+def _why_wrong(run: Recording, looks: list[Look], wrong: list[Look]) -> str:
     """The usual reasons for a wrong distance."""
     first, sides = wrong[0], [look for look in wrong if look.topic != "/front"]
     if all(look.said == look.sector.middle for look in wrong):
@@ -140,7 +150,7 @@ def _why_wrong(recording: Recording, looks: list[Look], wrong: list[Look]) -> st
             "That is the nearest distance of all directions. Are both angles in degrees? "
             "math.degrees(...) makes degrees of radians."
         )
-    if recording.world is None:
+    if run.world is None:
         return _why_another_lidar(looks, first)
     if any(look.said in look.sector.rays for look in sides if look.said and math.isfinite(look.said)):
         return "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides."
@@ -168,10 +178,10 @@ def _why_another_lidar(looks: list[Look], wrong: Look) -> str:
     )
 
 
-def _looks(recording: Recording) -> Iterator[Look]:
+def _looks(run: Recording) -> Iterator[Look]:
     """What was said after each scan: the last message on a topic before the next one came."""
-    scans = recording.messages("/scan")
-    messages = {topic: recording.messages(topic) for topic in MIDDLES}
+    scans = run.messages("/scan")
+    messages = {topic: run.messages(topic) for topic in MIDDLES}
     times = {topic: stamps(heard) for topic, heard in messages.items()}
     before: dict[str, Sector] = {}
     for scan, following in itertools.pairwise(scans):
@@ -204,14 +214,3 @@ def _sectors(scan: Heard) -> dict[str, Sector]:
         )
         for topic, far in off.items()
     }
-
-
-sectors = Exercise(
-    "sectors",
-    "Ahead, left and right",
-    [says_three_distances, knows_the_directions, leaves_out_lost_rays, knows_near_and_far],
-    scenarios=[
-        Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
-        Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
-    ],
-)

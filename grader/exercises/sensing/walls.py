@@ -6,54 +6,59 @@ import itertools
 import math
 import statistics
 
-from grader.checks import Missed, check, keeps_clear, passes, publishes, series, travelled
+from grader.checks import Missed, keeps_clear, passes, publishes, series, travelled
 from grader.exercise import Exercise
-from grader.exercises.advice import advising
 from grader.exercises.sensing.places import MARGIN, gallery
-from sim.recording import Pose, Recording
+from sim.evidence import Pose, Recording
 
 NEAR, FAR = 0.3, 0.8  # metres from the wall
 SETTLED = 3.0  # seconds
 SHARE = 0.9  # of the time
 
 
-@check(points=2)
-def leaves_the_start(recording: Recording) -> None:
+wall = Exercise("wall", "Round the room", world=gallery, seconds=90, seeds=(1, 2))
+
+
+@wall.check(2)
+def leaves_the_start(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
-    publishes(recording, "/cmd_vel", "geometry_msgs/msg/Twist")
-    if travelled(recording) < 0.5:
-        with advising(recording, "While nothing is ahead, linear.x should be 0.2 or more."):
-            raise Missed("a robot that drives", f"a way of {travelled(recording):.2f} m", picture="path")
-
-
-@check(points=8, after=leaves_the_start)
-def goes_round(recording: Recording) -> None:
-    """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
-    left, low, right, top = recording.world.bounds
-    corners = [
-        (right - MARGIN, low + MARGIN),
-        (right - MARGIN, top - MARGIN),
-        (left + MARGIN, top - MARGIN),
-        (left + MARGIN, low + MARGIN),
-    ]
-    try:
-        passes(recording, corners, tolerance=0.6)
-    except Missed as missed:
-        done = round(missed.credit * 4)
-        corner = ("lower right", "upper right", "upper left", "lower left")[done]
+    publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
+    if travelled(run) < 0.5:
         raise Missed(
-            "the four corners: lower right, upper right, upper left, lower left",
-            f"{done} of them; then it never came within 0.6 m of the {corner} one's inside",
-            _why_not_round(recording),
+            "a robot that drives",
+            f"a way of {travelled(run):.2f} m",
+            guess="While nothing is ahead, linear.x should be 0.2 or more.",
+            picture="path",
+        )
+
+
+@wall.check(8, after=leaves_the_start)
+def goes_round(run: Recording) -> None:
+    """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
+    left, low, right, top = run.world.bounds
+    corners = {
+        "lower right": (right - MARGIN, low + MARGIN),
+        "upper right": (right - MARGIN, top - MARGIN),
+        "upper left": (left + MARGIN, top - MARGIN),
+        "lower left": (left + MARGIN, low + MARGIN),
+    }
+    try:
+        passes(run, list(corners.values()), tolerance=0.6)
+    except Missed as missed:
+        done = round(missed.credit * len(corners))
+        raise Missed(
+            f"the four corners: {', '.join(corners)}",
+            f"{done} of them; then it never came within 0.6 m of the {list(corners)[done]} one's inside",
+            _why_not_round(run),
             credit=missed.credit,
             picture="path",
         ) from None
 
 
-@check(points=4, after=goes_round)
-def keeps_the_distance(recording: Recording) -> None:
+@wall.check(4, after=goes_round)
+def keeps_the_distance(run: Recording) -> None:
     """It keeps 30 cm to 80 cm from the wall, for nine tenths of the time or more."""
-    gaps = [_gap(recording, pose) for pose in recording.path if pose.stamp >= SETTLED]
+    gaps = [_gap(run, pose) for pose in run.path if pose.stamp >= SETTLED]
     share = sum(NEAR <= gap <= FAR for gap in gaps) / len(gaps)
     if share < SHARE:
         near, far = sum(gap < NEAR for gap in gaps), sum(gap > FAR for gap in gaps)
@@ -73,30 +78,24 @@ def keeps_the_distance(recording: Recording) -> None:
         )
 
 
-@check(points=4, after=goes_round)
-def touches_nothing(recording: Recording) -> None:
+@wall.check(4, after=goes_round)
+def touches_nothing(run: Recording) -> None:
     """It touches nothing."""
-    try:
-        keeps_clear(recording)
-    except Missed as missed:
-        raise Missed(
-            missed.expected,
-            missed.saw,
-            "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m.",
-            picture="path",
-        ) from None
+    keeps_clear(
+        run, "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m."
+    )
 
 
-def _gap(recording: Recording, pose: Pose) -> float:
+def _gap(run: Recording, pose: Pose) -> float:
     """The distance to the nearest of the room's walls, m."""
-    left, low, right, top = recording.world.bounds
+    left, low, right, top = run.world.bounds
     return min(pose.x - left, right - pose.x, pose.y - low, top - pose.y)
 
 
-def _why_not_round(recording: Recording) -> str:
+def _why_not_round(run: Recording) -> str:
     """The usual reasons for not getting round."""
-    first = recording.contacts[0] if recording.contacts else None
-    infinite = any(not math.isfinite(turn) for _, turn in series(recording, "/cmd_vel", "angular.z"))
+    first = run.contacts[0] if run.contacts else None
+    infinite = any(not math.isfinite(turn) for _, turn in series(run, "/cmd_vel", "angular.z"))
     if infinite and (first is None or first.side != "front"):
         return (
             "It came so near to the wall that a ray said -inf (or nan), the formula made an infinite turn of "
@@ -108,28 +107,18 @@ def _why_not_round(recording: Recording) -> str:
             f"It touched a {first.what} at {first.stamp:.3g} s, with its {first.side} side. When the wall "
             "ahead is nearer than 0.6 m, stop and turn left until it is free again."
         )
-    gap = statistics.median(_gap(recording, pose) for pose in recording.path)
+    gap = statistics.median(_gap(run, pose) for pose in run.path)
     if not NEAR <= gap <= FAR:
         return f"Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m."
-    left, low, right, top = recording.world.bounds
+    left, low, right, top = run.world.bounds
     middle = (left + right) / 2, (low + top) / 2
-    bearings = [math.atan2(pose.y - middle[1], pose.x - middle[0]) for pose in recording.path]
+    bearings = [math.atan2(pose.y - middle[1], pose.x - middle[0]) for pose in run.path]
     around = sum(math.remainder(b - a, math.tau) for a, b in itertools.pairwise(bearings))
     if around < -math.pi / 2:
         return "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270]."
-    if travelled(recording) < 10.0:
+    if travelled(run) < 10.0:
         return "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more."
     return (
         "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays "
         "at 0.5 m."
     )
-
-
-wall = Exercise(
-    "wall",
-    "Round the room",
-    [leaves_the_start, goes_round, keeps_the_distance, touches_nothing],
-    world=gallery,
-    seconds=90,
-    seeds=(1, 2),
-)

@@ -4,7 +4,7 @@ from grader.exercises.services.answering import add, calibrate
 from grader.exercises.services.arming import arming
 from grader.exercises.services.asking import door, ticks
 from grader.exercises.services.modes import modes
-from grader.exercises.services.partners import Operator, Pilot, Pupil, RawGyro, Technician, Tuner
+from grader.exercises.services.partners import Operator, Pilot, Questioner, RawGyro, Technician, Tuner
 from grader.exercises.services.servers import Door, SlowAdder, Wheels
 from grader.exercises.services.settings import launch, parameters
 
@@ -12,7 +12,7 @@ __all__ = [
     "Door",
     "Operator",
     "Pilot",
-    "Pupil",
+    "Questioner",
     "RawGyro",
     "SlowAdder",
     "Technician",

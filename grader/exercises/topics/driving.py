@@ -8,8 +8,9 @@ import math
 from grader.checks import (
     Missed,
     arrives,
-    check,
+    ends_with_a_stop,
     follows,
+    hinting,
     passes,
     publishes,
     series,
@@ -18,108 +19,94 @@ from grader.checks import (
     travelled,
 )
 from grader.exercise import Exercise
-from grader.exercises.advice import advising
-from sim.recording import Recording, stamps
+from sim.evidence import Recording, stamps
 
-PAIRS = "A remapping is a pair of names: first the one in the node's code, then the one on the robot."
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 
+remapping = Exercise("remapping", "Another robot's node", world="yard", seconds=8)
+PAIRS = "A remapping is a pair of names: first the one in the node's code, then the one on the robot."
 
-@check(points=4)
-def commands_reach_the_robot(recording: Recording) -> None:
+
+@remapping.check(4, guess=PAIRS)
+def commands_reach_the_robot(run: Recording) -> None:
     """The node's commands go to /cmd_vel."""
-    with advising(recording, PAIRS):
-        publishes(recording, "/cmd_vel", TWIST)
+    publishes(run, "/cmd_vel", TWIST)
 
 
-@check(points=4)
-def odometry_reaches_the_node(recording: Recording) -> None:
+@remapping.check(4, guess=PAIRS)
+def odometry_reaches_the_node(run: Recording) -> None:
     """The node hears the robot's /odom."""
-    with advising(recording, PAIRS):
-        subscribes(recording, "/odom", ODOMETRY)
+    subscribes(run, "/odom", ODOMETRY)
 
 
-@check(points=4, after=(commands_reach_the_robot, odometry_reaches_the_node))
-def drives_one_metre(recording: Recording) -> None:
-    """The robot drives one metre straight on and stops there."""
-    with advising(recording, "OneMetre does this by itself, once both names are right."):
-        arrives(recording, (1.0, 0.0), tolerance=0.1)
-    stands_still(recording)
-
-
-remapping = Exercise(
-    "remapping",
-    "Another robot's node",
-    [commands_reach_the_robot, odometry_reaches_the_node, drives_one_metre],
-    world="yard",
-    seconds=8,
+@remapping.check(
+    4,
+    after=(commands_reach_the_robot, odometry_reaches_the_node),
+    guess="OneMetre does this by itself, once both names are right.",
 )
+def drives_one_metre(run: Recording) -> None:
+    """The robot drives one metre straight on and stops there."""
+    arrives(run, (1.0, 0.0), tolerance=0.1)
+    stands_still(run)
+    ends_with_a_stop(run)
 
 
+square = Exercise("square", "A square", world="yard", seconds=60)
 START, CORNERS = (0.0, 0.0), [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 NEAR = 0.15  # metres
 TIMEOUT = 0.5  # seconds after which the robot stops without a command
 
 
-@check(points=2)
-def sends_velocities(recording: Recording) -> None:
+@square.check(2)
+def sends_velocities(run: Recording) -> None:
     """The node publishes Twist messages on /cmd_vel."""
-    publishes(recording, "/cmd_vel", TWIST)
+    publishes(run, "/cmd_vel", TWIST)
 
 
-@check(points=8, after=sends_velocities)
-def passes_the_corners(recording: Recording) -> None:
+@square.check(8, after=sends_velocities)
+def passes_the_corners(run: Recording) -> None:
     """The robot passes (1, 0), (1, 1), (0, 1) and (0, 0), in this order."""
-    with advising(recording, _driving_hint(recording)):
-        passes(recording, [*CORNERS, START], tolerance=NEAR)
+    with hinting(guess=_usual_reason(run)):
+        passes(run, [*CORNERS, START], tolerance=NEAR)
 
 
-@check(points=3, after=passes_the_corners)
-def keeps_to_the_line(recording: Recording) -> None:
-    """On its way the robot stays within 15 cm of the square's sides."""
-    if travelled(recording) < 3.0:
-        saw = f"a way of {travelled(recording):.2f} m"
-        raise Missed("a way along all four sides, 4 m", saw, "Drive the whole square first.", picture="path")
-    with advising(recording, "The picture shows where it leaves the square."):
-        follows(recording, [START, *CORNERS, START], tolerance=NEAR)
-
-
-@check(points=3, after=passes_the_corners)
-def closes_the_square(recording: Recording) -> None:
-    """After the third corner the robot ends where it began, within 15 cm."""
-    try:
-        passes(recording, CORNERS, tolerance=NEAR)
-    except Missed as missed:
-        raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
-    with advising(recording, "After four sides and four corners, send zeros."):
-        arrives(recording, START, tolerance=NEAR)
-
-
-@check(points=2, after=passes_the_corners)
-def stops_at_the_end(recording: Recording) -> None:
-    """The robot stands still at the end."""
-    stands_still(recording)
-
-
-def _driving_hint(recording: Recording) -> str:
-    """The usual reasons for a square that is none."""
-    fastest = max(abs(value) for _, value in series(recording, "/cmd_vel", "angular.z"))
+def _usual_reason(run: Recording) -> str:
+    """Why a square is none, as a hint."""
+    fastest = max(abs(value) for _, value in series(run, "/cmd_vel", "angular.z"))
     if fastest > math.tau:
         return f"angular.z was {fastest:.3g}: its unit is rad/s, and a quarter turn is pi/2 = 1.57 rad."
-    if any(value for _, value in series(recording, "/cmd_vel", "linear.y")):
+    if any(value for _, value in series(run, "/cmd_vel", "linear.y")):
         return "This robot can't move sideways, so it ignores linear.y: turn, then drive ahead with linear.x."
-    moments = stamps(recording.messages("/cmd_vel"))
+    moments = stamps(run.messages("/cmd_vel"))
     if any(after - before > TIMEOUT for before, after in itertools.pairwise(moments)):
         return "The robot stops by itself 0.5 s after the last command: repeat it at 10 Hz, from a timer."
-    if any(math.dist((1.0, -1.0), (pose.x, pose.y)) < NEAR for pose in recording.path):
+    if any(math.dist((1.0, -1.0), (pose.x, pose.y)) < NEAR for pose in run.path):
         return "The robot turned right. A positive angular.z turns left."
     return "Speed times seconds is the way: 1 m for a side, pi/2 rad for a corner. The picture shows yours."
 
 
-square = Exercise(
-    "square",
-    "A square",
-    [sends_velocities, passes_the_corners, keeps_to_the_line, closes_the_square, stops_at_the_end],
-    world="yard",
-    seconds=60,
-)
+@square.check(3, after=passes_the_corners, guess="The picture shows where it leaves the square.")
+def keeps_to_the_line(run: Recording) -> None:
+    """On its way the robot stays within 15 cm of the square's sides."""
+    way = travelled(run)
+    if way < 3.0:
+        expected, saw = "a way along all four sides, 4 m", f"a way of {way:.2f} m"
+        raise Missed(expected, saw, "Drive the whole square first.", picture="path")
+    follows(run, [START, *CORNERS, START], tolerance=NEAR)
+
+
+@square.check(3, after=passes_the_corners, guess="After four sides and four corners, send zeros.")
+def closes_the_square(run: Recording) -> None:
+    """After the third corner the robot ends where it began, within 15 cm."""
+    try:
+        passes(run, CORNERS, tolerance=NEAR)
+    except Missed as missed:
+        raise Missed("three corners, and then the start", missed.saw, "First pass the corners.") from None
+    arrives(run, START, tolerance=NEAR)
+
+
+@square.check(2, after=passes_the_corners)
+def stops_at_the_end(run: Recording) -> None:
+    """The robot stands still at the end."""
+    stands_still(run)
+    ends_with_a_stop(run)

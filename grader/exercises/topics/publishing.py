@@ -5,58 +5,53 @@ from __future__ import annotations
 import itertools
 import math
 
-from grader.checks import Missed, check, publishes, rate, series, within
+from grader.checks import Missed, publishes, rate, within
 from grader.exercise import Exercise
-from grader.exercises.advice import advising
-from sim.recording import Recording
+from sim.evidence import Heard, Recording
+
+greeting = Exercise("greeting", "A publisher in one line", seconds=5)
 
 
-@check(points=5)
-def says_something(recording: Recording) -> None:
+@greeting.check(5)
+def says_something(run: Recording) -> None:
     """The node publishes String messages on /greeting."""
-    publishes(recording, "/greeting", "std_msgs/msg/String")
+    publishes(run, "/greeting", "std_msgs/msg/String")
 
 
-@check(points=3, after=says_something)
-def says_it_twice_a_second(recording: Recording) -> None:
+@greeting.check(3, after=says_something)
+def says_it_twice_a_second(run: Recording) -> None:
     """A greeting goes out twice a second."""
-    rate(recording, "/greeting", 2.0)
+    rate(run, "/greeting", 2.0)
 
 
-greeting = Exercise(
-    "greeting",
-    "A publisher in one line",
-    [says_something, says_it_twice_a_second],
-    seconds=5,
-)
-
-
+temperature = Exercise("temperature", "A thermometer", seconds=10)
 TEMPERATURE = "/sensor/temperature"
 
 
-@check(points=5)
-def temperature_is_published(recording: Recording) -> None:
+@temperature.check(5)
+def temperature_is_published(run: Recording) -> list[Heard]:
     """The node publishes Float32 messages on /sensor/temperature."""
-    publishes(recording, TEMPERATURE, "std_msgs/msg/Float32")
+    return publishes(run, TEMPERATURE, "std_msgs/msg/Float32")
 
 
-@check(points=4, after=temperature_is_published)
-def temperature_once_a_second(recording: Recording) -> None:
+@temperature.check(4, after=temperature_is_published)
+def temperature_once_a_second(run: Recording) -> None:
     """A temperature comes once a second."""
-    rate(recording, TEMPERATURE, 1.0)
+    rate(run, TEMPERATURE, 1.0)
 
 
-@check(points=4, after=temperature_is_published)
-def temperature_in_range(recording: Recording) -> None:
+@temperature.check(
+    4, after=temperature_is_published, guess="random.uniform(20.0, 25.0) gives a number in this range."
+)
+def temperature_in_range(run: Recording) -> None:
     """Every temperature is from 20 to 25 °C."""
-    with advising(recording, "random.uniform(20.0, 25.0) gives a number in this range."):
-        within(recording, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
+    within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
 
 
-@check(points=2, after=temperature_is_published)
-def temperature_changes(recording: Recording) -> None:
+@temperature.check(2, after=temperature_is_published)
+def temperature_changes(run: Recording, sent: list[Heard]) -> None:
     """The temperature changes from message to message."""
-    values = [value for _, value in series(recording, TEMPERATURE, "data")]
+    values = [heard.message.data for heard in sent]
     same = sum(before == after for before, after in itertools.pairwise(values))
     if len(values) < 2 or same > len(values) / 2:
         raise Missed(
@@ -66,46 +61,40 @@ def temperature_changes(recording: Recording) -> None:
         )
 
 
-temperature = Exercise(
-    "temperature",
-    "A thermometer",
-    [temperature_is_published, temperature_once_a_second, temperature_in_range, temperature_changes],
-    seconds=10,
-)
+imu = Exercise("imu", "An IMU", seconds=3)
+IMU = "/imu/data"
+LEFT = math.sqrt(0.5)  # z and w of the quaternion that says so
 
 
-IMU_TOPIC = "/imu/data"
-
-
-@check(points=3)
-def imu_is_published(recording: Recording) -> None:
+@imu.check(3)
+def imu_is_published(run: Recording) -> list[Heard]:
     """The node publishes Imu messages on /imu/data."""
-    publishes(recording, IMU_TOPIC, "sensor_msgs/msg/Imu")
+    return publishes(run, IMU, "sensor_msgs/msg/Imu")
 
 
-@check(points=4, after=imu_is_published)
-def imu_at_100_hz(recording: Recording) -> None:
+@imu.check(4, after=imu_is_published)
+def imu_at_100_hz(run: Recording) -> None:
     """They come at 100 Hz."""
-    rate(recording, IMU_TOPIC, 100.0, tolerance=0.05)
+    rate(run, IMU, 100.0, tolerance=0.05)
 
 
-@check(points=2, after=imu_is_published)
-def imu_names_its_frame(recording: Recording) -> None:
+@imu.check(2, after=imu_is_published)
+def imu_names_its_frame(run: Recording, sent: list[Heard]) -> None:
     """The header's frame_id is imu_link."""
-    for stamp, frame in series(recording, IMU_TOPIC, "header.frame_id"):
+    for heard in sent:
+        frame = heard.message.header.frame_id
         if frame != "imu_link":
-            hint = "A frame's name has no slash in front." if frame == "/imu_link" else ""
-            raise Missed(
-                "header.frame_id “imu_link” in every message",
-                f"“{frame}” at {stamp:.3g} s",
-                hint or 'Set it before publish(): msg.header.frame_id = "imu_link".',
-            )
+            hint = 'Set it before publish(): msg.header.frame_id = "imu_link".'
+            if frame == "/imu_link":
+                hint = "A frame's name has no slash in front."
+            saw = f"“{frame}” at {heard.stamp:.3g} s"
+            raise Missed("header.frame_id “imu_link” in every message", saw, hint)
 
 
-@check(points=3, after=imu_is_published)
-def imu_is_stamped(recording: Recording) -> None:
+@imu.check(3, after=imu_is_published)
+def imu_is_stamped(run: Recording, sent: list[Heard]) -> None:
     """The header's stamp is the time at which the message is sent."""
-    for heard in recording.messages(IMU_TOPIC):
+    for heard in sent:
         stamp = heard.message.header.stamp
         seconds = stamp.sec + stamp.nanosec / 1e9
         if abs(seconds - heard.stamp) > 0.02:
@@ -116,49 +105,32 @@ def imu_is_stamped(recording: Recording) -> None:
             )
 
 
-@check(points=2, after=imu_is_published)
-def imu_feels_gravity(recording: Recording) -> None:
+@imu.check(2, after=imu_is_published, guess="msg.linear_acceleration.z = 9.81; upwards is positive.")
+def imu_feels_gravity(run: Recording) -> None:
     """The acceleration along z is 9.81 m/s²."""
-    with advising(recording, "msg.linear_acceleration.z = 9.81; upwards is positive."):
-        within(recording, IMU_TOPIC, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
+    within(run, IMU, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
 
 
-@check(points=3, after=imu_is_published)
-def imu_looks_left(recording: Recording) -> None:
+@imu.check(3, after=imu_is_published)
+def imu_looks_left(run: Recording, sent: list[Heard]) -> None:
     """The orientation is a unit quaternion that says: turned 90 degrees to the left."""
-    for heard in recording.messages(IMU_TOPIC):
+    for heard in sent:
         q = heard.message.orientation
         length = math.hypot(q.x, q.y, q.z, q.w)
         if not abs(length - 1.0) < 0.01:
             raise Missed(
                 "a quaternion of length 1",
-                f"length {length:.3g} at {heard.stamp:.3g} s: {_quaternion(q)}",
+                f"length {length:.3g} at {heard.stamp:.3g} s: {_in_words(q)}",
                 "A quaternion holds no angles: z = math.sin(yaw / 2), w = math.cos(yaw / 2), x = y = 0.",
             )
-        half = math.sqrt(0.5)
-        if abs(q.z * half + q.w * half) < 0.999:  # 1 for the same rotation, with either sign
+        if abs(q.z * LEFT + q.w * LEFT) < 0.999:  # 1 for the same rotation, with either sign
             raise Missed(
-                f"the quaternion {_quaternion(type(q)(z=half, w=half))}",
-                f"{_quaternion(q)} at {heard.stamp:.3g} s",
+                f"the quaternion {_in_words(type(q)(z=LEFT, w=LEFT))}",
+                f"{_in_words(q)} at {heard.stamp:.3g} s",
                 "yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in radians.",
                 credit=1 / 3,
             )
 
 
-def _quaternion(q: object) -> str:
-    return ", ".join(f"{name} {getattr(q, name):.3g}" for name in "xyzw")
-
-
-imu = Exercise(
-    "imu",
-    "An IMU",
-    [
-        imu_is_published,
-        imu_at_100_hz,
-        imu_names_its_frame,
-        imu_is_stamped,
-        imu_feels_gravity,
-        imu_looks_left,
-    ],
-    seconds=3,
-)
+def _in_words(quaternion: object) -> str:
+    return ", ".join(f"{name} {getattr(quaternion, name):.3g}" for name in "xyzw")

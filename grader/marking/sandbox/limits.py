@@ -1,4 +1,4 @@
-"""What an inmate may use, and how one came to its end."""
+"""What a confined process may use, and how one came to its end."""
 
 import resource
 from dataclasses import dataclass
@@ -11,9 +11,9 @@ KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "threads")
 
 @dataclass(frozen=True)
 class Limits:
-    """The most that one inmate may use. MB are 1024 * 1024 bytes."""
+    """The most that one confined process may use. MB are 1024 * 1024 bytes."""
 
-    memory_mb: int = 2000  # of address space, of which an idle inmate has about 500
+    memory_mb: int = 2000  # of address space, of which an idle confined process has about 500
     cpu_s: int = 600  # seconds of computing, all threads together
     wall_s: float = 900  # seconds from start to end
     file_mb: int = 64  # in one file
@@ -28,11 +28,11 @@ USUAL = Limits()
 
 @dataclass(frozen=True)
 class Ending:
-    """How an inmate ended.
+    """How a confined process ended.
 
     kind: one of KINDS. detail: a sentence that says it. code: its exit status, negative for a signal.
     cpu_s: seconds it computed. peak_mb: most memory it had, None if nobody could tell.
-    words: the last it wrote to its stderr. Like the exit status, that is what the inmate says of itself.
+    words: the last it wrote to its stderr. Like the exit status, that is what it says of itself.
     """
 
     kind: str
@@ -46,7 +46,7 @@ class Ending:
 def apply(limits: Limits, own_users: bool) -> None:
     """Limit this process from now on; `own_users` says that it has a user namespace of its own.
 
-    The keeper watches the time, for Linux's own limit counts it too roughly to be told from other ends.
+    The supervisor watches the time, for Linux's own limit counts it too roughly to be told from other ends.
     """
     figures = {
         resource.RLIMIT_AS: limits.memory_mb * MB,

@@ -1,4 +1,4 @@
-"""Where the inmates live: a cage made by bubblewrap, with a warm interpreter in it."""
+"""Where confined processes live: walls made by bubblewrap, with a warm interpreter inside."""
 
 import platform
 import socket
@@ -8,11 +8,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Self
 
-from grader.marking.sandbox import cage
-from grader.marking.sandbox.errors import SandboxFailed, SandboxMissing
-from grader.marking.sandbox.inmate import Inmate
+from grader.marking.errors import SandboxFailed, SandboxMissing
+from grader.marking.sandbox import bubblewrap
+from grader.marking.sandbox.confined_process import ConfinedProcess
 from grader.marking.sandbox.limits import USUAL, Limits
-from grader.marking.sandbox.warm import WarmProcess
+from grader.marking.sandbox.warm_process import WarmProcess
 
 PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.core.interactiveshell")
 
@@ -20,18 +20,18 @@ PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.cor
 class Sandbox:
     """Starts students' processes, each apart from everything and from each other. Thread-safe.
 
-    entry: "module:function"; each inmate calls it with a connected unix socket, its only way out.
-    preload: modules that are imported once, before any inmate. imports: folders with more modules.
-    readable: files and folders that inmates may read, at the same paths as here. Besides those they see
-    the system's programs, Python with its packages, and the packages sim and grader; nothing else.
-    unsafe: no cage. Inmates then are plain processes with the same limits. They have no rights of their own
+    entry: "module:function"; each confined process calls it with a connected unix socket, its only way out.
+    preload: modules that are imported once, before any confined process. imports: folders with more modules.
+    readable: files and folders that can be read inside, at the same paths as here. Besides those they see the
+    system's programs, Python with its packages, and the packages sim and grader; nothing else.
+    unsafe: no walls. They then are plain processes with the same limits. They have no rights of their own
     over the machine, and every right of the user who marks: they can read and write all files, use the
     network and kill processes. For machines without bubblewrap, and for code that is trusted.
     """
 
     def __init__(
         self,
-        entry: str = "grader.marking.student.process:main",
+        entry: str = "grader.marking.student_process.cell_runner:main",
         preload: Sequence[str] = PRELOAD,
         readable: Sequence[Path] = (),
         unsafe: bool = False,
@@ -52,20 +52,20 @@ class Sandbox:
             "preload": list(preload),
             "imports": [str(path) for path in imports],
             "limits": asdict(limits),
-            "caged": not unsafe,
-            "visible": [] if unsafe else cage.visible([*readable, *imports]),
+            "sandboxed": not unsafe,
+            "visible": [] if unsafe else bubblewrap.visible([*readable, *imports]),
         }
         self._lock = threading.Lock()
         self._warm: WarmProcess | None = WarmProcess(self._order)
 
-    def start(self, sock: socket.socket) -> Inmate:
-        """Start an inmate that gets `sock`, which is closed here; `wait` for it. Raises SandboxFailed."""
+    def start(self, sock: socket.socket) -> ConfinedProcess:
+        """Start a process that gets `sock`, which is closed here; `wait` for it. Raises SandboxFailed."""
         with sock:
             warm = self._current()
             try:
                 return warm.start(sock)
             except SandboxFailed:
-                if warm.alive(patience=1.0):
+                if warm.alive(wait_s=1.0):
                     raise
             return self._current().start(sock)
 
@@ -80,7 +80,7 @@ class Sandbox:
             return self._warm
 
     def close(self) -> None:
-        """End the warm process and every inmate that still runs."""
+        """End the warm process and every confined process that still runs."""
         with self._lock:
             if self._warm:
                 self._warm.end()

@@ -1,7 +1,7 @@
-"""The filter on system calls that every inmate has: a BPF program for x86_64.
+"""The filter on system calls that every confined process has: a BPF program for x86_64.
 
 A call that is denied fails with EPERM, so student code gets an ordinary PermissionError. Threads are allowed,
-processes are not; nor is anything that outlives the inmate or is shared with another one.
+processes are not; nor is anything that outlives the confined process or is shared with another one.
 """
 
 import errno
@@ -20,7 +20,7 @@ DENIED = {
     # other processes
     "ptrace": 101, "process_vm_readv": 310, "process_vm_writev": 311, "process_madvise": 440, "kcmp": 312,
     "pidfd_open": 434, "pidfd_getfd": 438,
-    # memory and messages that stay when the inmate is gone, or that no limit counts
+    # memory and messages that stay when the confined process is gone, or that no limit counts
     "shmget": 29, "shmat": 30, "shmctl": 31, "semget": 64, "msgget": 68, "mq_open": 240,
     "memfd_create": 319, "memfd_secret": 447,
     "inotify_init": 253, "inotify_init1": 294,  # a user has 128 of them, on the whole machine

@@ -14,11 +14,11 @@ from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
 from rclpy.task import Future
 
-from sim.ros.callbacks import recorded
-from sim.ros.codec import encode, expect
-from sim.ros.fibers import engine
-from sim.ros.goals import key
-from sim.ros.hooks import hook
+from sim.ros.engine.callbacks import recorded
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
+from sim.ros.messages.codec import encode, expect
+from sim.ros.recorder.goals import key
 
 
 def _action_end(owner: type, kind: str) -> None:
@@ -33,6 +33,9 @@ def _action_end(owner: type, kind: str) -> None:
                 run.eager = True
                 name = node.resolve_service_name(action_name)
                 serves = kind == "action server"
+                if not serves:
+                    run.has_clients = True
+                    run.endpoints_changed()
                 handle = self._handle if serves else self._client_handle
                 run.recorder.endpoint(kind, node, name, action_type, handle=handle)
                 run.recorder.goals.end_made(self, node, name, action_type, serves=serves)
@@ -53,6 +56,7 @@ def send_goal_async(original: Callable) -> Callable:
         expect(goal, self._action_type.Goal)
         raw = encode(goal)
         future = original(self, goal, *arguments, **keywords)
+        run.asked[f"{self._sim.action}/_action/send_goal"] += 1
         number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
         run.recorder.goals.asked(self, number, goal_id, raw)
         return future
@@ -76,20 +80,34 @@ def cancel_goal_async(original: Callable) -> Callable:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
+            run.asked[f"{self._sim.action}/_action/cancel_goal"] += 1
             run.recorder.goals.cancel_asked(self, goal_handle.goal_id)
         return future
 
     return _cancel_goal_async
 
 
+@hook(ActionClient, "_get_result_async", "a plain service may stand for an action server's")
+def get_result_async(original: Callable) -> Callable:
+    def _get_result_async(self: ActionClient, goal_handle: Any) -> Future:
+        future = original(self, goal_handle)
+        run = engine()
+        if run is not None:
+            run.asked[f"{self._sim.action}/_action/get_result"] += 1
+        return future
+
+    return _get_result_async
+
+
 @hook(ActionServer, "_execute_goal_request", "the recording knows which goals were rejected")
 def execute_goal_request(original: Callable) -> Callable:
-    async def _execute_goal_request(self: ActionServer, taken: tuple[Any, Any]) -> None:
+    async def _execute_goal_request(self: ActionServer, request_header_and_message: tuple) -> None:
         run = engine()
         if run is None:
-            return await original(self, taken)
-        goal = run.recorder.goals.taken(self, taken[1].goal_id, taken[1].goal)
-        await original(self, taken)
+            return await original(self, request_header_and_message)
+        _, request = request_header_and_message
+        goal = run.recorder.goals.taken(self, request.goal_id, request.goal)
+        await original(self, request_header_and_message)
         return run.recorder.goals.decided(goal)
 
     return _execute_goal_request
@@ -97,11 +115,13 @@ def execute_goal_request(original: Callable) -> Callable:
 
 @hook(ServerGoalHandle, "__init__", "a handle is made for goals that are accepted, before anything else")
 def goal_handle_init(original: Callable) -> Callable:
-    def __init__(self: ServerGoalHandle, action_server: ActionServer, info: Any, request: Any) -> None:
-        original(self, action_server, info, request)
+    def __init__(
+        self: ServerGoalHandle, action_server: ActionServer, goal_info: Any, goal_request: Any
+    ) -> None:
+        original(self, action_server, goal_info, goal_request)
         run = engine()
         if run is not None:
-            run.recorder.goals.accepted(action_server, info.goal_id)
+            run.recorder.goals.accepted(action_server, goal_info.goal_id)
 
     return __init__
 
@@ -132,12 +152,13 @@ def publish_feedback(original: Callable) -> Callable:
 
 @hook(ActionServer, "_execute_cancel_request", "the recording knows which goals could not be canceled")
 def execute_cancel_request(original: Callable) -> Callable:
-    async def _execute_cancel_request(self: ActionServer, taken: tuple[Any, Any]) -> None:
+    async def _execute_cancel_request(self: ActionServer, request_header_and_message: tuple) -> None:
         run = engine()
         if run is None:
-            return await original(self, taken)
-        goal, before = run.recorder.goals.to_cancel(self, taken[1].goal_info.goal_id)
-        await original(self, taken)
+            return await original(self, request_header_and_message)
+        _, request = request_header_and_message
+        goal, before = run.recorder.goals.to_cancel(self, request.goal_info.goal_id)
+        await original(self, request_header_and_message)
         return run.recorder.goals.cancel_decided(goal, before)
 
     return _execute_cancel_request

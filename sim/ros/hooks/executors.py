@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import ModuleType
 from typing import Any
 
@@ -12,9 +12,10 @@ from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecu
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
 
-from sim.ros.executor import OrderedNodes, Plan, never
-from sim.ros.fibers import engine, nanoseconds
-from sim.ros.hooks import hook
+from sim.nanoseconds import nanoseconds
+from sim.ros.engine.executor import OrderedNodes, Plan, never
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
 
 PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number; rclpy's answer depends on the machine
 
@@ -26,7 +27,7 @@ def executor_init(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             self._nodes = OrderedNodes()
-            self._sim_plan = Plan(self, run)
+            self._sim = Plan(self, run)
             run.executors.append(self)
 
     return __init__
@@ -46,7 +47,7 @@ def _spin_once_impl(owner: type, parallel: bool) -> None:
     @hook(owner, "_spin_once_impl", "waiting for callbacks takes simulated time, and they come in one order")
     def spin(original: Callable) -> Callable:
         def _spin_once_impl(self: Any, timeout_sec: Any = None, wait_condition: Callable = never) -> None:
-            plan = self.__dict__.get("_sim_plan")
+            plan = self.__dict__.get("_sim")
             if plan is None or engine() is not plan.engine:
                 return original(self, timeout_sec, wait_condition)
             return plan.spin_once(timeout_sec, wait_condition, parallel)
@@ -58,14 +59,27 @@ _spin_once_impl(SingleThreadedExecutor, parallel=False)
 _spin_once_impl(MultiThreadedExecutor, parallel=True)
 
 
+@hook(Executor, "_wait_for_ready_callbacks", "an executor of the student's own waits in simulated time, too")
+def wait_for_ready_callbacks(original: Callable) -> Callable:
+    def _wait_for_ready_callbacks(
+        self: Executor, timeout_sec: Any = None, nodes: Any = None, condition: Callable = never
+    ) -> Iterator[tuple[Any, Any, Any]]:
+        plan = self.__dict__.get("_sim")
+        if plan is None or engine() is not plan.engine:
+            return original(self, timeout_sec, nodes, condition)
+        return plan.handlers(timeout_sec, nodes, condition)
+
+    return _wait_for_ready_callbacks
+
+
 def _changes_the_plan(name: str) -> None:
     @hook(Executor, name, "the order of questions is planned anew when entities come or go")
     def method(original: Callable) -> Callable:
-        def replacement(self: Executor, *arguments: Any) -> Any:
+        def replacement(self: Executor, *arguments: Any, **keywords: Any) -> Any:
             run = engine()
             if run is not None:
                 run.endpoints_changed()
-            return original(self, *arguments)
+            return original(self, *arguments, **keywords)
 
         return replacement
 
@@ -116,9 +130,9 @@ def wait_for_message(original: Callable) -> Callable:
         taken: list[Any] = []
 
         def arrived() -> bool:
-            message = None if taken else subscription.handle.take_message(msg_type, False)
-            if message is not None:
-                taken.append(message[0])
+            sent = None if taken else subscription._sim.take()
+            if sent is not None:
+                taken.append(sent.message)
             return bool(taken) or not node.context.ok()
 
         until = None if time_to_wait < 0 else run.now + nanoseconds(time_to_wait)

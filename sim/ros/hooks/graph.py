@@ -8,11 +8,12 @@ from typing import Any
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
 
-from sim.ros.codec import type_name
-from sim.ros.fibers import engine
-from sim.ros.hooks import hook
-from sim.ros.processes import shared_context
+from sim.ros.engine.processes import shared_context
+from sim.ros.engine.qos import refuse_unsimulated
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
 
 
 @hook(Node, "create_publisher", "the graph, and who sends what")
@@ -20,12 +21,20 @@ def create_publisher(original: Callable) -> Callable:
     def create_publisher(
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
     ) -> Publisher:
-        publisher = original(self, msg_type, topic, *arguments, **keywords)
         run = engine()
         if run is not None:
+            refuse_unsimulated(topic, keywords.get("event_callbacks"), (*arguments, *keywords.values()))
+        publisher = original(self, msg_type, topic, *arguments, **keywords)
+        if run is not None:
             name = publisher.topic_name
-            publisher._sim_identity = (name, type_name(msg_type), run.recorder.name_of(self))
-            publisher._sim_context = shared_context(self.context)
+            if name == "/clock" and not run.current.process.ours:
+                self.destroy_publisher(publisher)
+                raise NotImplementedError(
+                    "Messages on /clock can't change the time in a run: all clocks show its simulated time."
+                )
+            end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
+            publisher._sim = run.topics.writer(self.handle, publisher.handle, msg_type, **end)
+            publisher._sim.context = shared_context(self.context)
             run.recorder.endpoint(
                 "publisher", self, name, msg_type, publisher.qos_profile, handle=publisher.handle
             )
@@ -38,16 +47,17 @@ def create_publisher(original: Callable) -> Callable:
 @hook(Node, "create_subscription", "the graph, and late joiners of transient_local topics")
 def create_subscription(original: Callable) -> Callable:
     def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
-        subscription = original(self, msg_type, topic, *arguments, **keywords)
         run = engine()
         if run is not None:
-            # Asked for messages when one was sent; nobody counts those that C++ code publishes.
-            name = subscription._sim_topic = subscription.topic_name
-            subscription._sim_seen = -1
-            run.recorder.endpoint(
-                "subscription", self, name, msg_type, subscription.qos_profile, handle=subscription.handle
-            )
-            run.subscribed(name, subscription)
+            refuse_unsimulated(topic, keywords.get("event_callbacks"), (*arguments, *keywords.values()))
+        subscription = original(self, msg_type, topic, *arguments, **keywords)
+        if run is not None:
+            handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
+            end = {"topic": name, "profile": profile, "raw": subscription.raw}
+            subscription._sim = run.topics.reader(self.handle, handle, msg_type, **end)
+            run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
+            run.rosout_wanted |= name == "/rosout"
+            run.endpoints_changed()
         return subscription
 
     return create_subscription
@@ -69,8 +79,8 @@ def create_timer(original: Callable) -> Callable:
 def publish(original: Callable) -> Callable:
     def publish(self: Publisher, msg: Any) -> None:
         run = engine()
-        identity = self.__dict__.get("_sim_identity")
-        if run is None or identity is None:
+        writer = self.__dict__.get("_sim")
+        if run is None or writer is None:
             return original(self, msg)
         if isinstance(msg, self.msg_type):
             raw = _rclpy.rclpy_serialize(msg, self.msg_type)
@@ -78,13 +88,32 @@ def publish(original: Callable) -> Callable:
             raw = msg
         else:
             return original(self, msg)  # raises the TypeError that a student would get on a robot
-        if not self._sim_context.alive:
+        if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
-        self.handle.publish_raw(raw)
-        run.published(*identity, raw)
+        run.publish(writer, raw)
         return None
 
     return publish
+
+
+@hook(Publisher, "destroy", "its topic forgets it")
+def destroy_publisher(original: Callable) -> Callable:
+    def destroy(self: Publisher) -> None:
+        original(self)
+        if "_sim" in self.__dict__:
+            self._sim.close()
+
+    return destroy
+
+
+@hook(Subscription, "destroy", "its topic forgets it")
+def destroy_subscription(original: Callable) -> Callable:
+    def destroy(self: Subscription) -> None:
+        original(self)
+        if "_sim" in self.__dict__:
+            self._sim.close()
+
+    return destroy
 
 
 @hook(

@@ -11,18 +11,24 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 
-from sim.ros.fibers import engine
-from sim.ros.hooks import hook
-from sim.ros.processes import SharedContext
+from sim.ros.engine.callbacks import recorded
+from sim.ros.engine.processes import SharedContext
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
 
 
 @hook(_rclpy, "Context", "two real contexts of one process would not hear each other")
 def make_context(original: Callable) -> Callable:
     def make(arguments: Sequence[str], domain_id: int) -> Any:
         run = engine()
-        return (
-            original(arguments, domain_id) if run is None else SharedContext(run.current.process, arguments)
-        )
+        if run is None:
+            return original(arguments, domain_id)
+        if domain_id not in (0, _rclpy.RCL_DEFAULT_DOMAIN_ID):
+            raise ValueError(
+                "All programs of a run are in one ROS domain, and hear each other: "
+                f"leave out domain_id={domain_id}."
+            )
+        return SharedContext(run.current.process, arguments)
 
     return make
 
@@ -50,9 +56,9 @@ def ok(original: Callable) -> Callable:
 def _no_signal_handlers(name: str) -> None:
     @hook(rclpy, name, "rclpy's handlers would take the interrupt away from the notebook's kernel")
     def ignore(original: Callable) -> Callable:
-        def replacement(*arguments: Any) -> None:
+        def replacement(*arguments: Any, **keywords: Any) -> None:
             if engine() is None:
-                original(*arguments)
+                original(*arguments, **keywords)
 
         return replacement
 
@@ -73,7 +79,9 @@ def node_init(original: Callable) -> Callable:
         if process.global_arguments and keywords.get("use_global_arguments", True):
             # The node's own come first and last: the first remapping wins, and the last parameter.
             own = ["--ros-args", *(keywords.get("cli_args") or ())]
-            keywords["cli_args"] = [*own, "--ros-args", *process.global_arguments, *own]
+            keywords["cli_args"] = [*own, *process.global_arguments, *own]
+        if "--disable-rosout-logs" in process.global_arguments:
+            keywords["enable_rosout"] = False
         original(self, node_name, **keywords)
         process.nodes.append(self)
         run.eager |= isinstance(self, LifecycleNodeMixin)  # its state machine publishes from C++
@@ -81,6 +89,19 @@ def node_init(original: Callable) -> Callable:
         return None
 
     return __init__
+
+
+@hook(
+    LifecycleNodeMixin,
+    "_LifecycleNodeMixin__register_callback",
+    "rclpy swallows what the callback of a transition raises; the recording keeps it",
+)
+def register_callback(original: Callable) -> Callable:
+    def __register_callback(self: LifecycleNodeMixin, state_id: int, callback: Callable) -> bool:
+        run = engine()
+        return original(self, state_id, callback if run is None else recorded(run, callback, self))
+
+    return __register_callback
 
 
 @hook(_rclpy, "rclpy_logging_set_logger_level", "a level set in one run must not be there in the next")

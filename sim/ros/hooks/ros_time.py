@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.clock import Clock, ROSClock
+from rclpy.clock import Clock, JumpHandle, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
 from rclpy.time import Time
+from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
-from sim.ros.fibers import SECOND, engine
-from sim.ros.hooks import hook
+from sim.nanoseconds import SECOND
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
 from sim.ros.hooks.time_and_chance import EPOCH
 
 
@@ -41,10 +43,24 @@ def new_clock(original: Callable) -> Callable:
 @hook(ROSClock, "set_ros_time_override", "the run moves the time of all its clocks at once")
 def set_ros_time_override(original: Callable) -> Callable:
     def set_ros_time_override(self: ROSClock, time: Time) -> None:
-        if engine() is None:
-            original(self, time)
+        if engine() is not None:
+            raise NotImplementedError(
+                "set_ros_time_override() can't change the time in a run: all clocks show its simulated time."
+            )
+        original(self, time)
 
     return set_ros_time_override
+
+
+@hook(TimeSource, "attach_clock", "it would set the clock, which shows the run's time already")
+def attach_clock(original: Callable) -> Callable:
+    def attach_clock(self: TimeSource, clock: ROSClock) -> None:
+        if engine() is None or not isinstance(clock, ROSClock):
+            original(self, clock)
+        else:
+            self._associated_clocks.add(clock)
+
+    return attach_clock
 
 
 @hook(ROSClock, "_set_ros_time_is_active", "simulated time can't be switched off in a run")
@@ -54,6 +70,16 @@ def set_ros_time_is_active(original: Callable) -> Callable:
             original(self, enabled)
 
     return _set_ros_time_is_active
+
+
+@hook(JumpHandle, "__init__", "in a run time passes, as on a robot, and never jumps, however it is moved on")
+def jump_handle_init(original: Callable) -> Callable:
+    def __init__(self: JumpHandle, **keywords: Any) -> None:
+        original(self, **keywords)
+        if engine() is not None:
+            self.unregister()  # rcl would call it from outside the student's code, and even when it is gone
+
+    return __init__
 
 
 @hook(Clock, "now", "steady and system clocks show simulated time too, and waiting in a busy loop takes time")
@@ -89,11 +115,13 @@ def sleep_until(original: Callable) -> Callable:
 
 @hook(Timer, "__init__", "timers on steady, system or unattached clocks follow simulated time too")
 def timer_init(original: Callable) -> Callable:
-    def __init__(self: Timer, callback: Any, group: Any, period: int, clock: Clock, **keywords: Any) -> None:
+    def __init__(
+        self: Timer, callback: Any, callback_group: Any, timer_period_ns: int, clock: Clock, **keywords: Any
+    ) -> None:
         run = engine()
         if run is None or run.time.shown_by(clock):
-            return original(self, callback, group, period, clock, **keywords)
-        original(self, callback, group, period, run.time.clock, **keywords)
+            return original(self, callback, callback_group, timer_period_ns, clock, **keywords)
+        original(self, callback, callback_group, timer_period_ns, run.time.clock, **keywords)
         self._clock = clock
         return None
 

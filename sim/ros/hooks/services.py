@@ -11,9 +11,9 @@ from rclpy.node import Node
 from rclpy.service import Service
 from rclpy.task import Future
 
-from sim.ros.codec import encode, expect
-from sim.ros.fibers import active, engine
-from sim.ros.hooks import hook
+from sim.ros.fibers.scheduler import active, engine
+from sim.ros.hooks.table import hook
+from sim.ros.messages.codec import encode, expect
 
 
 @hook(Node, "create_service", "the graph")
@@ -50,7 +50,7 @@ def create_client(original: Callable) -> Callable:
         if run is not None:
             run.has_clients = run.eager = True
             run.endpoints_changed()
-            name = client._sim_name = self.resolve_service_name(srv_name)
+            name = self.resolve_service_name(srv_name)
             run.recorder.endpoint(
                 "client", self, name, srv_type, client.qos_profile, handle=client.handle
             )
@@ -76,7 +76,7 @@ def send_request(original: Callable) -> Callable:
 def call_async(original: Callable) -> Callable:
     def call_async(self: Client, request: Any) -> Future:
         run = engine()
-        if run is None or "_sim_requests" not in self.__dict__:
+        if run is None or "_sim" not in self.__dict__:
             return original(self, request)
         expect(request, self.srv_type.Request)
         raw = encode(request)

@@ -6,12 +6,15 @@ import queue
 import sys
 import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from sim.ros.callbacks import callback_name
-from sim.ros.fibers import engine, nanoseconds
-from sim.ros.hooks import hook
-from sim.ros.locks import FiberLock, FiberRLock
+from sim.nanoseconds import nanoseconds
+from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.locks import FiberLock, FiberRLock
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
+from sim.ros.recorder.running import callback_name
 
 
 @hook(threading.Thread, "start", "a free-running thread would make every run different")
@@ -23,9 +26,10 @@ def start(original: Callable) -> Callable:
         self._started.set()
         # Not the thread's name: it counts all threads of the kernel, and would make every run different.
         name = f"thread {callback_name(self._target or type(self))}"
-        self._sim_fiber = run.spawn(self.run, name, run.current.process)
+        fiber = run.spawn(self.run, name, run.current.process)
+        fiber.daemon = self.daemon
+        fiber.stands_for(self)
         run.eager = True
-        self._sim_fiber.daemon, self._sim_fiber.thread = self.daemon, self
         return None
 
     return start
@@ -34,7 +38,7 @@ def start(original: Callable) -> Callable:
 @hook(threading.Thread, "join", "a thread that is a fiber ends in simulated time")
 def join(original: Callable) -> Callable:
     def join(self: threading.Thread, timeout: float | None = None) -> None:
-        fiber = getattr(self, "_sim_fiber", None)
+        fiber: Fiber | None = getattr(self, "_sim", None)
         if fiber is None:
             return original(self, timeout)
         run = engine()
@@ -49,7 +53,7 @@ def join(original: Callable) -> Callable:
 @hook(threading.Thread, "is_alive", "a thread that is a fiber has no thread to ask")
 def is_alive(original: Callable) -> Callable:
     def is_alive(self: threading.Thread) -> bool:
-        fiber = getattr(self, "_sim_fiber", None)
+        fiber: Fiber | None = getattr(self, "_sim", None)
         return original(self) if fiber is None else not fiber.done
 
     return is_alive
@@ -62,6 +66,24 @@ def current_thread(original: Callable) -> Callable:
         return (run.current.thread if run is not None else None) or original()
 
     return current_thread
+
+
+@hook(threading, "_counter", "names of threads count those of their program, not those of the whole process")
+def number_of_thread(original: Callable) -> Callable:
+    def number() -> int:
+        run = engine()
+        return original() if run is None else next(run.current.process.thread_numbers)
+
+    return number
+
+
+@hook(ThreadPoolExecutor, "_counter", "names of pools count those of their program, too")
+def number_of_pool(original: Callable) -> Callable:
+    def number(self: ThreadPoolExecutor) -> int:
+        run = engine()
+        return original() if run is None else next(run.current.process.pool_numbers)
+
+    return number
 
 
 @hook(threading, "get_ident", "all fibers are one thread; a student's threads differ")

@@ -5,20 +5,18 @@ from __future__ import annotations
 import builtins
 import os
 import signal
+import sys
 import time
 from collections.abc import Callable
 from typing import Any
 
 import numpy.random
 
-from sim.ros.fibers import SECOND, engine, nanoseconds
-from sim.ros.hooks import hook
+from sim.nanoseconds import SECOND, nanoseconds
+from sim.ros.fibers.scheduler import engine
+from sim.ros.hooks.table import hook
 
 EPOCH = 1_735_689_600  # 2025-01-01 00:00 UTC: what time.time() says at the start of every run
-
-
-class StudentExit(SystemExit):
-    """os._exit() inside a run."""
 
 
 @hook(time, "sleep", "sleeping takes simulated time")
@@ -113,14 +111,16 @@ def default_rng(original: Callable) -> Callable:
     return default_rng
 
 
-@hook(builtins, "input", "nobody is there to type, and the wait would never end")
+@hook(builtins, "input", "the lines are those that the program was given, and never the user's keyboard")
 def read_input(original: Callable) -> Callable:
     def input(*prompt: Any) -> str:
         if engine() is None:
             return original(*prompt)
-        raise RuntimeError(
-            "input() waits for somebody at the keyboard; a node gets its input from topics and parameters"
-        )
+        line = sys.stdin.readline()
+        print(*prompt, end="", flush=True)
+        if not line:
+            raise EOFError("EOF when reading a line")
+        return line.removesuffix("\n")
 
     return input
 
@@ -130,7 +130,7 @@ def exit_now(original: Callable) -> Callable:
     def _exit(status: int) -> None:
         if engine() is None:
             original(status)
-        raise StudentExit(status)
+        raise SystemExit(status)
 
     return _exit
 
@@ -138,8 +138,8 @@ def exit_now(original: Callable) -> Callable:
 def _ignored(name: str, reason: str, result: Any) -> None:
     @hook(signal, name, reason)
     def ignore(original: Callable) -> Callable:
-        def replacement(*arguments: Any) -> Any:
-            return original(*arguments) if engine() is None else result
+        def replacement(*arguments: Any, **keywords: Any) -> Any:
+            return original(*arguments, **keywords) if engine() is None else result
 
         return replacement
 

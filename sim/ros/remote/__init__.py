@@ -4,14 +4,12 @@ One process leads a run and is believed: it has the world, our own nodes and the
 serves the student's nodes; it hears what they may hear, when they may hear it.
 """
 
-from sim.ros.fibers import RemoteLost
+from sim.ros.fibers.exceptions import RemoteLost
 from sim.ros.remote.remote import Remote
-from sim.ros.remote.serving import PREPARATIONS, QUESTIONS, serve
+from sim.ros.remote.serving import serve
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireError, WireTimeout
 
 __all__ = [
-    "PREPARATIONS",
-    "QUESTIONS",
     "Remote",
     "RemoteLost",
     "Wire",

@@ -12,10 +12,10 @@ from typing import Any
 from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.serialization import deserialize_message
 from rclpy.type_support import check_for_type_support
 
-from sim.ros.codec import encode, message_class, type_name
+from sim.ros.messages.codec import encode, message_class, type_name
+from sim.ros.messages.decoder import decode_message
 
 MOST_TEXT = 20_000  # characters of a log line and the like that are kept
 ALL_TEXT = 100_000_000  # characters of log lines, names and the like in a run
@@ -101,7 +101,7 @@ def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
     The bytes are written anew from the object, so whatever reads them reads what ROS itself has written.
     """
     try:
-        found = deserialize_message(base64.b64decode(value, validate=True), cls)
+        found = decode_message(cls, base64.b64decode(value, validate=True))
         return found, encode(found)
     except (TypeError, ValueError, _rclpy.RMWError):
         raise Nonsense(f"{what} that is no {type_name(cls)}") from None

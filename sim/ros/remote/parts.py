@@ -13,8 +13,10 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
+from sim.ros.engine.topics import Writer
+
 if TYPE_CHECKING:
-    from sim.ros.engine import Engine
+    from sim.ros.engine.engine import Engine
 
 RCLError = _rclpy.RCLError
 
@@ -61,15 +63,7 @@ class PuppetPublisher(Part):
     """Publishes here what the other side's publisher has published."""
 
     made_by = _rclpy.Publisher
-
-    @property
-    def topic_name(self) -> str:
-        """As rclpy's publishers."""
-        return self.name
-
-    def wait_for_all_acked(self, timeout: Any) -> bool:
-        """As rclpy's publishers."""
-        return self.handle.wait_for_all_acked(timeout._duration_handle)
+    writer: Writer
 
 
 class PuppetSubscription(Part):

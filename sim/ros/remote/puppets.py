@@ -29,7 +29,7 @@ from sim.ros.remote.parts import (
 )
 
 if TYPE_CHECKING:
-    from sim.ros.engine import Engine
+    from sim.ros.engine.engine import Engine
 
 
 class PuppetAction:
@@ -154,6 +154,14 @@ class Puppets:
         calls = self._engine.recorder.calls
         if isinstance(part, PuppetPublisher):
             self.publishers[part.name].append(part)
+            part.writer = self._engine.topics.writer(
+                part.node.handle,
+                part.handle,
+                part.type,
+                topic=part.name,
+                profile=part.qos_profile,
+                sender=part.node.name,
+            )
         elif isinstance(part, PuppetService):
             self.services.append(part)
             calls.service_made(part)
@@ -171,6 +179,7 @@ class Puppets:
         for part in self._ends.pop(number):
             if isinstance(part, PuppetPublisher):
                 self.publishers[part.name].remove(part)
+                part.writer.close()
             elif isinstance(part, PuppetService):
                 self.services.remove(part)
             elif isinstance(part, PuppetClient):
@@ -199,7 +208,8 @@ class Puppets:
 
     def action(self, node: str, name: str, type_: str) -> PuppetAction | None:
         """The end of an action that this node has."""
-        found = (action for action in self.actions.values() if action._sim_identity == (name, type_, node))
+        wanted = name, type_, node
+        found = (a for a in self.actions.values() if (a._sim.action, a._sim.type, a._sim.node) == wanted)
         return next(found, None)
 
     def close(self) -> None:

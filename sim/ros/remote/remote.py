@@ -8,8 +8,10 @@ import math
 from time import monotonic
 from typing import Any, NoReturn
 
-from sim.recording import CallbackError, Ended
-from sim.ros.fibers import SECOND, Nanoseconds, RemoteLost, engine, outside_student_code
+from sim.evidence import Ended
+from sim.nanoseconds import SECOND, Nanoseconds
+from sim.ros.fibers.exceptions import RemoteLost
+from sim.ros.fibers.scheduler import engine, outside_student_code
 from sim.ros.remote.checked import MOST_WRITTEN, Nonsense, printable, text, whole
 from sim.ros.remote.ledger import Ledger
 from sim.ros.remote.wire import Wire, WireClosed, WireError, WireTimeout
@@ -26,18 +28,19 @@ class Remote:
     patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
     deadline: when all has to be over, by the clock `monotonic`: to enter what came can take long, too.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
-    preparation: the name of one of the other process's `PREPARATIONS`, which its nodes need; "" for none.
-    errors: the exceptions that it told of in the last run.
+    preparation: "module:function" of what there makes of each node the one that runs; "" for none.
     """
 
     def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
         self.wire, self.patience, self.total = wire, patience, total
         self._waited, self.deadline = 0.0, math.inf
         self.secret, self.preparation = b"", ""
-        self.errors: list[CallbackError] = []
 
     def ask(self, question: str) -> Any:
-        """Ask about the nodes themselves; the answer is plain data, and unchecked. Raises RemoteLost."""
+        """Ask about the nodes themselves, with "module:function" of a function of them.
+
+        The answer is plain data, and unchecked. Raises RemoteLost.
+        """
         return self._exchange(do="ask", question=question).get("answer")
 
     def end(self, **message: Any) -> None:
@@ -55,7 +58,6 @@ class Remote:
         self._waited = 0.0
         with outside_student_code():
             turn = _Turn(self, run)
-            self.errors = turn.ledger.errors
             turn.take()
         try:
             while turn.alive:
@@ -136,9 +138,9 @@ class _Turn:
         ledger.until = self._remote.until
         try:
             ledger.enter(answer.get("news"))
-            ledger.skip("heard", "ends")
+            ledger.entered()
             claims = answer.get("claims")
-            ledger.believe(claims if isinstance(claims, dict) else {})
+            ledger.claims.believe(claims if isinstance(claims, dict) else {})
             self._go_on(answer)
         except Nonsense as nonsense:
             raise RemoteLost(f"The process with the nodes sent {nonsense}.") from None

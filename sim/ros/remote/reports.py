@@ -10,15 +10,30 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from sim.exchanges import Call, Goal
-from sim.recording import Heard
-from sim.ros.codec import encode
+from sim.evidence import Call, Goal, Heard
+from sim.ros.messages.codec import encode
 from sim.ros.remote.checked import packed
-from sim.ros.remote.link import Event, Link
+from sim.ros.remote.events import (
+    Ask,
+    CallAnswered,
+    CallMade,
+    CallRaised,
+    CallReceived,
+    CallTaken,
+    GoalAnswered,
+    GoalEvent,
+    GoalFeedback,
+    GoalMade,
+    GoalReceived,
+    GoalResult,
+    GoalTaken,
+)
+from sim.ros.remote.link import Link
+from sim.ros.remote.news import News
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
 
 if TYPE_CHECKING:
-    from sim.ros.engine import Engine
+    from sim.ros.engine.engine import Engine
 
 # Whose client and server a call has: the other side writes down itself what its own nodes do.
 INNER, ASKED_HERE, ASKED_THERE = "inner", "asked here", "asked there"
@@ -33,18 +48,18 @@ class _OpenCall:
     whose: str
     told: set[str]
 
-    def news(self) -> Iterator[Event]:
+    def news(self) -> Iterator[Any]:
         """What happened to the call since the last time."""
         call, key = self.call, self.key
         if self.whose != ASKED_HERE:
             if call.server and self._first("taken"):
-                yield ["taken", key, call.server]
+                yield CallTaken(key, call.server)
             if call.raised and self._first("raised"):
-                yield ["raised", key, call.raised]
+                yield CallRaised(key, call.raised)
         if self.whose is INNER and call.raw_response is not None and self._first("response"):
-            yield ["response", key, packed(call.raw_response)]
+            yield CallAnswered(key, packed(call.raw_response))
         if self.whose != ASKED_THERE and call.received is not None and self._first("received"):
-            yield ["received", key]
+            yield CallReceived(key)
 
     def _first(self, word: str) -> bool:
         new = word not in self.told
@@ -67,24 +82,24 @@ class _OpenGoal:
     events: int = 0
     feedback: int = 0
 
-    def news(self) -> Iterator[Event]:
+    def news(self) -> Iterator[Any]:
         """What happened to the goal since the last time."""
         goal, key = self.goal, self.key
         if goal.server and self._first("server"):
-            yield ["goal taken", key, goal.server]
+            yield GoalTaken(key, goal.server)
         for _, word in goal.events[self.events :]:
-            yield ["goal event", key, word]
+            yield GoalEvent(key, word)
         self.events = len(goal.events)
         if goal.server:
             for heard in goal.feedback[self.feedback :]:
-                yield ["goal feedback", key, packed(heard.raw)]
+                yield GoalFeedback(key, packed(heard.raw))
             self.feedback = len(goal.feedback)
             if goal.raw_result is not None and self._first("result"):
-                yield ["goal result", key, packed(goal.raw_result)]
+                yield GoalResult(key, packed(goal.raw_result))
         if goal.answered is not None and self._first("answered"):
-            yield ["goal answered", key]
+            yield GoalAnswered(key)
         if goal.received is not None and self._first("received"):
-            yield ["goal received", key]
+            yield GoalReceived(key)
 
     def _first(self, word: str) -> bool:
         new = word not in self.told
@@ -97,9 +112,19 @@ class Reports(Link):
 
     def __init__(self, engine: Engine) -> None:
         super().__init__(engine, keys=1)
+        recording, graph = engine.recording, engine.recording.graph
+        self._new_calls, self._new_goals = News(recording.calls), News(recording.goals)
+        self._claims = {
+            "nodes": News(graph.nodes),
+            "timers": News(graph.timers),
+            "logs": News(recording.logs),
+            "prints": News(recording.prints),
+            "errors": News(recording.errors),
+            "callbacks": News(recording.callbacks),
+        }
         self._calls: list[_OpenCall] = []
         self._goals: list[_OpenGoal] = []
-        self._asks: dict[int, Event] = {}  # requests to the other side, by the id of their call
+        self._asks: dict[int, Ask] = {}  # requests to the other side, by the id of their call
 
     def crosses(self, heard: Heard) -> bool:
         """All do: the other side writes down what is said."""
@@ -118,7 +143,7 @@ class Reports(Link):
         self._gather_goals()
         self.gather_responses()
 
-    def tell_request(self, event: Event, call: Call | None) -> None:
+    def tell_request(self, event: Ask, call: Call | None) -> None:
         """Add a request to the news; one of a service only when its turn comes among the calls."""
         if call is None:
             self.news.append(event)
@@ -126,28 +151,29 @@ class Reports(Link):
             self._asks[id(call)] = event
 
     def _gather_calls(self) -> None:
-        for call in self.new("calls"):
+        for call in self._new_calls.take():
             event, whose = self._asks.pop(id(call), None), ASKED_HERE
             if event is None:
                 about = call.service, call.type, call.client, call.asked is not None
-                event, whose = ["call", next(self.keys), *about, packed(call.raw_request), call.lost], INNER
+                made = CallMade(next(self.keys), *about, packed(call.raw_request), call.lost)
+                event, whose = made, INNER
             self.news.append(event)
-            self._calls.append(_OpenCall(event[1], call, whose, set()))
+            self._calls.append(_OpenCall(event.key, call, whose, set()))
         for kept in self._calls:
             self.news += kept.news()
         self._calls = [kept for kept in self._calls if not kept.over]
 
     def has_asked(self, key: int, client: PuppetClient, number: int) -> None:
         """A call of the other side is under way to a service of this one."""
-        _, calls = client._sim_requests[number]
+        _, calls = client._sim.requests[number]
         self._calls += [_OpenCall(key, call, ASKED_THERE, set()) for call in calls]
-        self.skip("calls")
+        self._new_calls.take()
 
     def _gather_goals(self) -> None:
-        for goal in self.new("goals"):
+        for goal in self._new_goals.take():
             key = next(self.keys)
             about = goal.action, goal.type, goal.client, goal.id
-            self.news.append(["goal", key, *about, packed(goal.raw_request), goal.lost])
+            self.news.append(GoalMade(key, *about, packed(goal.raw_request), goal.lost))
             self._goals.append(_OpenGoal(key, goal, set()))
         for kept in self._goals:
             self.news += kept.news()
@@ -168,17 +194,10 @@ class Reports(Link):
 
     def claims(self) -> dict[str, list[Any]]:
         """What the nodes say of themselves, since the last time; no word where there is nothing."""
-        claims = {
-            "nodes": self.new("nodes"),
-            "timers": [list(timer) for timer in self.new("timers")],
-            "logs": [list(line[1:]) for line in self.new("logs")],
-            "prints": self._prints(),
-            "errors": [list(error[1:]) for error in self.new("errors")],
-            "callbacks": [list(run) for run in self.new("callbacks")],
-        }
-        return {kind: told for kind, told in claims.items() if told}
-
-    def _prints(self) -> list[str]:
-        """Each piece that was printed; as one where a loop prints without end."""
-        pieces = [piece for _, piece in self.new("prints")]
-        return pieces if len(pieces) <= MOST_PIECES else ["".join(pieces)]
+        new = {kind: news.take() for kind, news in self._claims.items()}
+        for kind in ("logs", "prints", "errors"):
+            new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
+        new["prints"] = [piece for (piece,) in new["prints"]]
+        if len(new["prints"]) > MOST_PIECES:  # a loop that prints without end
+            new["prints"] = ["".join(new["prints"])]
+        return {kind: told for kind, told in new.items() if told}

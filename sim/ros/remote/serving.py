@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import pkgutil
 from collections.abc import Callable, Generator, Sequence
 from typing import Any
 
-from sim.recording import Ended
-from sim.ros.endings import blocked
-from sim.ros.fibers import Livelock, Nanoseconds
-from sim.ros.processes import StudentProcess
+from sim.evidence import Ended
+from sim.nanoseconds import Nanoseconds
+from sim.ros.engine.endings import blocked
+from sim.ros.engine.processes import StudentProcess
+from sim.ros.fibers.exceptions import Livelock
 from sim.ros.remote.checked import MOST_WRITTEN
 from sim.ros.remote.reports import Reports
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
@@ -16,35 +18,37 @@ from sim.ros.session import Session
 
 MOST_ROUNDS = 20  # in one turn: the other side waits for its end, and looks after time
 
-QUESTIONS: dict[str, Callable[[Sequence[Any]], Any]] = {}
-"""What the other side may ask about the nodes before they run: a function of them that gives plain data."""
-
-PREPARATIONS: dict[str, Callable[[Any], Any]] = {}
-"""What the other side may want to be run in place of a node: a function of the node that gives it."""
-
-
 def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
     """Let the other end of the wire run these nodes, as often as it likes; returns its last message.
 
-    nodes: what `sim.run` takes. Raises WireError when the wire breaks.
+    nodes: what `sim.run` takes. Questions about them, and what is to be run in place of each, are functions
+    named as "module:function": this side belongs to the nodes, and hides nothing from the other. Raises
+    WireError when the wire breaks.
     """
     while True:
         message = wire.receive()
-        wanted, question = message.get("do"), message.get("question")
+        wanted = message.get("do")
         if wanted == "end":
             return message
-        if wanted == "ask" and question in QUESTIONS:
-            wire.send(answer=QUESTIONS[question](nodes))
+        if wanted == "ask":
+            wire.send(answer=_function(message["question"])(nodes))
         elif wanted == "run":
             _run(wire, nodes, message)
         else:
-            raise WireBroken(f"nobody here knows how to {wanted} {question or ''}".strip())
+            raise WireBroken(f"nobody here knows how to {wanted}")
+
+
+def _function(name: str) -> Callable[..., Any]:
+    try:
+        return pkgutil.resolve_name(name)
+    except (ImportError, AttributeError, ValueError):
+        raise WireBroken(f"nobody here knows the function {name}") from None
 
 
 def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
     try:
-        prepare = PREPARATIONS.get(order["preparation"], lambda node: node)
-        programs = tuple(prepare(node) for node in nodes)
+        prepare = order["preparation"] and _function(order["preparation"])
+        programs = tuple(prepare(node) if prepare else node for node in nodes)
         session = Follower(wire, programs, order["seconds"], order["seed"])
         session.advance()
         wire.send(stderr=session.recording.stderr[:MOST_WRITTEN])
@@ -83,7 +87,7 @@ class Follower(Session):
         engine, busy = self.engine, True
         try:
             for _ in range(MOST_ROUNDS):
-                engine.check_pace()
+                engine.limits.check_pace()
                 engine.round()
                 link.gather(thorough=False)
                 left = [fiber for fiber in engine.fibers if not fiber.done]

@@ -6,13 +6,13 @@ equal seeds give equal worlds on all machines.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import fields
 from numbers import Integral
 from random import Random
 from typing import Any
 
+from sim.nearest import nearest
 from sim.world.generate.floor import Clutter, FullError, Room
 from sim.world.generate.maze import Maze
 from sim.world.model import ModelError, WorldError, shown
@@ -51,5 +51,5 @@ def generate(kind: str, seed: int, figures: dict[str, Any]) -> dict[str, Any]:
 
 
 def _guess(name: str, known: Iterable[str]) -> str:
-    close = difflib.get_close_matches(str(name), known, n=1)
-    return f"Did you mean {close[0]!r}?" if close else f"There are {', '.join(known)}."
+    near = nearest(str(name), known)
+    return f"Did you mean {near!r}?" if near else f"There are {', '.join(known)}."

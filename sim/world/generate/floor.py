@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple
 
 from sim.world.generate.card import card, furnished, goal_at
 from sim.world.model import Model, within
-from sim.world.obstacles import Box, Circle, MovableBox, Point
+from sim.world.obstacles import Box, Circle, MovableBox, Point, ring
 from sim.world.robot import RobotModel
 
 CLEARANCE = RobotModel().radius + 0.05
@@ -152,7 +152,7 @@ def _floor_fields(width: float, height: float, start: Point, goal: Point, chance
         "bounds": (0.0, 0.0, width, height),
         "start": (*start, _between(chance, -3, 3)),
         "goal": goal,
-        "walls": tuple(zip(corners, corners[1:] + corners[:1], strict=True)),
+        "walls": ring(corners),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +28,7 @@ class Grid(NamedTuple):
         return 0 <= cell[0] < self.columns and 0 <= cell[1] < self.rows
 
     def passable(self, a: Cell, b: Cell) -> bool:
-        """Whether one can go from a cell to its neighbour."""
+        """Whether one can go from a cell to its neighbour, of which one may be outside."""
         return ((a, b) if a < b else (b, a)) in self.open
 
 
@@ -109,29 +110,20 @@ def longest_way(maze: Grid, start: Cell) -> list[Cell]:
 def merged(maze: Grid) -> Iterator[tuple[Cell, Cell]]:
     """The walls as lines between corners of cells, as long as can be: a row of short ones is bumpy."""
     for y in range(maze.rows + 1):
-        for begin, end in _runs(_wall(maze, (x, y - 1), (x, y)) for x in range(maze.columns)):
+        for begin, end in _runs(maze.passable((x, y - 1), (x, y)) for x in range(maze.columns)):
             yield (begin, y), (end, y)
     for x in range(maze.columns + 1):
-        for begin, end in _runs(_wall(maze, (x - 1, y), (x, y)) for y in range(maze.rows)):
+        for begin, end in _runs(maze.passable((x - 1, y), (x, y)) for y in range(maze.rows)):
             yield (x, begin), (x, end)
 
 
-def _wall(maze: Grid, a: Cell, b: Cell) -> bool:
-    """Whether there is a wall between two neighbours, of which one may be outside."""
-    return not maze.passable(a, b)
-
-
-def _runs(walls: Iterator[bool]) -> Iterator[tuple[int, int]]:
+def _runs(passable: Iterator[bool]) -> Iterator[tuple[int, int]]:
     """(begin, end) of each row of walls without a gap."""
-    begin, index = None, -1
-    for index, wall in enumerate(walls):
-        if wall and begin is None:
-            begin = index
-        elif not wall and begin is not None:
-            yield begin, index
-            begin = None
-    if begin is not None:
-        yield begin, index + 1
+    end = 0
+    for gap, places in itertools.groupby(passable):
+        begin, end = end, end + len(list(places))
+        if not gap:
+            yield begin, end
 
 
 def _neighbours(maze: Grid, cell: Cell) -> Iterator[Cell]:

@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from sim.world.bodies import Body
-from sim.world.machines.machine import Machine, Pose, bar
+from sim.world.machines.machine import Machine, Pose, Site, bar
 from sim.world.machines.servo import THICKNESS, JointModel, Servo
 from sim.world.machines.trajectory import Trajectory, Values, Waypoint
 from sim.world.model import Model
 from sim.world.robot import RATE, CommandError, wrap
-
-if TYPE_CHECKING:
-    from sim.world.description import World
 
 
 class ReachError(ValueError):
@@ -79,7 +75,7 @@ class ArmModel(Model):
 class Arm(Machine):
     """The arm under way; `world.machine` is its `ArmModel`. Nothing in it is left to chance."""
 
-    def __init__(self, world: World, seed: int = 0) -> None:
+    def __init__(self, world: Site, seed: int = 0) -> None:
         super().__init__(world)
         self.model: ArmModel = world.machine
         self._servos = [Servo(joint) for joint in self.model.joints]

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from sim.world.bodies import Body
-from sim.world.machines.machine import Machine, Pose, bar
+from sim.world.machines.machine import Machine, Pose, Site, bar
 from sim.world.model import Angle, Length, Model, at_least, positive, within
 from sim.world.robot import DT, RATE, CommandError
-
-if TYPE_CHECKING:
-    from sim.world.description import World
 
 GRAVITY = 9.81
 """m/s^2, downwards in the picture."""
@@ -123,7 +120,7 @@ class CartPole(Machine):
     The seed is for the pole's first angle and for the noise of what is measured.
     """
 
-    def __init__(self, world: World, seed: int = 0) -> None:
+    def __init__(self, world: Site, seed: int = 0) -> None:
         super().__init__(world)
         self.model: CartPoleModel = world.machine
         self._rng = np.random.Generator(np.random.PCG64(seed))

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from sim.world.machines.machine import Machine, Pose
+from sim.world.machines.machine import Machine, Pose, Site
 from sim.world.machines.servo import Servo
 from sim.world.robot import CommandError
-
-if TYPE_CHECKING:
-    from sim.world.description import World
 
 
 class Joint(Machine):
     """One position-controlled joint; `world.machine` is its `JointModel`. Nothing in it is left to chance."""
 
-    def __init__(self, world: World, seed: int = 0) -> None:
+    def __init__(self, world: Site, seed: int = 0) -> None:
         super().__init__(world)
         self._servo = Servo(world.machine)
         self._target = self._servo.position

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
+from sim.world.contacts import Contact
 from sim.world.obstacles import Point
-from sim.world.robot import RATE, wrap
+from sim.world.robot import RATE, Pose, wrap
 
-if TYPE_CHECKING:
-    from sim.world.contacts import Contact
-    from sim.world.description import World
-    from sim.world.lidar import Scan
 
-Pose = tuple[float, float, float]
+class Site(Protocol):
+    """What a machine has to know of the world that it stands in."""
+
+    @property
+    def start(self) -> Pose:
+        """Where it stands: x, y (m) and yaw (rad) in the map frame."""
+
+    @property
+    def machine(self) -> Any:
+        """The machine's model."""
 
 
 class Machine:
@@ -22,10 +28,11 @@ class Machine:
     Equal worlds, seeds and commands at equal times give equal results, bit for bit.
     """
 
-    last_scan: Scan | None = None
+    last_scan: None = None  # it has no lidar
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: Site) -> None:
         self.world = world
+        self.robots: dict[str, Any] = {}
         self._steps = 0
 
     @property
@@ -37,6 +44,9 @@ class Machine:
     def contacts(self) -> list[Contact]:
         """None: there is nothing that a machine could touch."""
         return []
+
+    def forget(self) -> None:
+        """Nothing."""
 
     def advance(self, until: float) -> None:
         """Do the steps, if any are due, that end at or before `until` (s)."""

@@ -6,9 +6,8 @@ from nav2_msgs.action import NavigateToPose
 from grader import Missed
 from grader.checks import accepts, cancels, finishes, gives_feedback, rejects, sends_goals, serves_action
 from sim import run
-from sim.exchanges import Goal
-from sim.recording import Heard
-from sim.ros.codec import encode
+from sim.evidence import Goal, Heard
+from sim.ros.messages.codec import encode
 from tests.grader.recordings import recording
 from tests.students import service_misfits as misfits
 from tests.students.engine import actions, goals
@@ -100,8 +99,12 @@ def test_a_decision_is_missed_where_there_is_none():
 
 def test_a_decision_needs_somebody_who_asks():
     assert missed(accepts, recording(), "/fibonacci").saw == "nobody offers it"
-    with pytest.raises(ValueError, match="nobody sent such a goal to /fibonacci, so there is nothing to judge"):
-        accepts(ran(actions.Server, actions.Client), "/fibonacci", where=lambda goal: goal.request.order > 5)
+    both, high = ran(actions.Server, actions.Client), {"where": lambda goal: goal.request.order > 5}
+    miss = missed(accepts, both, "/fibonacci", **high)
+    assert (miss.expected, miss.saw) == ("goals for /fibonacci that fit", "1, and none of them is one")
+    both.ours.add("/client")
+    with pytest.raises(ValueError, match="nodes of the exercise's own should have sent goals for /fibonacci"):
+        accepts(both, "/fibonacci", **high)
 
 
 def test_finishes_judges_status_time_and_result():
@@ -184,8 +187,8 @@ def test_cancels_misses_what_is_not_canceled(server, within, saw):
 
 
 def test_cancels_needs_somebody_who_asks():
-    with pytest.raises(ValueError, match="nobody canceled a goal for /fibonacci, so there is nothing to judge"):
-        cancels(ran(actions.Server, actions.Client), "/fibonacci")
+    miss = missed(cancels, ran(actions.Server, actions.Client), "/fibonacci")
+    assert (miss.expected, miss.saw) == ("goals for /fibonacci that somebody cancels", "none")
 
 
 def test_a_long_goal_is_cut_in_words():

@@ -3,8 +3,7 @@ import math
 import pytest
 
 from grader import Missed, check
-from grader.checks import Check
-from sim import Recording
+from grader.checks import Check, hinting
 
 
 def test_the_docstrings_first_paragraph_is_the_sentence():
@@ -37,7 +36,7 @@ def test_a_check_needs_a_docstring():
 @pytest.mark.parametrize("points", [-1, math.nan, math.inf])
 def test_points_are_a_finite_number_from_0_up(points):
     with pytest.raises(ValueError, match=rf"^points must be a finite number from 0 up, not {points}$"):
-        check(points=points)
+        check(points=points)(documented)
 
 
 def test_after_is_one_check_or_several():
@@ -46,18 +45,34 @@ def test_after_is_one_check_or_several():
     assert check(points=1, after=(first, second))(documented).after == (first, second)
 
 
-@pytest.mark.parametrize("returned, credit", [(None, 1.0), (1, 1.0), (0.25, 0.25), (0, 0.0)])
-def test_what_is_returned_is_the_credit(returned, credit):
-    assert returning(returned)(Recording()) == credit
-
-
-@pytest.mark.parametrize("returned", [True, False, 1.5, -0.1, math.nan])
-def test_anything_else_returned_is_refused(returned):
+@pytest.mark.parametrize("credit", [True, False, 1.5, -0.1, math.nan])
+def test_a_credit_is_a_fraction(credit):
     with pytest.raises(ValueError) as caught:
-        returning(returned)(Recording())
+        Missed("1 Hz", "2 Hz", credit=credit)
+    assert str(caught.value) == f"a credit is the earned fraction, from 0 to 1; this one is {credit!r}"
+
+
+def test_a_check_takes_a_recording_and_all_results_or_none():
+    first, second = sentence("first"), sentence("second")
+
+    def takes_one(recording, measured):
+        """A sentence."""
+
+    with pytest.raises(ValueError) as caught:
+        check(points=1, after=(first, second))(takes_one)
     assert str(caught.value) == (
-        f"a check returns nothing, or the earned fraction from 0 to 1; this one returned {returned!r}"
+        "takes_one takes a recording and nothing else, or also what each of its 2 checks in `after` has "
+        "measured; it takes 1 more"
     )
+
+
+def test_hinting_gives_a_miss_what_it_lacks():
+    with pytest.raises(Missed) as caught, hinting("Look.", guess="Perhaps so."):
+        raise Missed("1 Hz", "2 Hz", credit=0.5)
+    assert (caught.value.hint, caught.value.guess, caught.value.credit) == ("Look.", "Perhaps so.", 0.5)
+    with pytest.raises(Missed) as caught, hinting("Look.", guess="Perhaps so."):
+        raise Missed("1 Hz", "2 Hz", "Halve it.", guess="Its own.")
+    assert (caught.value.hint, caught.value.guess) == ("Halve it.", "Its own.")
 
 
 def test_a_miss_is_data():
@@ -78,7 +93,3 @@ def documented(recording):
 
 def sentence(name):
     return Check(name, name, 1.0, (), documented)
-
-
-def returning(value):
-    return Check("returning", "A sentence.", 1.0, (), lambda recording: value)

@@ -6,7 +6,7 @@ from grader import Missed, check
 from grader.checks import judge
 from grader.checks.judge import worst
 from sim import Recording, run
-from sim.recording import CallbackError, Ended
+from sim.evidence import CallbackError, Ended
 from tests.students import misfits
 
 
@@ -36,7 +36,7 @@ def half(recording):
 @check(points=1, after=half)
 def more(recording):
     """It does more."""
-    return 0.25
+    raise Missed("all", "a quarter", "The rest, too.", credit=0.25)
 
 
 @check(points=5)
@@ -81,12 +81,11 @@ def test_partial_credit_explains_nothing():
     assert [verdict.earned for verdict in verdicts] == [1.5, 0.25]
 
 
-def test_a_check_that_raises_costs_the_student_nothing_and_alarms_the_instructor():
+def test_a_check_that_raises_leaves_its_points_to_the_instructor():
     (verdict,) = judge([faulty_check], Recording())
-    assert (verdict.status, verdict.earned) == ("broken", 5.0)
+    assert (verdict.status, verdict.earned) == ("broken", 0.0)
     assert verdict.hint == (
-        "Nothing to do: this check has a mistake of its own, so you have its points. "
-        "Please tell your instructor."
+        "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
     )
     assert verdict.alarm.endswith("AttributeError: 'Recording' object has no attribute 'no_such_thing'\n")
     assert "in faulty_check" in verdict.alarm
@@ -160,7 +159,7 @@ def test_misses_that_nothing_explains_are_all_told():
 
 def test_of_several_runs_each_check_gets_its_worst():
     good, bad = judge([sends, half], Recording(seed=1)), judge([sends, half], failing_at(1.0))
-    verdicts = worst([good, bad])
+    verdicts = worst([sends, half], [good, bad])
     assert [(v.name, v.status, v.run) for v in verdicts] == [
         ("runs", "failed", 1),
         ("sends", "skipped", 1),
@@ -171,6 +170,6 @@ def test_of_several_runs_each_check_gets_its_worst():
 def test_a_broken_run_does_not_hide_a_miss_nor_the_alarm():
     broken, missed, passed = (judge([faulty_check], Recording()) for _ in range(3))
     missed = [dataclasses.replace(missed[0], status="failed", credit=0.0)]
-    passed = [dataclasses.replace(passed[0], status="passed", alarm="")]
-    assert worst([broken, missed])[0].status == "failed"
-    assert worst([passed, broken])[0].status == "broken"
+    passed = [dataclasses.replace(passed[0], status="passed", credit=1.0, alarm="")]
+    assert worst([faulty_check], [broken, missed])[0].status == "failed"
+    assert worst([faulty_check], [passed, broken])[0].status == "broken"

@@ -1,8 +1,9 @@
 import pytest
-from std_msgs.msg import String
+from std_msgs.msg import Float32, String
 
 from grader import Missed
-from grader.checks import answers, logs
+from grader.checks import answers, come_every, logs
+from sim.evidence import CallbackRun, Graph, TimerInfo
 from tests.grader.recordings import logged, published, recording
 
 
@@ -17,14 +18,21 @@ def test_logs_finds_lines_whatever_their_capital_letters():
     assert [line.stamp for line in found] == [1.0, 2.0]
 
 
+def test_logs_gives_the_texts_of_a_patterns_groups():
+    found = logs(logged((1.0, "INFO", "12 C = 53.6 F")), r"(\d+) C = (\S+) F")
+    assert [(line.text, line.groups) for line in found] == [("12 C = 53.6 F", ("12", "53.6"))]
+
+
 def test_logs_misses_silence():
     miss = missed(logs, recording(), "count", level="WARN")
     assert (miss.expected, miss.saw) == ("a log line at level WARN like “count”", "no log line at all")
+    assert (miss.hint, miss.guess) == ("", "")
 
 
 def test_logs_misses_other_lines():
     miss = missed(logs, logged((1.0, "INFO", "hello")), "count")
     assert (miss.saw, miss.hint) == ("no such line; the first line is “hello”", "")
+    assert miss.guess == "Compare the two lines. And does anything call the method that should log it?"
 
 
 def test_logs_shows_the_most_similar_line():
@@ -61,6 +69,87 @@ def test_logs_counts():
     assert (miss.expected, miss.saw) == ("3 log lines like “count”", "2; the last at 2 s")
 
 
+def beats(*stamps, timers=(), callbacks=()):
+    """A run of 5 s with a line at each of these times, of a node with timers."""
+    run = logged(*((stamp, "INFO", "beat") for stamp in stamps))
+    timers = [TimerInfo("/heart", period, "Heart.beat") for period in timers]
+    run.seconds, run.ended = 5.0, run.ended._replace(stamp=5.0)
+    run.graph, run.callbacks = Graph(["/heart"], timers=timers), list(callbacks)
+    return run
+
+
+def pace(run, period=1.0, **options):
+    return missed(come_every, run, logs(run, "beat"), period, **options)
+
+
+def test_come_every_gives_the_lines_that_come_from_start_to_end():
+    run = beats(1.0, 2.05, 3.0, 4.0, timers=[1.0])
+    lines = logs(run, "beat")
+    assert come_every(run, lines, 1.0) == lines
+
+
+def test_come_every_counts_the_start_and_the_end_of_a_window_of_time():
+    run = beats(3.0, 3.5, 4.0, timers=[0.5]).during(2.7, 4.2)
+    assert len(come_every(run, logs(run, "beat"), 0.5)) == 3
+
+
+def test_come_every_wants_a_timer_for_a_right_pace_too_and_gives_the_lines_to_later_checks():
+    run = beats(1.0, 2.0, 3.0, 4.0)
+    miss = pace(run, credit=0.25)
+    assert (miss.expected, miss.saw) == ("a timer that sets the pace", "a line every 1 s, but no timer")
+    assert miss.hint == (
+        "A node hears nothing and answers nobody while a loop of its own sleeps: create_timer(1, method) has a "
+        "method called again and again, and leaves the node free."
+    )
+    assert (miss.credit, miss.measured) == (0.25, logs(run, "beat"))
+
+
+def test_come_every_says_the_pace_and_that_one_timer_sets_it():
+    miss = pace(beats(0.5, 1.0, 1.5, 2.0, timers=[0.5]))
+    assert miss.expected == "a line every 1 s, from start to end"
+    assert miss.saw == "a line every 0.5 s, from 0.5 s to 2 s"
+    assert miss.hint == (
+        "One timer sets the pace, its period in seconds. Log one line each time its method is called."
+    )
+
+
+@pytest.mark.parametrize(
+    ("stamps", "saw"),
+    [
+        ((2.0,), "one line, at 2 s"),
+        ((0.0, 0.0, 0.0), "3 lines at once, at 0 s"),
+        ((1.0, 2.0, 2.5, 4.0), "pauses between 0.5 s and 1.5 s"),
+    ],
+)
+def test_come_every_tells_lines_without_a_pace_and_asks_for_a_timer(stamps, saw):
+    miss = pace(beats(*stamps))
+    assert miss.saw == saw
+    assert miss.hint == (
+        "The node has no timer: create_timer(period, method) has a method called again and again."
+    )
+
+
+def test_come_every_misses_lines_of_which_there_are_none():
+    assert missed(come_every, beats(), [], 1.0).saw == "no line"
+
+
+@pytest.mark.parametrize(("stamps", "moment"), [((2.0, 3.0, 4.0, 5.0), "2"), ((1.0, 2.0, 3.0), "3")])
+def test_come_every_names_the_moment_at_which_lines_begin_too_late_or_end_too_early(stamps, moment):
+    assert pace(beats(*stamps)).hint == f"What changes at {moment} s?"
+
+
+def test_come_every_names_a_callback_that_waits():
+    waits = CallbackRun(1.0, 2.0, "/heart", "Heart.beat", "timer")
+    miss = pace(beats(1.0, 3.0, 5.0, timers=[1.0], callbacks=[waits]))
+    assert miss.hint.startswith("The timer of /heart fired once in 5 s; 5 were due.")
+
+
+def test_come_every_gives_the_lines_to_later_checks_where_they_earn_something_themselves():
+    run = beats(0.0)
+    miss = pace(run, credit=0.5)
+    assert (miss.credit, miss.measured) == (0.5, logs(run, "beat"))
+
+
 def conversation(*lines):
     run = published("/command", [(1.0, String(data="stand")), (2.0, String(data="walk"))])
     run.logs = logged(*lines).logs
@@ -90,13 +179,61 @@ def test_answers_wants_the_level_and_the_time():
     assert missed(answers, late, "/command", "stand|walk", level="WARN", within=1.0).credit == 0.0
 
 
+def test_answers_takes_a_line_after_just_that_time_for_one_of_the_next_message():
+    miss = missed(answers, conversation((2.0, "INFO", "stand")), "/command", "stand", within=1.0)
+    assert (miss.saw, miss.credit) == ("no line within 1 s of the message at 1 s", 0.5)
+
+
 def test_answers_asks_only_for_the_messages_that_are_picked():
     one = conversation((1.0, "INFO", "stand!"))
     answers(one, "/command", said, where=lambda heard: said(heard) == "stand")
-    with pytest.raises(ValueError, match=r"^nothing was sent on /command, so there is nothing to answer$"):
-        answers(one, "/command", said, where=lambda heard: said(heard) == "dance")
+    miss = missed(answers, one, "/command", said, where=lambda heard: said(heard) == "dance")
+    assert miss.expected == "messages on /command that want a log line"
+    assert miss.saw == "none among the 2 on /command"
 
 
-def test_answers_needs_messages_to_answer():
-    with pytest.raises(ValueError, match=r"^nothing was sent on /command, so there is nothing to answer$"):
-        answers(recording(), "/command", "stand")
+def test_answers_misses_what_the_students_node_never_sent():
+    miss = missed(answers, recording(), "/command", "stand")
+    assert (miss.expected, miss.saw) == ("messages on /command that want a log line", "none")
+
+
+def warned(*lines, levels=(30.0, 10.0, 40.0)):
+    """A run with a level every second from 1 s on, and lines, given as (stamp, level)."""
+    run = published("/level", [(1.0 + index, Float32(data=value)) for index, value in enumerate(levels)])
+    run.logs = logged(*((stamp, level, "low") for stamp, level in lines)).logs
+    return run
+
+
+LOW = {"level": "WARN", "where": lambda heard: said(heard) < 20.0, "what": "levels below 20 %", "only": True}
+
+
+def test_answers_may_be_the_only_ones():
+    answers(warned((1.0, "INFO"), (2.1, "WARN"), (3.0, "INFO")), "/level", **LOW)
+
+
+def test_answers_says_what_wants_an_answer():
+    miss = missed(answers, warned(), "/level", **LOW)
+    assert miss.expected == "a log line at level WARN after each of the levels below 20 %"
+    assert (miss.saw, miss.credit) == ("no line within 0.5 s of the message at 2 s", 0.0)
+
+
+def test_answers_misses_a_line_after_a_message_that_wants_none():
+    miss = missed(answers, warned((2.0, "WARN"), (3.0, "WARN")), "/level", **LOW)
+    assert (miss.expected, miss.saw) == ("no other log line at level WARN", "“low” at 3 s")
+    assert miss.credit == 0.5
+
+
+def test_answers_misses_a_line_before_the_first_message():
+    assert missed(answers, warned((0.5, "WARN"), (2.0, "WARN")), "/level", **LOW).saw == "“low” at 0.5 s"
+
+
+def test_answers_leaves_lines_of_ours_alone_where_they_shall_be_the_only_ones():
+    run = warned((2.0, "WARN"), (3.0, "WARN"))
+    run.logs[1] = run.logs[1]._replace(node="pilot")
+    run.ours = {"/pilot"}
+    answers(run, "/level", **LOW)
+
+
+def test_a_student_who_sends_nothing_that_wants_an_answer_has_missed_it():
+    miss = missed(answers, warned(levels=[90.0, 90.0]), "/level", **LOW)
+    assert (miss.expected, miss.saw) == ("levels below 20 %", "none among the 2 on /level")

@@ -5,9 +5,11 @@ import pytest
 from geometry_msgs.msg import Twist
 
 from grader import Missed
-from grader.checks import arrives, follows, keeps_clear, passes, stands_still, travelled
+from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, travelled
 from grader.checks.motion import distances_to_line
+from sim import run
 from tests.grader.recordings import driven, published, recording
+from tests.students import flaws
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]
 
@@ -29,6 +31,7 @@ def test_keeps_clear_tells_the_first_contact():
     assert miss.expected == "no contact with walls or boxes"
     assert miss.saw == "1 contact; the first at 3.25 s: a wall at (1.00, 2.00) m, on the robot's front side"
     assert miss.hint == "Slow down or turn away earlier: /scan says how far it is to the next wall."
+    assert missed(keeps_clear, driven(SQUARE, contacts=[touch]), "Look ahead.").hint == "Look ahead."
     assert missed(keeps_clear, driven(SQUARE, contacts=[touch, touch])).saw.startswith(
         "2 contacts; the first"
     )
@@ -92,6 +95,19 @@ def test_stands_still_looks_at_the_last_moments_only():
     assert miss.expected == "the robot standing still for the last 1 s"
     assert miss.saw == "it moved 0.500 m in that time"
     assert miss.hint == "Publish a Twist() with all zeros when the robot has arrived."
+
+
+def test_a_robot_that_stands_was_told_to():
+    ends_with_a_stop(run(flaws.Driver, world="yard", seconds=5, quiet=True))
+    with pytest.raises(Missed) as caught:
+        ends_with_a_stop(run(flaws.FallsSilent, world="yard", seconds=5, quiet=True))
+    miss = caught.value
+    assert (miss.expected, miss.credit) == ("zeros as the last command", 0.0)
+    assert miss.saw == "the last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s"
+    assert miss.hint == (
+        "This robot stops by itself when no command comes; others drive on. Publish a Twist() with all zeros at the "
+        "end."
+    )
 
 
 @pytest.mark.parametrize("measure", [keeps_clear, stands_still, lambda run: follows(run, SQUARE)])

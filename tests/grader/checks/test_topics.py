@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import pytest
@@ -5,9 +6,10 @@ from geometry_msgs.msg import Twist
 from std_msgs.msg import Float64, String
 
 from grader import Missed
-from grader.checks import publishes, rate, series, subscribes, within
+from grader.checks import lasts, publishes, rate, series, subscribes, within
+from grader.checks.topics import longest_pause
 from sim import run
-from sim.recording import Endpoint, Graph
+from sim.evidence import Ended, Endpoint, Graph
 from tests.grader.recordings import published, recording
 from tests.students import misfits
 
@@ -106,6 +108,11 @@ def test_rate_misses_a_burst_at_one_moment():
     assert miss.saw == "0 Hz (10 messages in 10 s)"
 
 
+def test_the_longest_pause_is_between_two_moments_in_a_row():
+    assert longest_pause([0.0, 1.0, 3.5, 4.0]) == (2.5, 1.0)
+    assert longest_pause([1.0]) == longest_pause([]) == (0.0, 0.0)
+
+
 def test_within_gives_the_values():
     run_ = published("/cmd_vel", [(1.0, twist(0.2)), (2.0, twist(0.4))])
     assert within(run_, "/cmd_vel", "linear.x", 0.2, 0.4) == [0.2, 0.4]
@@ -137,3 +144,20 @@ def twist(speed):
     message = Twist()
     message.linear.x = speed
     return message
+
+
+def test_lasts_is_content_with_messages_until_the_end():
+    lasts(ticks([0.5, 9.0]), "/chatter")
+    lasts(ticks([0.5]), "/chatter", pause=9.5)
+
+
+def test_lasts_tells_the_last_message():
+    miss = missed(lasts, ticks([0.5, 8.9]), "/chatter")
+    assert miss.expected == "messages on /chatter until the end, at 10 s"
+    assert miss.saw == "the last one at 8.9 s"
+    assert miss.guess == "Publish from start to end, in a callback that is called again and again."
+
+
+def test_lasts_wants_no_more_of_a_run_that_was_cut_short():
+    cut = dataclasses.replace(ticks([0.5]), ended=Ended("hang", 1.0, "The callback tick never returned."))
+    lasts(cut, "/chatter")

@@ -44,6 +44,9 @@ ADVICE = {
     "is the length of the queue.",
     mistakes.NameBeforeType: "The arguments are in the wrong order: first the message type, then the topic's name, "
     "as in create_publisher(String, 'topic', 10).",
+    mistakes.PublishesPythonsText: "A topic carries messages, and the type of one is wanted there, not a type of "
+    "Python's: String for str, Float64 for float, Int64 for int, Bool for bool, as in `from std_msgs.msg import "
+    "String`.",
     mistakes.QueueLengthAsText: "The last argument of create_publisher() and create_subscription() is a number, such "
     "as 10, or a QoSProfile.",
     mistakes.CallbackBeforePeriod: "create_timer() takes the period first, then the callback: "
@@ -104,11 +107,13 @@ ADVICE = {
     (
         misfits.Listener,
         misfits.NumberTalker,
-    ): "Another node uses /chatter with another message type: both ends of a topic must use the same one.",
+    ): "/listener listens to std_msgs/msg/String on /chatter, and here it is std_msgs/msg/Float64: both ends of a "
+    "topic must use the same type.",
     (
         misfits.NumberTalker,
         misfits.Listener,
-    ): "Another node uses this topic with another message type: both ends of a topic must use the same one.",
+    ): "/talker publishes std_msgs/msg/Float64 on /chatter, and here it is std_msgs/msg/String: both ends of a "
+    "topic must use the same type.",
 }
 NAMES = [n.__name__ if callable(n) else "+".join(part.__name__ for part in n) for n in ADVICE]
 
@@ -150,4 +155,20 @@ def test_the_line_is_the_students_own_even_if_the_message_package_raised():
     line = mistakes.WholeNumberForFloat.tick.__code__.co_firstlineno + 2
     assert fault.saw == (
         f"AssertionError: The 'data' field must be of type 'float' (in WholeNumberForFloat.tick, line {line}, at 1 s)"
+    )
+
+
+def test_a_subscription_of_another_type_is_told_in_the_words_that_rcl_lost():
+    fault = find_fault(record((misfits.NumberTalker, misfits.Listener)))
+    assert fault.saw.startswith(
+        "RCLError: create_subscription() called for existing topic name rt/chatter with incompatible type "
+        "std_msgs::msg::dds_::String_ (in Listener, line "
+    )
+
+
+def test_where_the_lost_words_are_not_to_be_had_the_hint_says_what_is_known():
+    recording = record((misfits.NumberTalker, misfits.Listener))
+    recording.stderr = ""
+    assert find_fault(recording).hint == (
+        "Another node uses this topic with another message type: both ends of a topic must use the same one."
     )

@@ -5,7 +5,7 @@ import pytest
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
 from sim import run
-from sim.recording import CallbackError, Ended, Recording
+from sim.evidence import CallbackError, Ended, Recording
 from tests.students import misfits, mistakes
 
 
@@ -31,10 +31,18 @@ def test_an_endless_loop_is_a_hang():
     assert fault.expected == "a run to the end"
     assert fault.saw.startswith("main_that_never_ends() at t = 0 s")
     assert fault.hint == (
+        "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
+        "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
+    )
+    assert fault.before_start
+
+
+@pytest.mark.parametrize("student", [misfits.LoopsInItsConstructor, misfits.LoopsInACallback])
+def test_an_endless_loop_of_a_node_is_told_from_one_of_a_main(student):
+    assert fault_of(student).hint == (
         "Look there for a loop that never ends (`while True:` without a way out), or a wait for something that never "
         "comes. A callback should do one small step and return."
     )
-    assert fault.before_start
 
 
 def test_an_echo_of_itself_is_a_livelock():

@@ -12,6 +12,8 @@ from tests.students import parameter_mistakes as mistakes
 ADVICE = {
     "whole_number_at_the_start": "The parameter `radius` got 1, which is of type INTEGER, but it is declared as DOUBLE: its default says so. `1` and `1.0` are two types; use the same one in both places.",
     "DeclaresTwice": "The parameter `radius` is declared twice: call declare_parameter('radius', default) once, in __init__.",
+    "DeclaresWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0), or give the program parameters={'width': ...}.",
+    "ReckonsWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0).",
     "SetsPairs": "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with `from rclpy.parameter import Parameter`.",
     "ComputesWithTheParameter": "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
     "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",

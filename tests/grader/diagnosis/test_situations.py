@@ -6,6 +6,7 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -179,6 +180,15 @@ class SlicesPastTheEnd(Ticking):
         self.say(min(ranges[-35:36]))
 
 
+class LooksBeforeTheFirstMessage(Node):
+    scan = None
+
+    def __init__(self):
+        super().__init__("looker")
+        self.create_subscription(LaserScan, "lidar", print, 10)
+        self.create_timer(0.5, lambda: min(self.scan.ranges))
+
+
 class Hears(Ticking):
     """Nothing is wrong with it."""
 
@@ -233,3 +243,10 @@ def test_an_error_in_a_check_of_parameters_names_the_students_own_method():
 @pytest.mark.parametrize("nodes", [(SlowAdder, Hears), (Adder, misfits.NobodyHears)], ids=["taken", "at once"])
 def test_an_answer_that_may_have_been_taken_is_not(nodes):
     assert explain(record(*nodes)) == ""
+
+
+def test_what_keeps_the_last_message_is_still_none_before_the_first():
+    assert find_fault(record(LooksBeforeTheFirstMessage)).hint == (
+        "No message has come on /lidar by then, so what keeps the last one is still None. Ask for that first, with "
+        "`is None`; before the first message, send zeros to a robot."
+    )

@@ -24,12 +24,12 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-from grader.marking.orders import Patience
-from grader.marking.plan import Task
+from grader.marking.handed_in.submission import load_release, read_folder
 from grader.marking.pool import Pool
-from grader.marking.release import release
+from grader.marking.release.make_exercises import release
+from grader.marking.release.samples import submission
 from grader.marking.result import Result
-from grader.marking.samples import submission
+from grader.marking.task import Task, TimeLimits
 
 ROOT = Path(__file__).parents[3]
 PAGE = Path(__file__).with_name("corpus.txt")
@@ -37,7 +37,7 @@ ASSIGNMENT, NAME = "02_small", "topics.ipynb"
 SECRET = "a secret of this test"
 HONEST = {"honest_right": 1.0, "honest_half": 0.5, "honest_starter": 0.0}
 KEPT = re.compile(r"setup|(temperature|square)(-points)?")
-QUICK = Patience(cell=4.0, test=15.0)
+QUICK = TimeLimits(cell=4.0, test=15.0)
 
 
 def course(folder: Path) -> Path:
@@ -94,9 +94,10 @@ def with_trick(notebook: NotebookNode, text: str) -> NotebookNode:
 
 def mark(folder: Path, names: Sequence[str], jobs: int = 2) -> dict[str, Result]:
     """Mark those who handed in; name to result."""
-    submitted, released = folder / "class" / "submitted", folder / "exercises" / ASSIGNMENT
-    tasks = [Task(name, ASSIGNMENT, submitted / name / ASSIGNMENT, released, "00") for name in names]
-    with Pool(folder, jobs, secret=SECRET, patience=QUICK) as pool:
+    submitted, released = folder / "class" / "submitted", load_release(folder / "exercises" / ASSIGNMENT)
+    read = {name: read_folder(submitted / name / ASSIGNMENT, released) for name in names}
+    tasks = [Task(name, released, handed_in, "00") for name, handed_in in read.items()]
+    with Pool(jobs, secret=SECRET, time_limits=QUICK) as pool:
         found = {result.student: result for result in pool.mark(tasks)}
     return {name: found[name] for name in names}
 

@@ -32,11 +32,13 @@ def test_the_page_speaks_of_everybody():
     assert list(page()) == EVERYBODY
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("name", HONEST)
 def test_the_honest_get_byte_for_byte_what_they_get_alone(everybody, honest, name):
     assert everybody[name].grade_json() == honest[name].grade_json()
 
 
+@pytest.mark.soak
 def test_on_a_busy_machine_marks_and_digests_are_the_same(tmp_path, honest):
     folder = course(tmp_path)
     names = submit(folder, [*HONEST])

@@ -1,34 +1,34 @@
-"""A cage for all tests, and prisoners."""
+"""A sandbox for all tests, and commanded processes."""
 from collections.abc import Callable, Iterator
 
 import pytest
 
 from grader.marking.sandbox import Sandbox
-from tests.marking.sandbox.prison import Prisoner, sandbox
+from tests.marking.sandbox.commanded import Commanded, sandbox
 
 
 @pytest.fixture(scope="session")
-def cage() -> Iterator[Sandbox]:
+def usual_sandbox() -> Iterator[Sandbox]:
     """A sandbox with the usual limits."""
     with sandbox() as box:
         yield box
 
 
 @pytest.fixture
-def prisoners() -> Iterator[Callable[[Sandbox], Prisoner]]:
-    """Makes prisoners, and sees to it that none is left."""
-    made: list[Prisoner] = []
+def make_commanded() -> Iterator[Callable[[Sandbox], Commanded]]:
+    """Makes commanded processes, and sees to it that none is left."""
+    made: list[Commanded] = []
 
-    def make(box: Sandbox) -> Prisoner:
-        made.append(Prisoner(box))
+    def make(box: Sandbox) -> Commanded:
+        made.append(Commanded(box))
         return made[-1]
 
     yield make
-    for prisoner in made:
-        prisoner.leave()
+    for commanded in made:
+        commanded.leave()
 
 
 @pytest.fixture
-def prisoner(cage: Sandbox, prisoners: Callable[[Sandbox], Prisoner]) -> Prisoner:
-    """One prisoner in the usual cage."""
-    return prisoners(cage)
+def commanded(usual_sandbox: Sandbox, make_commanded: Callable[[Sandbox], Commanded]) -> Commanded:
+    """One commanded in the usual sandbox."""
+    return make_commanded(usual_sandbox)

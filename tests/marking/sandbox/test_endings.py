@@ -1,4 +1,4 @@
-"""How inmates end, and that none outlives its end."""
+"""How confined processes end, and that none outlives its end."""
 import os
 import select
 import signal
@@ -8,7 +8,7 @@ import textwrap
 
 import pytest
 
-from tests.marking.sandbox.prison import PATIENCE, sandbox, warden
+from tests.marking.sandbox.commanded import PATIENCE, fork_server, sandbox
 
 
 @pytest.mark.parametrize(
@@ -21,20 +21,20 @@ from tests.marking.sandbox.prison import PATIENCE, sandbox, warden
         ("raise KeyboardInterrupt", "exited", "The process ended by itself, with exit status 1."),
     ],
 )
-def test_an_end_of_its_own_is_told(prisoner, act, kind, detail):
-    prisoner.tell(act)
-    ending = prisoner.ending()
+def test_an_end_of_its_own_is_told(commanded, act, kind, detail):
+    commanded.tell(act)
+    ending = commanded.ending()
     assert (ending.kind, ending.detail) == (kind, detail)
 
 
-def test_an_error_that_leaves_the_entry_is_kept(prisoner):
-    prisoner.tell("raise KeyboardInterrupt('stop it')")
-    assert prisoner.ending().words.endswith("KeyboardInterrupt: stop it")
+def test_an_error_that_leaves_the_entry_is_kept(commanded):
+    commanded.tell("raise KeyboardInterrupt('stop it')")
+    assert commanded.ending().words.endswith("KeyboardInterrupt: stop it")
 
 
-def test_it_cannot_stop_itself(prisoner):
+def test_it_cannot_stop_itself(commanded):
     stop = "import os, signal; os.kill(os.getpid(), signal.SIGSTOP); answer = 'going on'"
-    assert prisoner.ask(stop) == "going on"
+    assert commanded.ask(stop) == "going on"
 
 
 IGNORANT = "import signal; [signal.signal(s, signal.SIG_IGN) for s in signal.valid_signals() - {9, 19}]"
@@ -50,38 +50,38 @@ IGNORANT = "import signal; [signal.signal(s, signal.SIG_IGN) for s in signal.val
         "import os; keep = os.dup(3); os.closerange(0, 60); import threading; threading.Event().wait()",
     ],
 )
-def test_killing_ends_it_whatever_it_does(prisoner, act):
-    pidfd = os.pidfd_open(prisoner.inmate.pid)
-    prisoner.tell(act)
-    prisoner.inmate.kill()
-    ending = prisoner.ending()
+def test_killing_ends_it_whatever_it_does(commanded, act):
+    pidfd = os.pidfd_open(commanded.process.pid)
+    commanded.tell(act)
+    commanded.process.kill()
+    ending = commanded.ending()
     assert (ending.kind, ending.detail) == ("killed", "The process was killed from outside.")
     assert gone(pidfd)
-    prisoner.inmate.kill()
+    commanded.process.kill()
 
 
-def test_closing_the_sandbox_ends_all(prisoners):
+def test_closing_the_sandbox_ends_all(make_commanded):
     box = sandbox()
-    held = [prisoners(box) for _ in range(3)]
+    held = [make_commanded(box) for _ in range(3)]
     box.close()
-    assert {prisoner.ending().kind for prisoner in held} == {"killed"}
+    assert {commanded.ending().kind for commanded in held} == {"killed"}
 
 
-def test_when_the_warm_process_dies_a_new_one_takes_its_place(prisoners):
+def test_when_the_warm_process_dies_a_new_one_takes_its_place(make_commanded):
     with sandbox() as box:
-        before = prisoners(box)
-        os.kill(warden(box), signal.SIGKILL)
+        before = make_commanded(box)
+        os.kill(fork_server(box), signal.SIGKILL)
         assert before.ending().detail == "The process was killed: the cage around it broke."
-        after = prisoners(box)
+        after = make_commanded(box)
         assert after.ask("answer = 'alive'") == "alive"
         after.leave()
 
 
-def test_nothing_is_left_of_many(cage, prisoners):
-    prisoners(cage).leave()
+def test_nothing_is_left_of_many(usual_sandbox, make_commanded):
+    make_commanded(usual_sandbox).leave()
     before = len(os.listdir("/proc/self/fd"))
     for _ in range(20):
-        prisoners(cage).leave()
+        make_commanded(usual_sandbox).leave()
     assert len(os.listdir("/proc/self/fd")) == before
 
 
@@ -89,11 +89,11 @@ def test_nothing_is_left_of_many(cage, prisoners):
 def test_nobody_outlives_the_marker(unsafe):
     marker = f"""
         import socket, sys
-        from tests.marking.sandbox.prison import Prisoner, sandbox
+        from tests.marking.sandbox.commanded import Commanded, sandbox
         box = sandbox(unsafe={unsafe})
-        prisoner = Prisoner(box)
-        prisoner.tell("while True: pass")
-        print(prisoner.inmate.pid, flush=True)
+        commanded = Commanded(box)
+        commanded.tell("while True: pass")
+        print(commanded.process.pid, flush=True)
         sys.stdin.read()
     """
     command = [sys.executable, "-c", textwrap.dedent(marker)]

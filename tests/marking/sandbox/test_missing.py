@@ -1,9 +1,10 @@
 """Systems without a sandbox, and what the marker reads there."""
 import pytest
 
-from grader.marking.sandbox import Sandbox, SandboxFailed, SandboxMissing, cage, warm
+from grader.marking.errors import SandboxFailed, SandboxMissing
+from grader.marking.sandbox import Sandbox, bubblewrap, warm_process
+from tests.marking.sandbox.commanded import sandbox
 from tests.marking.sandbox.machines import in_a_system_with
-from tests.marking.sandbox.prison import sandbox
 
 UNSAFE = ", or mark with `--unsafe`, which lets students' code read and change all your files."
 
@@ -28,13 +29,13 @@ def test_on_another_architecture_it_says_where_to_mark(monkeypatch):
     )
 
 
-@pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, none for an inmate
+@pytest.mark.parametrize("namespaces", [0, 2])  # none for bubblewrap; enough for it, and none inside
 def test_where_user_namespaces_are_forbidden_it_says_how_to_allow_them(namespaces):
-    attempt = "from tests.marking.sandbox.prison import sandbox; sandbox()"
+    attempt = "from tests.marking.sandbox.commanded import sandbox; sandbox()"
     done = in_a_system_with(namespaces, attempt)
     error = done.stderr.splitlines()[-1]
     assert error.startswith(
-        "grader.marking.sandbox.errors.SandboxMissing: This system lets bubblewrap make no sandbox ("
+        "grader.marking.errors.SandboxMissing: This system lets bubblewrap make no sandbox ("
     )
     way = "Allow user namespaces with `sudo sysctl user.max_user_namespaces=10000`"
     if namespaces:
@@ -72,7 +73,7 @@ def test_the_way_out_depends_on_the_system(tmp_path, files, way):
     for name, text in files.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text + "\n")
-    assert str(cage.forbidden("bwrap: No permission", tmp_path)) == (
+    assert str(bubblewrap.forbidden("bwrap: No permission", tmp_path)) == (
         f"This system lets bubblewrap make no sandbox (bwrap: No permission). {way}{UNSAFE}"
     )
 
@@ -92,7 +93,7 @@ def test_a_file_to_read_that_is_not_there_is_named(tmp_path):
 
 
 def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
-    monkeypatch.setattr(warm, "START_S", 0.01)
+    monkeypatch.setattr(warm_process, "START_S", 0.01)
     with pytest.raises(SandboxFailed) as caught:
         sandbox()
     assert str(caught.value) == "The sandbox was not ready after 0.01 s: is this machine too busy?"

@@ -1,51 +1,52 @@
-"""What a sandbox is for those who use it: inmates start warm, answer, end, and say how."""
+"""What a sandbox is for those who use it: confined processes start warm, answer, end, and say how."""
 import socket
 
 import pytest
 
-from grader.marking.sandbox import Sandbox, SandboxFailed
-from tests.marking.sandbox.prison import sandbox
+from grader.marking.errors import SandboxFailed
+from grader.marking.sandbox import Sandbox
+from tests.marking.sandbox.commanded import sandbox
 
 
-def test_an_inmate_starts_in_a_home_of_its_own_as_a_student(prisoner):
-    seen = prisoner.ask("import os; answer = [os.getcwd(), os.environ['HOME'], os.getuid(), os.listdir()]")
+def test_a_process_starts_in_a_home_of_its_own_as_a_student(commanded):
+    seen = commanded.ask("import os; answer = [os.getcwd(), os.environ['HOME'], os.getuid(), os.listdir()]")
     assert seen == ["/student", "/student", 1000, []]
 
 
-def test_an_inmate_that_returns_has_exited(prisoner):
-    prisoner.wire.shutdown(socket.SHUT_WR)
-    ending = prisoner.ending()
+def test_a_process_that_returns_has_exited(commanded):
+    commanded.wire.shutdown(socket.SHUT_WR)
+    ending = commanded.ending()
     assert (ending.kind, ending.code, ending.detail) == ("exited", 0, "The process ended by itself.")
     assert ending.peak_mb > 10
 
 
-def test_its_memory_is_known_while_it_runs_and_afterwards(prisoner):
-    before = prisoner.inmate.memory()
-    prisoner.ask("held = bytearray(100_000_000)")
-    assert prisoner.inmate.memory() > before + 90
-    prisoner.inmate.kill()
-    assert prisoner.ending().peak_mb > before + 90
-    assert prisoner.inmate.memory() == prisoner.ending().peak_mb
+def test_its_memory_is_known_while_it_runs_and_afterwards(commanded):
+    before = commanded.process.memory()
+    commanded.ask("held = bytearray(100_000_000)")
+    assert commanded.process.memory() > before + 90
+    commanded.process.kill()
+    assert commanded.ending().peak_mb > before + 90
+    assert commanded.process.memory() == commanded.ending().peak_mb
 
 
-def test_what_it_writes_to_stderr_last_is_kept(prisoner):
-    prisoner.tell("import sys; print('careful', file=sys.stderr); sys.exit(3)")
-    ending = prisoner.ending()
+def test_what_it_writes_to_stderr_last_is_kept(commanded):
+    commanded.tell("import sys; print('careful', file=sys.stderr); sys.exit(3)")
+    ending = commanded.ending()
     assert (ending.kind, ending.code, ending.words) == ("exited", 3, "careful")
     assert ending.detail == "The process ended by itself, with exit status 3."
 
 
-def test_waiting_for_one_that_runs_takes_as_long_as_said(prisoner):
+def test_waiting_for_one_that_runs_takes_as_long_as_said(commanded):
     with pytest.raises(TimeoutError, match=r"^the process still runs after 0 s$"):
-        prisoner.inmate.wait(0)
+        commanded.process.wait(0)
 
 
-def test_the_socket_is_handed_over(cage, prisoners):
+def test_the_socket_is_handed_over(usual_sandbox, make_commanded):
     ours, theirs = socket.socketpair()
-    inmate = cage.start(theirs)
+    process = usual_sandbox.start(theirs)
     assert theirs.fileno() == -1
     ours.close()
-    assert inmate.wait(60).kind == "exited"
+    assert process.wait(60).kind == "exited"
 
 
 def test_a_closed_sandbox_starts_nobody():

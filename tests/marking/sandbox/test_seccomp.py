@@ -16,9 +16,9 @@ def call(number, *arguments):
 
 
 @pytest.fixture
-def caller(prisoner):
-    prisoner.ask(CALL)
-    return prisoner
+def caller(commanded):
+    commanded.ask(CALL)
+    return commanded
 
 
 def test_every_call_on_the_list_is_denied(caller):

@@ -1,11 +1,11 @@
-"""Without a cage: the same process, limits and endings; no walls."""
+"""Without a sandbox: the same process, limits and endings; no walls."""
 import os
 from collections.abc import Iterator
 
 import pytest
 
 from grader.marking.sandbox import Limits, Sandbox
-from tests.marking.sandbox.prison import Prisoner, sandbox
+from tests.marking.sandbox.commanded import Commanded, sandbox
 
 
 @pytest.fixture(scope="module")
@@ -15,8 +15,8 @@ def open_box() -> Iterator[Sandbox]:
 
 
 @pytest.fixture
-def free(open_box, prisoners) -> Prisoner:
-    return prisoners(open_box)
+def free(open_box, make_commanded) -> Commanded:
+    return make_commanded(open_box)
 
 
 def test_it_starts_in_an_empty_folder_that_is_gone_afterwards(free):
@@ -34,12 +34,12 @@ def test_it_is_the_markers_own_user_and_sees_the_markers_files(free, tmp_path):
     ]  # fmt: skip
 
 
-def test_the_environment_is_as_clean_as_in_the_cage(monkeypatch, prisoners):
+def test_the_environment_is_as_clean_as_in_the_sandbox(monkeypatch, make_commanded):
     monkeypatch.setenv("COURSE_SECRET", "do not tell")
     with sandbox(unsafe=True) as box:
-        prisoner = prisoners(box)
-        assert "COURSE_SECRET" not in prisoner.ask("import os; answer = dict(os.environ)")
-        prisoner.leave()
+        commanded = make_commanded(box)
+        assert "COURSE_SECRET" not in commanded.ask("import os; answer = dict(os.environ)")
+        commanded.leave()
 
 
 def test_limits_hold(free):
@@ -51,12 +51,12 @@ def test_limits_hold(free):
 def test_it_can_be_killed_and_says_how_it_ended(free):
     assert free.ask("answer = 1") == 1
     free.tell("while True: pass")
-    free.inmate.kill()
+    free.process.kill()
     assert free.ending().kind == "killed"
 
 
-def test_a_group_of_its_own_keeps_its_signals_from_the_others(open_box, prisoners):
-    attacker, other = prisoners(open_box), prisoners(open_box)
+def test_a_group_of_its_own_keeps_its_signals_from_the_others(open_box, make_commanded):
+    attacker, other = make_commanded(open_box), make_commanded(open_box)
     attacker.tell("import os; os.kill(0, 9)")
     assert attacker.ending().kind == "killed"
     assert other.ask("answer = 'alive'") == "alive"

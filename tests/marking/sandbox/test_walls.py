@@ -1,4 +1,4 @@
-"""Ways out of the cage, each tried from inside."""
+"""Ways out of the sandbox, each tried from inside."""
 import json
 import os
 import shutil
@@ -11,54 +11,54 @@ from pathlib import Path
 import pytest
 
 import grader
-from tests.marking.sandbox.prison import sandbox
+from tests.marking.sandbox.commanded import sandbox
 
 COURSE = Path(grader.__file__).parents[1]
 ABSTRACT = f"\0marking-test-{os.getpid()}"
 
 
-def test_of_the_course_only_its_packages_are_there(prisoner):
+def test_of_the_course_only_its_packages_are_there(commanded):
     allowed = {"grader", "sim", "tests"}  # tests/ for the entry of these tests
     if Path(sys.prefix).parent == COURSE:
         allowed.add(Path(sys.prefix).name)
-    assert set(prisoner.ask(f"import os; answer = os.listdir({str(COURSE)!r})")) == allowed
-    assert prisoner.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]
+    assert set(commanded.ask(f"import os; answer = os.listdir({str(COURSE)!r})")) == allowed
+    assert commanded.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]
 
 
 @pytest.mark.parametrize(
     "place", [".secret", "class/gradebook.db", "class/submitted", "solutions", "nbgrader_config.py", ".git"]
 )
-def test_nothing_of_the_instructor_can_be_opened(prisoner, place):
+def test_nothing_of_the_instructor_can_be_opened(commanded, place):
     path = str(COURSE / place)
-    said = prisoner.ask(f"open({path!r})")
+    said = commanded.ask(f"open({path!r})")
     assert said == f"FileNotFoundError: [Errno 2] No such file or directory: {path!r}"
 
 
-def test_the_home_of_the_marker_holds_python_at_most(prisoner):
+def test_the_home_of_the_marker_holds_python_at_most(commanded):
     home = Path.home()
-    seen = prisoner.ask(f"import glob; answer = glob.glob('{home}/*', include_hidden=True)")
+    seen = commanded.ask(f"import glob; answer = glob.glob('{home}/*', include_hidden=True)")
     shown = [Path(path) for path in (sys.base_prefix, sys.prefix, COURSE)]
     assert [name for name in seen if not any(path.is_relative_to(name) for path in shown)] == []
 
 
-def test_files_of_the_host_are_not_there(prisoner, tmp_path):
+def test_files_of_the_host_are_not_there(commanded, tmp_path):
     (tmp_path / "answers.txt").write_text("42")
-    assert prisoner.ask(f"open({str(tmp_path / 'answers.txt')!r})").startswith("FileNotFoundError: ")
-    assert prisoner.ask("import os; answer = os.path.exists('/etc/passwd')") is False
+    assert commanded.ask(f"open({str(tmp_path / 'answers.txt')!r})").startswith("FileNotFoundError: ")
+    assert commanded.ask("import os; answer = os.path.exists('/etc/passwd')") is False
 
 
-def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, prisoners):
+def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, make_commanded):
     data = tmp_path / "release" / "data.csv"
     data.parent.mkdir()
     data.write_text("1,2")
     with sandbox(readable=[data, tmp_path / "release"]) as box:
-        prisoner = prisoners(box)
-        assert prisoner.ask(f"answer = open({str(data)!r}).read()") == "1,2"
-        said = prisoner.ask(f"open('{data}', 'w')")
+        commanded = make_commanded(box)
+        assert commanded.ask(f"answer = open({str(data)!r}).read()") == "1,2"
+        said = commanded.ask(f"open('{data}', 'w')")
         assert said == f"OSError: [Errno 30] Read-only file system: '{data}'"
-        assert prisoner.ask(f"import os; os.rename({str(data)!r}, '/tmp/x')").startswith("OSError: ")
-        assert prisoner.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
-        prisoner.leave()
+        assert commanded.ask(f"import os; os.rename({str(data)!r}, '/tmp/x')").startswith("OSError: ")
+        assert commanded.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
+        commanded.leave()
     assert data.read_text() == "1,2"
 
 
@@ -68,11 +68,11 @@ def test_the_course_itself_may_lie_in_tmp(tmp_path):
     attempt = f"""
         import sys
         sys.path += [{str(COURSE)!r}]
-        from tests.marking.sandbox.prison import Prisoner, sandbox
+        from tests.marking.sandbox.commanded import Commanded, sandbox
         with sandbox() as box:
-            prisoner = Prisoner(box)
-            print(prisoner.ask("import grader.notebooks; answer = grader.notebooks.__file__"))
-            prisoner.leave()
+            commanded = Commanded(box)
+            print(commanded.ask("import grader.notebooks; answer = grader.notebooks.__file__"))
+            commanded.leave()
     """
     command = [sys.executable, "-c", textwrap.dedent(attempt)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
@@ -82,15 +82,15 @@ def test_the_course_itself_may_lie_in_tmp(tmp_path):
 @pytest.mark.parametrize(
     "folder", [sys.prefix, sys.base_prefix, str(COURSE / "grader"), "/usr/lib", "/", "/etc", "/dev"]
 )
-def test_nothing_but_its_own_places_can_be_written(prisoner, folder):
-    said = prisoner.ask(f"open({folder!r} + '/mine', 'w')")
+def test_nothing_but_its_own_places_can_be_written(commanded, folder):
+    said = commanded.ask(f"open({folder!r} + '/mine', 'w')")
     assert said == f"OSError: [Errno 30] Read-only file system: '{folder}/mine'"
 
 
 @pytest.mark.parametrize("path", ["/", "/usr", "/dev", "/dev/full", "/dev/null", "/proc/self", sys.prefix])
-def test_no_mode_outside_its_own_places_can_be_changed(prisoner, path):
+def test_no_mode_outside_its_own_places_can_be_changed(commanded, path):
     before = os.stat(path).st_mode
-    said = prisoner.ask(f"import os; os.chmod({path!r}, os.stat({path!r}).st_mode)")  # harmless if it works
+    said = commanded.ask(f"import os; os.chmod({path!r}, os.stat({path!r}).st_mode)")  # harmless if it works
     assert said in (
         f"OSError: [Errno 30] Read-only file system: {path!r}",
         f"PermissionError: [Errno 1] Operation not permitted: {path!r}",
@@ -98,54 +98,54 @@ def test_no_mode_outside_its_own_places_can_be_changed(prisoner, path):
     assert os.stat(path).st_mode == before
 
 
-def test_the_devices_that_programs_need_are_there(prisoner):
-    assert prisoner.ask("answer = open('/dev/null', 'w').write('gone')") == 4
-    assert prisoner.ask("answer = len(open('/dev/urandom', 'rb').read(8))") == 8
-    assert prisoner.ask("import os; os.fchmod(0, 0o666)") == "OSError: [Errno 30] Read-only file system"
+def test_the_devices_that_programs_need_are_there(commanded):
+    assert commanded.ask("answer = open('/dev/null', 'w').write('gone')") == 4
+    assert commanded.ask("answer = len(open('/dev/urandom', 'rb').read(8))") == 8
+    assert commanded.ask("import os; os.fchmod(0, 0o666)") == "OSError: [Errno 30] Read-only file system"
 
 
 @pytest.mark.parametrize("folder", ["/tmp", "/dev/shm", "/student"])
-def test_what_one_leaves_behind_no_other_finds(cage, prisoners, folder):
-    first, second = prisoners(cage), prisoners(cage)
+def test_what_one_leaves_behind_no_other_finds(usual_sandbox, make_commanded, folder):
+    first, second = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     assert first.ask(f"answer = open({folder!r} + '/mine', 'w').write('!')") == 1
     look = f"import os; answer = sorted(os.listdir({folder!r}))"
     always = second.ask(look)  # the way to the course, where that lies in /tmp
     assert "mine" not in always
     assert first.ask(look) == sorted([*always, "mine"])
     first.leave()
-    assert prisoners(cage).ask(look) == always
+    assert make_commanded(usual_sandbox).ask(look) == always
 
 
-def test_the_environment_holds_nothing_of_the_markers(monkeypatch, prisoners):
+def test_the_environment_holds_nothing_of_the_markers(monkeypatch, make_commanded):
     monkeypatch.setenv("COURSE_SECRET", "do not tell")
     with sandbox() as box:
-        prisoner = prisoners(box)
-        assert "COURSE_SECRET" not in prisoner.ask("import os; answer = dict(os.environ)")
-        assert "do not tell" not in prisoner.ask("answer = open('/proc/self/environ').read()")
-        prisoner.leave()
+        commanded = make_commanded(box)
+        assert "COURSE_SECRET" not in commanded.ask("import os; answer = dict(os.environ)")
+        assert "do not tell" not in commanded.ask("answer = open('/proc/self/environ').read()")
+        commanded.leave()
 
 
-def test_it_has_its_wire_and_no_other_descriptor(prisoner):
+def test_it_has_its_wire_and_no_other_descriptor(commanded):
     links = "import os; answer = [os.readlink(f'/proc/self/fd/{n}') for n in range(4)]"
-    stdin, stdout, _, wire = prisoner.ask(links)
+    stdin, stdout, _, wire = commanded.ask(links)
     assert (stdin, stdout, wire[:8]) == ("/dev/null", "/dev/null", "socket:[")
-    assert prisoner.ask("os.fstat(4)") == "OSError: [Errno 9] Bad file descriptor"
-    assert prisoner.ask("answer = len(os.listdir('/proc/self/fd'))") == 4 + 1  # one for the look itself
+    assert commanded.ask("os.fstat(4)") == "OSError: [Errno 9] Bad file descriptor"
+    assert commanded.ask("answer = len(os.listdir('/proc/self/fd'))") == 4 + 1  # one for the look itself
 
 
-def test_it_sees_no_process_but_itself(cage, prisoners):
-    first, second = prisoners(cage), prisoners(cage)
+def test_it_sees_no_process_but_itself(usual_sandbox, make_commanded):
+    first, second = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     look = "import os; answer = [os.getpid(), os.getppid(), os.listdir('/proc')]"
     assert first.ask(look) == second.ask(look) == [1, 0, ["self"]]
     assert first.ask("answer = open('/proc/2/environ')").startswith("FileNotFoundError: ")
 
 
 @pytest.mark.parametrize("target", ["0", "-1", "1", "2", "-2"])
-def test_it_can_kill_nobody_else(cage, prisoners, target):
-    attacker, other = prisoners(cage), prisoners(cage)
+def test_it_can_kill_nobody_else(usual_sandbox, make_commanded, target):
+    attacker, other = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     attacker.ask(f"import os, signal; os.kill({target}, signal.SIGKILL)")
     assert other.ask("answer = 'alive'") == "alive"
-    assert prisoners(cage).ask("answer = 'alive'") == "alive"
+    assert make_commanded(usual_sandbox).ask("answer = 'alive'") == "alive"
 
 
 @pytest.mark.parametrize(
@@ -164,32 +164,32 @@ def test_it_can_kill_nobody_else(cage, prisoners, target):
         "import os; os.chroot('/tmp')",
     ],
 )
-def test_new_processes_and_the_like_are_ordinary_errors(prisoner, attempt):
-    assert prisoner.ask(attempt).startswith("PermissionError: [Errno 1] Operation not permitted")
+def test_new_processes_and_the_like_are_ordinary_errors(commanded, attempt):
+    assert commanded.ask(attempt).startswith("PermissionError: [Errno 1] Operation not permitted")
 
 
-def test_threads_are_allowed(prisoner):
+def test_threads_are_allowed(commanded):
     work = "import threading; answer = []; t = threading.Thread(target=answer.append, args=(1,)); "
-    assert prisoner.ask(work + "t.start(); t.join()") == [1]
+    assert commanded.ask(work + "t.start(); t.join()") == [1]
 
 
 UNREACHABLE = "OSError: [Errno 101] Network is unreachable"
 
 
 @pytest.mark.parametrize("address", ["1.1.1.1", "127.0.0.1", "169.254.169.254"])
-def test_no_address_can_be_reached(prisoner, address):
+def test_no_address_can_be_reached(commanded, address):
     with socket.create_server(("127.0.0.1", 0)) as server:
         target = (address, server.getsockname()[1])
-        assert prisoner.ask(f"import socket; socket.create_connection({target})") == UNREACHABLE
-        assert prisoner.ask(f"socket.socket(type=socket.SOCK_DGRAM).sendto(b'x', {target})") == UNREACHABLE
+        assert commanded.ask(f"import socket; socket.create_connection({target})") == UNREACHABLE
+        assert commanded.ask(f"socket.socket(type=socket.SOCK_DGRAM).sendto(b'x', {target})") == UNREACHABLE
 
 
-def test_no_name_can_be_looked_up(prisoner):
-    assert prisoner.ask("import socket; socket.getaddrinfo('example.org', 80)").startswith("gaierror: ")
+def test_no_name_can_be_looked_up(commanded):
+    assert commanded.ask("import socket; socket.getaddrinfo('example.org', 80)").startswith("gaierror: ")
 
 
-def test_abstract_sockets_lead_nowhere(cage, prisoners):
-    first, second = prisoners(cage), prisoners(cage)
+def test_abstract_sockets_lead_nowhere(usual_sandbox, make_commanded):
+    first, second = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     name = json.dumps(ABSTRACT)
     attempt = f"import socket; s = socket.socket(socket.AF_UNIX); s.connect({name})"
     with socket.socket(socket.AF_UNIX) as server:
@@ -201,23 +201,23 @@ def test_abstract_sockets_lead_nowhere(cage, prisoners):
     assert second.ask(attempt) == "ConnectionRefusedError: [Errno 111] Connection refused"
 
 
-def test_ports_of_one_are_free_for_the_next(cage, prisoners):
+def test_ports_of_one_are_free_for_the_next(usual_sandbox, make_commanded):
     bind = "import socket; s = socket.socket(type=socket.SOCK_DGRAM); s.bind(('', 7410)); answer = 'bound'"
-    assert [prisoners(cage).ask(bind) for _ in range(2)] == ["bound", "bound"]
+    assert [make_commanded(usual_sandbox).ask(bind) for _ in range(2)] == ["bound", "bound"]
 
 
 @pytest.mark.parametrize("file", ["oom_score_adj", "autogroup", "timerslack_ns", "uid_map", "mem"])
-def test_it_can_t_change_how_the_kernel_treats_it(prisoner, file):
-    said = prisoner.ask(f"open('/proc/self/{file}', 'w')")
+def test_it_can_t_change_how_the_kernel_treats_it(commanded, file):
+    said = commanded.ask(f"open('/proc/self/{file}', 'w')")
     assert said == f"OSError: [Errno 30] Read-only file system: '/proc/self/{file}'"
 
 
-def test_where_memory_runs_out_it_goes_first(prisoner):
-    assert prisoner.ask("answer = int(open('/proc/self/oom_score_adj').read())") == 1000
+def test_where_memory_runs_out_it_goes_first(commanded):
+    assert commanded.ask("answer = int(open('/proc/self/oom_score_adj').read())") == 1000
 
 
-def test_its_own_user_has_no_power(prisoner):
-    lines = prisoner.ask("answer = open('/proc/self/status').read().split('\\n')")
+def test_its_own_user_has_no_power(commanded):
+    lines = commanded.ask("answer = open('/proc/self/status').read().split('\\n')")
     status = dict(line.split(":\t") for line in lines if line)
     assert {status[name] for name in ("CapInh", "CapPrm", "CapEff", "CapAmb")} == {"0" * 16}
     assert (status["NoNewPrivs"], status["Seccomp"]) == ("1", "2")

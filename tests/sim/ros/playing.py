@@ -2,8 +2,8 @@
 
 import itertools
 
-from sim.ros.pacing import Pace
-from sim.ros.player import Player
+from sim.ros.play.pacing import Pace
+from sim.ros.play.player import Player
 from sim.ros.session import Session
 
 ODD = (0.0031, 0.017, 0.0004, 0.041, 0.0073, 0.09, 0.0119)  # s between two looks at the clock

@@ -6,7 +6,8 @@ import sys
 import pytest
 
 from sim import run
-from sim.ros import guard, recorder
+from sim.ros.engine import guard
+from sim.ros.recorder import recorder
 from tests.sim.ros.evidence import raised, said, times, why
 from tests.students.engine import adversaries, mains
 
@@ -182,11 +183,3 @@ def test_a_flood_of_small_messages_is_stopped(monkeypatch):
     recording = run(adversaries.Camera, seconds=3, quiet=True)
     assert why(recording) == ("livelock", 0.8, "the nodes sent more than 9 messages by t = 0.8 s.")
     assert len(recording.heard) == 9
-
-
-def test_an_asyncio_loop_is_stopped(monkeypatch):
-    """It waits in the operating system, for real time."""
-    monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
-    reason, stamp, detail = why(after(adversaries.AsyncioRun))
-    assert (reason, stamp) == ("hang", 1.0)
-    assert "waited for 1 s in a call that simulated time can't shorten, at line " in detail

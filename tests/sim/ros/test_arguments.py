@@ -7,7 +7,7 @@ import rclpy
 from rclpy.node import Node
 
 from sim import Process, World, run
-from sim.ros.fibers import active
+from sim.ros.fibers.scheduler import active
 from sim.world import WorldError
 from tests.students.engine import mains
 

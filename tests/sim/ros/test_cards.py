@@ -5,7 +5,7 @@ import re
 import pytest
 
 from sim import World, run
-from sim.recording import INFRASTRUCTURE_TOPICS
+from sim.evidence import INFRASTRUCTURE_TOPICS
 
 # A topic's name, but not the second half of a type's: std_msgs/Float64.
 TOPIC = re.compile(r"(?<!\w)/[a-z]\w*(?:/\w+)*")

@@ -16,8 +16,9 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from sim.ros.cdr import canonical
-from sim.ros.codec import decode, encode, message_class, type_name
+from sim.ros.messages.cdr import canonical
+from sim.ros.messages.codec import encode, message_class, type_name
+from sim.ros.messages.decoder import decode
 
 TYPES = [
     "std_msgs/msg/Bool", "std_msgs/msg/Byte", "std_msgs/msg/Char", "std_msgs/msg/String",

@@ -6,6 +6,8 @@ from sim import run
 from tests.sim.ros.evidence import raised, said, why
 from tests.students.engine import errors
 
+pytestmark = pytest.mark.pythons
+
 DIVISION = ("ZeroDivisionError", "division by zero")
 INIT = "rclpy.init() has not been called. msg:cannot create node"
 FIRST_ERROR = {
@@ -22,11 +24,25 @@ FIRST_ERROR = {
         1.0, "/server", "ServiceThatReturnsNothing.answer", "TypeError",
         "Expected <class 'example_interfaces.srv._trigger.Trigger_Response'>, got <class 'NoneType'>",
     ),
+    errors.in_transition: (
+        0.5, "/unready", "Unready.on_configure", "AttributeError",
+        "'Unready' object has no attribute 'missing'",
+    ),
     errors.in_main: (0.0, "/in_main", "in_main", "RuntimeError", "at once"),
     errors.in_thread: (0.0, "/threads", "thread work", "KeyError", "'in thread'"),
+    errors.sys_exit_with_a_status: (1.0, "/leaver", "sys_exit_with_a_status", "SystemExit", "2"),
+    errors.sys_exit_with_words: (0.0, "/sys_exit_with_words", "sys_exit_with_words", "SystemExit", "bye"),
+    errors.os_exit_with_a_status: (0.0, "/os_exit_with_a_status", "os_exit_with_a_status", "SystemExit", "3"),
     errors.chained: (0.0, "/chained", "chained", "RuntimeError", "no number"),
     errors.init_twice: (
         0.0, "/init_twice", "init_twice", "RuntimeError", "Context.init() must only be called once",
+    ),
+    errors.unknown_arguments: (
+        0.0, "/unknown_arguments", "unknown_arguments", "UnknownROSArgsError", "['--unknown']",
+    ),
+    errors.another_domain: (
+        0.0, "/another_domain", "another_domain", "ValueError",
+        "All programs of a run are in one ROS domain, and hear each other: leave out domain_id=5.",
     ),
     errors.without_init: (0.0, "/forgot", "without_init", "NotInitializedException", INIT),
     errors.init_after_node: (0.0, "/early", "init_after_node", "NotInitializedException", INIT),
@@ -37,13 +53,18 @@ FIRST_ERROR = {
         0.0, "/shutdown_twice", "shutdown_twice", "RuntimeError",
         "Context must be initialized before it can be shutdown",
     ),
+    errors.own_context_shutdown_twice: (
+        0.0, "/own_context_shutdown_twice", "own_context_shutdown_twice", "RCLError",
+        "failed to shutdown: rcl_shutdown already called on the given context",
+    ),
     errors.publish_after_shutdown: (
         0.0, "/late", "publish_after_shutdown", "RCLError",
         "Failed to publish: publisher's context is invalid",
     ),
     errors.asks_the_keyboard: (
         0.0, "/asker", "asks_the_keyboard", "RuntimeError",
-        "input() waits for somebody at the keyboard; a node gets its input from topics and parameters",
+        "input() waits for somebody at the keyboard; give it lines, as in run(Process(main, "
+        'stdin=["first line", "second line"])), or let the node get its input from topics and parameters',
     ),
     errors.events_executor: (
         0.0, "/events_executor", "events_executor", "NotImplementedError",
@@ -117,6 +138,10 @@ def test_an_exception_in_a_thread_leaves_its_program_alive():
     assert [stamp for stamp, _ in said(recording)] == [1.0, 2.0, 3.0]
 
 
+def test_an_exception_in_a_transition_leaves_its_program_alive():
+    assert said(run(errors.in_transition, seconds=3, quiet=True)) == [(0.5, "ERROR")]
+
+
 def test_a_program_that_fails_leaves_the_others_alive():
     from tests.students.engine import mains
 
@@ -125,8 +150,8 @@ def test_a_program_that_fails_leaves_the_others_alive():
     assert why(recording) == ("error", 3.0, "in_main of /in_main raised RuntimeError: at once")
 
 
-@pytest.mark.parametrize("program", [errors.sys_exit, errors.os_exit])
-def test_leaving_the_program_ends_it_and_nothing_else(program):
+@pytest.mark.parametrize("program", [errors.sys_exit, errors.os_exit, errors.sys_exit_in_a_thread])
+def test_leaving_the_program_without_a_status_ends_it_and_nothing_else(program):
     recording = run(program, seconds=3, quiet=True)
     assert why(recording) == ("finished", 1.0, "Every program had ended by t = 0 s.")
     assert raised(recording) == []

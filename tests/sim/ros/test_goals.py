@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from sim.recording import rate, stamps
+from sim.evidence import rate, stamps
 from tests.sim.ros.evidence import raised, said
 from tests.students.engine import actions, goals
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from sim.ros import guard
+from sim.ros.engine import guard
 from tests.sim.ros.evidence import raised, why
 from tests.students.engine import hangs, mains
 
@@ -78,6 +78,16 @@ def test_a_call_that_nobody_answers_is_interrupted(usual, monkeypatch):
         "hang", 1.0, "Pipe.tick of node /hanging at t = 1 s waited for 1 s in a call that simulated time "
         f"can't shorten, at line {line}: os.read(read, 1).",
     )  # fmt: skip
+
+
+def test_many_short_waits_in_real_time_have_an_end(usual, monkeypatch):
+    monkeypatch.setattr(guard, "SECOND_LIMIT", 1.0)
+    reason, stamp, detail = why(run(hangs.WaitsALittle, seconds=3, quiet=True))
+    assert (reason, 1.0 < stamp < 2.0) == ("hang", True)
+    assert detail.startswith(
+        "One simulated second took 1 s of real time; the nodes were stopped in thread WaitsALittle.work() at "
+        f"t = {stamp:g} s, at line {line_in(hangs.WaitsALittle, 'while True:', 'work') + 1}: select.select("
+    )
 
 
 @pytest.mark.parametrize("node, line, waits_for", [

@@ -2,6 +2,7 @@
 
 import builtins
 import os
+import platform
 import queue
 import random
 import signal
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from importlib import metadata
 
 import numpy as np
 import pytest
@@ -22,7 +24,10 @@ from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
 from sim import run
-from sim.ros.hooks import HOOKS, install
+from sim.ros.hooks import verify
+from sim.ros.hooks.install import install
+from sim.ros.hooks.table import HOOKS, Hook
+from sim.ros.hooks.verify import WRITTEN_FOR, HookError, check_arguments, original_of
 from tests.students.engine import mains, timing
 
 
@@ -47,14 +52,98 @@ def test_every_hook_has_a_reason_and_is_there_once():
 
 
 def test_installing_again_changes_nothing():
-    before = [hook.owner.__dict__[hook.name] for hook in HOOKS]
+    before = [vars(hook.owner)[hook.name] for hook in HOOKS]
     install()
-    assert [hook.owner.__dict__[hook.name] for hook in HOOKS] == before
+    assert [vars(hook.owner)[hook.name] for hook in HOOKS] == before
 
 
-def test_a_module_that_may_not_be_imported_is_passed_over(monkeypatch):
-    monkeypatch.setitem(sys.modules, "forbidden", None)
-    install()
+def test_a_module_that_may_not_be_imported_is_passed_over():
+    program = "import sys; sys.modules['forbidden'] = None; import sim; print(sim.run(seconds=1).ended[0])"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (done.stdout, done.stderr) == ("time\n", "")
+
+
+def rclpys(**places):
+    """A class that is as one of rclpy's, with these functions in it."""
+    return type("Node", (), {"__module__": "rclpy.node", **places})
+
+
+def fit(hook):
+    """Look whether a hook fits what its owner has."""
+    check_arguments(hook, original_of(hook), hook.make(None))
+
+
+def test_a_place_that_rclpy_has_renamed_is_named_with_both_versions(monkeypatch):
+    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    with pytest.raises(HookError) as caught:
+        fit(Hook(rclpys(), "create_timer", "the graph", lambda original: None))
+    assert str(caught.value) == (
+        "A run reaches into rclpy.node.Node.create_timer, which rclpy 8.0.0 does not have: "
+        f"this course was written for rclpy {WRITTEN_FOR['rclpy']}."
+    )
+
+
+@pytest.mark.parametrize(
+    ("now", "of_the_hook", "words"),
+    [
+        ("self, period", "self, seconds", "has no argument 'seconds' there"),
+        ("self, callback, period", "self, period, callback", "has no argument 'period' there"),
+        ("self, *, period", "self, period", "has no argument 'period' there"),
+        ("self, *periods", "self, period", "has no argument 'period' there"),
+        ("self, period, clock", "self, period", "has an argument 'clock' that its hook does not take"),
+        ("self, period, clock", "self, period, *a", "has an argument 'clock' that its hook does not take"),
+        ("self, *, clock", "self, *more", "has an argument 'clock' that its hook does not take"),
+    ],
+)
+def test_other_arguments_than_a_hook_was_written_for_are_named(monkeypatch, now, of_the_hook, words):
+    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    owner = rclpys(create_timer=eval(f"lambda {now}: None"))
+    with pytest.raises(HookError) as caught:
+        fit(Hook(owner, "create_timer", "the graph", lambda original: eval(f"lambda {of_the_hook}: None")))
+    assert str(caught.value) == (
+        f"A run reaches into rclpy.node.Node.create_timer, which in rclpy 8.0.0 {words}: "
+        f"this course was written for rclpy {WRITTEN_FOR['rclpy']}."
+    )
+
+
+@pytest.mark.parametrize(
+    ("now", "of_the_hook"),
+    [("self, a, *, b=1", "self, *r, **m"), ("self, a, b", "self, a, *r, **m"), ("self, *, a", "self, *, a")],
+)
+def test_a_hook_may_pass_on_what_it_does_not_look_at(now, of_the_hook):
+    owner = rclpys(create_timer=eval(f"lambda {now}: None"))
+    fit(Hook(owner, "create_timer", "the graph", lambda original: eval(f"lambda {of_the_hook}: None")))
+
+
+def test_a_hook_that_does_not_fit_is_said_on_import_and_none_is_installed():
+    program = (
+        "import threading, time, rclpy.node\n"
+        "sleep = time.sleep\n"
+        "del rclpy.node.Node.create_timer, threading.Thread.join\n"
+        "try:\n    import sim\nexcept ImportError as error:\n    print(error)\n"
+        "print(time.sleep is sleep)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    rclpy_version = WRITTEN_FOR["rclpy"]
+    assert (done.stdout, done.stderr) == (
+        f"A run reaches into rclpy.node.Node.create_timer, which rclpy {rclpy_version} does not have: "
+        f"this course was written for rclpy {rclpy_version}.\nTrue\n",
+        "",
+    )
+
+
+def test_a_place_of_pythons_own_is_named_with_pythons_versions():
+    with pytest.raises(HookError) as caught:
+        fit(Hook(time, "sleeps", "sleeping takes simulated time", lambda original: None))
+    assert str(caught.value) == (
+        f"A run reaches into time.sleeps, which Python {platform.python_version()} does not have: "
+        "this course was written for Python 3.11 to 3.13."
+    )
+
+
+def test_the_hooks_were_written_for_the_versions_that_are_installed():
+    for name, package in (("rclpy", "ros-jazzy-rclpy"), ("numpy", "numpy")):
+        assert WRITTEN_FOR[name] == metadata.version(package)
 
 
 def test_names_bound_before_sim_was_imported_go_through_the_hooks():
@@ -137,8 +226,8 @@ def test_outside_a_run_input_and_exit_are_pythons(monkeypatch):
 
 def test_outside_a_run_rclpy_waits_in_real_time(node):
     ticks = []
-    node.create_timer(0.02, lambda: ticks.append(node.get_clock().now().nanoseconds))
     start = time.monotonic()
+    node.create_timer(0.02, lambda: ticks.append(node.get_clock().now().nanoseconds))
     while len(ticks) < 3 and time.monotonic() - start < 5:
         rclpy.spin_once(node, timeout_sec=0.5)
     assert 0.05 < time.monotonic() - start < 5

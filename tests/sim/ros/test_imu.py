@@ -7,8 +7,8 @@ import pytest
 from rclpy.time import Time
 
 from sim import World, run
-from sim.ros.cdr import canonical
-from sim.ros.codec import encode
+from sim.ros.messages.cdr import canonical
+from sim.ros.messages.codec import encode
 from sim.world import ImuModel, OtherRobot
 from tests.students.engine import drivers
 

@@ -10,7 +10,7 @@ import time
 import pytest
 
 from sim import run
-from sim.ros.fibers import active
+from sim.ros.fibers.scheduler import active
 from tests.students.engine import interrupts, mains
 
 LONG = 900_000  # simulated seconds: never over while a test waits
@@ -48,6 +48,12 @@ def test_an_interrupted_program_cleans_up(interrupt_soon, capsys):
     assert capsys.readouterr().out == "goodbye\n"
 
 
+def test_the_end_of_a_run_interrupts_the_main_thread_alone(capsys):
+    recording = run(interrupts.leaves_threads_behind, seconds=2)
+    assert capsys.readouterr() == ("worked\ngoodbye\n", "")
+    assert (recording.stderr, recording.errors) == ("", [])
+
+
 def test_an_interrupt_in_the_goal_stops_the_run(interrupt_soon):
     with pytest.raises(KeyboardInterrupt):
         run(mains.Counter, seconds=LONG, until=lambda recording: time.sleep(0.01), quiet=True)
@@ -55,20 +61,20 @@ def test_an_interrupt_in_the_goal_stops_the_run(interrupt_soon):
 
 def test_an_interrupt_comes_from_another_process_too():
     program = (
+        "import os\n"
         "from sim import run\n"
         "from tests.students.engine import interrupts\n"
-        "print('ready', flush=True)\n"
+        "tell = lambda recording: os.write(1, b'It runs.\\n') and False\n"
         "try:\n"
-        f"    run(interrupts.SwallowsAll, seconds={LONG}, quiet=True)\n"
+        f"    run(interrupts.SwallowsAll, seconds={LONG}, until=tell, quiet=True)\n"
         "except KeyboardInterrupt as interrupt:\n"
         "    print(interrupt)\n"
     )
     child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-    assert child.stdout.readline() == "ready\n"
-    time.sleep(0.5)
+    assert child.stdout.readline() == "It runs.\n"
     child.send_signal(signal.SIGINT)
-    out, _ = child.communicate(timeout=30)
-    assert (out, child.returncode) == ("The run was interrupted.\n", 0)
+    out, _ = child.communicate(timeout=300)
+    assert (out.splitlines()[-1], child.returncode) == ("The run was interrupted.", 0)
 
 
 def test_without_a_run_the_interrupt_is_pythons():

@@ -18,8 +18,8 @@ from rclpy.node import Node
 from std_msgs.msg import Int32
 
 from sim import run
-from sim.ros.fibers import active
-from sim.ros.processes import StudentProcess
+from sim.ros.engine.processes import StudentProcess
+from sim.ros.fibers.scheduler import active
 from tests.students.engine import actions, errors, mains, services, threads
 
 RUNS = 200
@@ -63,6 +63,7 @@ def two_hundred_runs():
     print(footprint() == before, live_nodes() == nodes, (memory() - bytes_before) / MEGABYTE)
 
 
+@pytest.mark.soak
 def test_two_hundred_runs_leave_threads_files_and_memory_flat():
     """In a process of their own: the memory of this one depends on the tests before."""
     program = "from tests.sim.ros import test_left_behind as here; here.two_hundred_runs()"

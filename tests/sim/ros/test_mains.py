@@ -6,6 +6,8 @@ from sim import run
 from tests.sim.ros.evidence import said, values, why
 from tests.students.engine import mains
 
+pytestmark = pytest.mark.pythons
+
 TICKS = [(0.5, 1), (1.0, 2), (1.5, 3), (2.0, 4), (2.5, 5), (3.0, 6)]
 FOREVER = [
     mains.Counter, mains.classic, mains.with_finally, mains.bound_early, mains.with_arguments_of_its_own,

@@ -1,6 +1,10 @@
 """Names, parameters, QoS, lifecycle and the graph, as a launch file or the code itself sets them."""
 
+import math
+
+import numpy as np
 import pytest
+from rclpy.node import Node
 
 from sim import Process, run
 from tests.sim.ros.evidence import raised, said, values, why
@@ -51,6 +55,28 @@ def test_a_nodes_own_parameters_win():
 
 def test_a_node_may_ignore_global_arguments():
     assert sent(Process(names.not_for_this_node, **SETTINGS)) == ("/chatter", "/talker", "hello")
+
+
+@pytest.mark.parametrize(
+    ("given", "read"),
+    [
+        (True, True), (-2, -2), (1e-7, 1e-7), (math.inf, math.inf), ("3", "3"), ("é", "é"),
+        ('a "b": c\\\n', 'a "b": c\\\n'), ((1, 2), [1, 2]),
+        (["yes", "# no"], ["yes", "# no"]), (range(2), [0, 1]),
+        (np.float64(2.5), 2.5), (np.array([1, 2]), [1, 2]),
+    ],
+)  # fmt: skip
+def test_a_parameter_of_a_program_is_read_as_it_was_given(given, read):
+    seen = []
+
+    class Reader(Node):
+        def __init__(self):
+            super().__init__("reader", automatically_declare_parameters_from_overrides=True)
+            seen.append(self.get_parameter("given").value)
+
+    run(Process(Reader, parameters={"given": given}), seconds=1, quiet=True)
+    (value,) = seen
+    assert (list(value) if isinstance(read, list) else value) == read
 
 
 def test_two_of_a_kind_are_told_apart_by_namespace():
@@ -110,3 +136,24 @@ def test_a_node_sees_the_others_in_the_graph():
     assert said(run(names.Introspective, names.Talker, seconds=1, quiet=True)) == [
         (1.0, "['asker', 'talker'] ['/chatter']"), (1.0, "1 0"),
     ]  # fmt: skip
+
+
+def logged(*programs):
+    return [(line.node, line.text) for line in run(*programs, seconds=1, quiet=True).logs]
+
+
+def test_log_levels_are_those_of_a_program_or_of_a_logger():
+    usual = [("logs", "info"), ("logs", "warning")]
+    loud = Process(names.Logs, name="loud", arguments=["--ros-args", "--log-level", "debug"])
+    still = Process(names.Logs, name="still", arguments=["--ros-args", "--log-level", "still:=WARN"])
+    assert logged(loud, names.Logs, still) == [
+        ("loud", "debug"), ("loud", "info"), ("loud", "warning"), *usual, ("still", "warning"),
+    ]  # fmt: skip
+    assert logged(names.Logs) == usual
+
+
+def test_a_program_may_keep_its_log_lines_from_rosout():
+    silent = Process(names.Logs, name="silent", arguments=["--ros-args", "--disable-rosout-logs"])
+    recording = run(names.HearsLogs, silent, names.Logs, seconds=1, quiet=True)
+    heard = [(stamp, text) for stamp, text in recording.prints if text.strip()]
+    assert heard == [(1.0, "logs: info"), (1.0, "logs: warning")]

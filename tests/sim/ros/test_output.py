@@ -10,6 +10,8 @@ import pytest
 from sim import run
 from tests.students.engine import mains, output
 
+pytestmark = pytest.mark.pythons
+
 pytestmark = pytest.mark.filterwarnings("ignore:warned")
 
 

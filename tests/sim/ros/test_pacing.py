@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from sim.ros.pacing import Pace
+from sim.ros.play.pacing import Pace
 
 
 class Clock:

@@ -12,13 +12,15 @@ import rclpy
 from rclpy.node import Node
 
 from sim import play, run
-from sim.ros.fibers import active
+from sim.ros.fibers.scheduler import active
 from tests.sim.ros import playing, programs
 from tests.students.engine import (
     actions,
     adversaries,
     drivers,
     errors,
+    event_loops,
+    executors,
     hangs,
     mains,
     names,
@@ -29,8 +31,10 @@ from tests.students.engine import (
     timing,
 )
 
-MODULES = (actions, drivers, errors, mains, names, services, styles, threads, timing)
-LATE_FAULTS = (adversaries.coroutine_main, adversaries.AsyncioRun, hangs.PingPong, output.logs_at_every_level)
+MODULES = (
+    actions, drivers, errors, event_loops, executors, mains, names, services, styles, threads, timing,
+)  # fmt: skip
+LATE_FAULTS = (adversaries.coroutine_main, hangs.Pipe, hangs.PingPong, output.logs_at_every_level)
 
 
 def runnable(thing, module):
@@ -185,7 +189,7 @@ def test_the_users_alarm_rings_while_something_plays():
 
 @pytest.mark.parametrize("program", LATE_FAULTS, ids=lambda program: program.__qualname__)
 def test_it_ends_as_run_does(program, monkeypatch):
-    from sim.ros import guard
+    from sim.ros.engine import guard
 
     monkeypatch.setattr(guard, "WAITING_LIMIT", 1.0)
     usual = run(program, world="room", seconds=3, quiet=True)
@@ -195,7 +199,7 @@ def test_it_ends_as_run_does(program, monkeypatch):
 
 @pytest.mark.parametrize("program", [hangs.Loop, hangs.LoopInThread, hangs.LoopThatSwallows, hangs.Sleep])
 def test_a_hang_ends_it(program, monkeypatch):
-    from sim.ros import guard
+    from sim.ros.engine import guard
 
     monkeypatch.setattr(guard, "COMPUTING_LIMIT", 0.5)
     monkeypatch.setattr(guard, "WAITING_LIMIT", 0.5)
@@ -207,7 +211,7 @@ def test_a_hang_ends_it(program, monkeypatch):
 
 def test_computing_counts_over_all_frames(monkeypatch):
     """Each frame is short; together they are too much."""
-    from sim.ros import guard
+    from sim.ros.engine import guard
 
     monkeypatch.setattr(guard, "TOTAL_LIMIT", 0.5)
     played = playing.to_the_end(playing.player(adversaries.SlowByALittle, seconds=0.9, speed=math.inf))
@@ -219,7 +223,7 @@ def test_time_between_two_frames_is_nobodys(monkeypatch):
     """Waiting and computing in other cells is not the nodes'."""
     import time
 
-    from sim.ros import guard
+    from sim.ros.engine import guard
 
     monkeypatch.setattr(guard, "TOTAL_LIMIT", 0.3)
     made = playing.player(mains.classic, seconds=0.9)

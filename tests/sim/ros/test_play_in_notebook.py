@@ -8,7 +8,7 @@ from jupyter_client.manager import start_new_kernel
 from sim import run
 from tests.students.engine import mains
 
-PATIENCE = 60  # s; generous, for a busy machine
+PATIENCE = 300  # s; generous, for a busy machine
 
 SNAPSHOT = """
 import gc, asyncio, os, signal, ipywidgets
@@ -43,6 +43,12 @@ class Kernel:
         reply = self.client.execute_interactive(source, timeout=PATIENCE, output_hook=show)["content"]
         self.error = reply.get("ename")
         return "".join(printed)
+
+    def wait_for_the_begin_of(self, cell):
+        """Wait until the kernel says that it runs a cell."""
+        said = {}
+        while (said.get("msg_type"), said.get("parent_header", {}).get("msg_id")) != ("execute_input", cell):
+            said = self.client.get_iopub_msg(timeout=PATIENCE)
 
     def eventually(self, expression):
         """Ask until it is true; between the questions the kernel is idle."""
@@ -93,14 +99,14 @@ def test_the_stop_button_ends_it_while_the_kernel_is_idle(kernel):
     kernel.manager.interrupt_kernel()
     kernel.eventually("player.over")
     assert kernel("print(player.recording.ended.detail)") == "The user interrupted the run.\n"
-    kernel("from sim.ros import interrupts")
+    kernel("from sim.ros.engine import interrupts")
     kernel.eventually("not interrupts._installed")
 
 
 def test_the_stop_button_stops_another_cell_and_not_the_play(kernel):
     kernel("player = play(mains.classic, world='room', seconds=600, quiet=True)")
-    kernel.client.execute("time.sleep(60)")
-    time.sleep(1)
+    cell = kernel.client.execute("time.sleep(60)")
+    kernel.wait_for_the_begin_of(cell)
     kernel.manager.interrupt_kernel()
     kernel("before = player.recording.stamp")
     assert kernel("print(player.over)") == "False\n"

@@ -12,9 +12,9 @@ import time
 import pytest
 
 from sim import Process, Teleop, play, run
-from sim.ros.fibers import active
-from sim.ros.processes import StudentProcess
-from sim.ros.teleop import RATE
+from sim.ros.engine.processes import StudentProcess
+from sim.ros.fibers.scheduler import active
+from sim.ros.play.teleop import RATE
 from tests.sim.ros import playing
 from tests.sim.ros.test_left_behind import footprint, live_nodes
 from tests.students.engine import interrupts, mains
@@ -340,6 +340,7 @@ def test_python_can_end_while_something_plays():
 # -- nothing is left -------------------------------------------------------------------------------------
 
 
+@pytest.mark.soak
 def test_fifty_plays_leave_nothing():
     def some(count):
         for index in range(count):

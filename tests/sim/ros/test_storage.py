@@ -8,7 +8,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from sim import Recording, World
-from sim.ros.storage import ATTACHMENT, StorageError
+from sim.evidence.storage import ATTACHMENT, StorageError
 
 
 @pytest.mark.parametrize("name", World.names())

@@ -6,6 +6,8 @@ from sim import run
 from tests.sim.ros.evidence import values
 from tests.students.engine import styles
 
+pytestmark = pytest.mark.pythons
+
 
 @pytest.mark.parametrize(
     "program", styles.ALL, ids=lambda program: getattr(program, "__qualname__", "partial")

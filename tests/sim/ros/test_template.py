@@ -9,9 +9,10 @@ from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-from sim.ros.cdr import canonical
-from sim.ros.codec import decode, encode, type_name
-from sim.ros.template import Template
+from sim.ros.messages.cdr import canonical
+from sim.ros.messages.codec import encode, type_name
+from sim.ros.messages.decoder import decode
+from sim.ros.messages.template import Template
 
 
 def expected(message):

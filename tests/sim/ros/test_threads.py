@@ -6,6 +6,8 @@ from sim import run
 from tests.sim.ros.evidence import said, times
 from tests.students.engine import threads
 
+pytestmark = pytest.mark.pythons
+
 CASES = {
     threads.spin_in_a_thread: [(0.5, "tick"), (1.0, "tick"), (1.25, "alive True"), (1.25, "alive False")],
     threads.executor_in_a_thread: [(0.5, "tick"), (1.0, "tick"), (1.25, "alive False")],
@@ -69,6 +71,15 @@ def test_threads_have_their_own_local_storage():
 
 def test_threads_have_their_own_names():
     assert said(run(threads.thread_names, seconds=1, quiet=True)) == [(0.0, "worker")]
+
+
+def test_threads_without_names_have_those_of_a_fresh_program():
+    for _ in range(2):
+        assert said(run(threads.names_that_python_gives, seconds=2, quiet=True)) == [
+            (0.0, "Thread-1 (work)"), (0.0, "Thread-2 (work)"), (0.0, "ThreadPoolExecutor-0_0"),
+            (1.0, "ThreadPoolExecutor-1_0"), (1.25, "ThreadPoolExecutor-1_1"),
+            (2.0, "ThreadPoolExecutor-1_0"),
+        ]  # fmt: skip
 
 
 def test_threads_that_wait_when_the_run_ends_are_gone():

@@ -6,6 +6,8 @@ from sim import run
 from tests.sim.ros.evidence import said, times
 from tests.students.engine import timing
 
+pytestmark = pytest.mark.pythons
+
 
 def stamps(program, seconds=4):
     recording = run(program, seconds=seconds, quiet=True)
@@ -83,3 +85,7 @@ def test_a_logger_throttles_by_simulated_time():
 def test_once_means_once_in_each_run():
     for _ in range(2):
         assert (0.0, "once") in stamps(timing.throttled_log)
+
+
+def test_time_passes_and_never_jumps_for_clocks_that_are_gone_or_kept():
+    assert stamps(timing.JumpCallbacks, 1.5) == [(0.5, "tick 0.5"), (1.0, "tick 1.0"), (1.5, "tick 1.5")]

@@ -10,12 +10,13 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 CLIENTS = Path(__file__).with_name("clients.py")
-LIMIT = 60  # wall seconds: what takes this long hangs
+LIMIT = 300  # wall seconds: only against hanging, for a busy machine is slow
 _turns = itertools.count(os.getpid())
 
 
@@ -59,6 +60,12 @@ class Robot:
     def listen(self, seconds: float = 1.5) -> dict:
         """What a listener hears in that time."""
         return json.loads(finish(self.client("listen", seconds)))
+
+    def hear_until(self, condition: Callable[[dict], bool]) -> None:
+        """Listen again and again, until what is heard is as it should be."""
+        end = time.monotonic() + LIMIT
+        while not condition(heard := self.listen(0.2)):
+            assert time.monotonic() < end, heard
 
     def memory(self) -> int:
         """Resident memory, kB."""

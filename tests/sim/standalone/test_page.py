@@ -122,12 +122,9 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
         expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"), timeout=30_000)
         page.locator("canvas").click()
         page.keyboard.down("ArrowUp")
-        page.wait_for_timeout(2000)
-        heard = running.listen(1)
-        assert heard["x"] > 0.2 and heard["v"] > 0.0
+        running.hear_until(lambda heard: heard["x"] > 0.2 and heard["v"] > 0.0)
         page.keyboard.up("ArrowUp")
-        page.wait_for_timeout(1500)
-        assert running.listen(1)["v"] == 0.0
+        running.hear_until(lambda heard: heard["v"] == 0.0)
         assert faults == []
         assert running.stop() == (0, "")
         words = "The robot's program has ended. Start it again, then reload this page."

@@ -13,10 +13,11 @@ from sensor_msgs.msg import Imu, JointState, LaserScan, Temperature
 from std_msgs.msg import String
 
 from sim import Recording, World, run
-from sim.recording import CallbackError, Contact, Ended, Pose
+from sim.evidence import CallbackError, Pose
 from sim.view import animate, plot_path, plot_signal, plot_topics, png
-from sim.world import MovableBox, OtherRobot
+from tests.grader import recordings
 from tests.grader.recordings import published
+from tests.sim.view.worlds import CROWDED
 from tests.students import misfits
 from tests.students.engine import actions, goals, services
 
@@ -24,8 +25,7 @@ JOINT = ("/joint_states", "position.1")
 
 
 def driven(world="room", **evidence):
-    path = [Pose(float(n), 0.2 * n, 0.0, 0.0) for n in range(6)]
-    return Recording(world=World.load(world), path=path, ended=Ended("time", 5.0, ""), **evidence)
+    return recordings.driven([(0.2 * n, 0.0) for n in range(6)], world=world, **evidence)
 
 
 def labels(figure):
@@ -67,19 +67,14 @@ def test_a_machine_is_drawn_at_start_and_end():
 
 
 def test_boxes_and_other_robots_are_drawn_beside_the_robot():
-    world = dataclasses.replace(
-        World.load("yard"),
-        movable=(MovableBox(x=1.0, y=1.0, yaw=0.0, width=0.4, height=0.2),),
-        robots=(OtherRobot(name="leader", start=(1.0, -1.0, 0.0)),),
-    )
     tracks = {"box_1": [Pose(0.0, 1.0, 1.0, 0.0)], "leader": [Pose(0.0, 1.0, -1.0, 0.0)]}
-    figure = plot_path(dataclasses.replace(driven(), world=world, tracks=tracks))
+    figure = plot_path(dataclasses.replace(driven(), world=CROWDED, tracks=tracks))
     assert len(figure.axes[0].patches) == 2 * 3  # each at both ends
     assert labels(figure) == ["path", "start", "end, 5 s", "leader"]
 
 
 def test_contacts_are_marked():
-    figure = plot_path(driven(contacts=[Contact(1.0, None, 3.0, 0.5, "front", "wall")]))
+    figure = plot_path(driven(contacts=[(1.0, None, 3.0, 0.5, "front", "wall")]))
     marks = next(line for line in figure.axes[0].lines if line.get_label() == "contact")
     assert (list(marks.get_xdata()), list(marks.get_ydata())) == ([3.0], [0.5])
 

@@ -1,5 +1,5 @@
 from sim import Recording
-from sim.recording import Ended, LogLine
+from sim.evidence import Ended, LogLine
 from sim.view import plot_logs
 
 

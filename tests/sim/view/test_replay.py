@@ -12,13 +12,14 @@ from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
 from sim import Recording, World, run
-from sim.recording import CallbackError, Contact, Ended, Heard, LogLine, Pose
-from sim.ros.codec import encode
+from sim.evidence import CallbackError, Ended, Heard, LogLine, Pose
+from sim.ros.messages.codec import encode
 from sim.view import packing, replay
 from sim.view.replay import PLAYER_SCRIPT
-from sim.world import MovableBox, OtherRobot
+from sim.world import Contact
 from tests.bench.avoider import Avoider
 from tests.grader.recordings import driven, recording
+from tests.sim.view.worlds import CROWDED
 from tests.students import misfits
 
 
@@ -147,12 +148,7 @@ def test_scans_that_no_page_could_draw_are_left_out_or_cut():
 
 
 def test_other_robots_boxes_and_machines_have_tracks(drive):
-    world = dataclasses.replace(
-        World.load("yard"),
-        movable=(MovableBox(x=1.0, y=1.0, yaw=0.0, width=0.4, height=0.2),),
-        robots=(OtherRobot(name="leader", start=(1.0, -1.0, 0.0)),),
-    )
-    data = unpacked(run(world=world, seconds=1, quiet=True))
+    data = unpacked(run(world=CROWDED, seconds=1, quiet=True))
     assert [body["name"] for body in data["world"]["bodies"]] == ["robot", "leader", "box_1"]
     assert [[column[0] for column in track] for track in data["tracks"]] == [
         [0, 0, 0],

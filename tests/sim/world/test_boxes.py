@@ -21,7 +21,7 @@ def drive(simulation, v, until, w=0.0):
     """Command (v, w) at 10 Hz and return the first box's pose after each step."""
     poses = []
     for tick in range(round(simulation.time * 10), round(until * 10)):
-        simulation.command(v, w)
+        simulation.robot.command(v, w)
         for step in range(1, 11):
             simulation.advance(tick / 10 + step * DT)
             poses.append(simulation.poses[1])
@@ -60,15 +60,15 @@ def test_a_force_below_the_floors_grip_moves_no_box(share):
     friction = share * FORCE / GRAVITY
     pushed = simulation(MovableBox(0.251, 0, 0, 0.3, 0.3, mass=1.0, friction=friction))
     assert drive(pushed, 0.01, until=60)[-1][0] == pytest.approx(0.251, abs=1.5 * MILLIMETRE)
-    assert pushed.odometry.x > 0.5
+    assert pushed.robot.odometry.x > 0.5
 
 
 def test_a_heavy_box_stops_the_robot():
     pushed = simulation(MovableBox(1.0, 0, 0, 0.3, 0.3, mass=20.0))
     drive(pushed, 0.6, until=6)
     assert pushed.poses[1][0] == pytest.approx(1.0, abs=MILLIMETRE)
-    assert pushed.pose[0] == pytest.approx(0.85 - RADIUS, abs=2 * MILLIMETRE)
-    assert pushed.odometry.x > 3
+    assert pushed.robot.pose[0] == pytest.approx(0.85 - RADIUS, abs=2 * MILLIMETRE)
+    assert pushed.robot.odometry.x > 3
 
 
 def test_a_box_alone_stays_where_it_is():
@@ -90,7 +90,7 @@ def test_a_pushed_box_does_not_go_through_a_wall(turn):
     for x, y, yaw in drive(pushed, 0.6, until=8):
         moved = MovableBox(x, y, yaw, box.width, box.height)
         assert max(corner[0] for corner in moved.corners()) < 1.6 + 0.6 * DT
-    assert pushed.odometry.x > 2
+    assert pushed.robot.odometry.x > 2
 
 
 def test_one_box_pushes_the_next():
@@ -112,26 +112,26 @@ def test_the_robot_feels_a_box_and_says_so():
     (contact,) = pushed.contacts
     assert (contact.what, contact.side, contact.end) == ("box", "front", None)
     assert (contact.x, contact.y) == pytest.approx((0.35, 0), abs=0.005)
-    assert pushed.bumper == {"front"}
+    assert pushed.robot.bumper == {"front"}
 
 
 def test_the_lidar_sees_a_box_where_it_is_now():
     pushed = simulation(MovableBox(0.6, 0, 0, 0.3, 0.3), start=(0.0, 0.0, math.pi))
     behind = 180
-    assert pushed.scan()[behind] == pytest.approx(0.45, abs=1e-6)
+    assert pushed.robot.scan()[behind] == pytest.approx(0.45, abs=1e-6)
     drive(pushed, -0.3, until=3)
-    gap = pushed.poses[1][0] - 0.15 - pushed.pose[0]
+    gap = pushed.poses[1][0] - 0.15 - pushed.robot.pose[0]
     assert pushed.poses[1][0] > 0.9
-    assert gap < 0.12 and pushed.scan()[behind] == -math.inf
+    assert gap < 0.12 and pushed.robot.scan()[behind] == -math.inf
     drive(pushed, 0.3, until=5)
-    gap = pushed.poses[1][0] - 0.15 - pushed.pose[0]
-    assert gap > 0.2 and pushed.scan()[behind] == pytest.approx(gap, abs=1e-6)
+    gap = pushed.poses[1][0] - 0.15 - pushed.robot.pose[0]
+    assert gap > 0.2 and pushed.robot.scan()[behind] == pytest.approx(gap, abs=1e-6)
 
 
 def test_a_movable_box_looks_to_the_lidar_like_one_that_stands_still():
     figures = (1.0, 0.4, 0.5, 0.7, 0.3)
     still = Simulation(World("test", "", (-5, -5, 5, 5), boxes=(Box(*figures),), lidar=QUIET))
-    assert simulation(MovableBox(*figures)).scan() == pytest.approx(still.scan(), abs=1e-6)
+    assert simulation(MovableBox(*figures)).robot.scan() == pytest.approx(still.robot.scan(), abs=1e-6)
 
 
 def test_boxes_are_bodies_with_an_outline_after_the_robot():

@@ -20,10 +20,10 @@ def drive(simulation, v, w, until):
     """Command (v, w) at 10 Hz and return x after each step."""
     xs = []
     for tick in range(round(simulation.time * 10), round(until * 10)):
-        simulation.command(v, w)
+        simulation.robot.command(v, w)
         for step in range(1, 11):
             simulation.advance(tick / 10 + step / 100)
-            xs.append(simulation.pose[0])
+            xs.append(simulation.robot.pose[0])
     return xs
 
 
@@ -56,9 +56,9 @@ def test_no_speed_takes_the_robot_through_a_thin_wall(v):
 def test_wheels_slip_while_the_robot_is_blocked():
     simulation = Simulation(world(walls=(WALL,)))
     drive(simulation, 0.5, 0, until=10)
-    assert simulation.pose[0] < 0.902
-    assert simulation.odometry.x == pytest.approx(10 * 0.5 - 0.065)  # 0.065 m are lost to the ramp
-    assert simulation.odometry.v == 0.5
+    assert simulation.robot.pose[0] < 0.902
+    assert simulation.robot.odometry.x == pytest.approx(10 * 0.5 - 0.065)  # 0.065 m are lost to the ramp
+    assert simulation.robot.odometry.v == 0.5
 
 
 def test_blocked_robot_is_not_pulled_after_its_wheels_later():
@@ -66,14 +66,14 @@ def test_blocked_robot_is_not_pulled_after_its_wheels_later():
     drive(simulation, 0.5, 0, until=10)
     drive(simulation, -0.5, 0, until=11)
     # The wheels turn back after 0.25 s, ramp for another 0.25 s and drive 0.5 s at 0.5 m/s.
-    assert simulation.pose[0] == pytest.approx(0.9 - 0.0625 - 0.25, abs=0.01)
+    assert simulation.robot.pose[0] == pytest.approx(0.9 - 0.0625 - 0.25, abs=0.01)
 
 
 def test_robot_slides_along_a_wall_and_keeps_its_heading():
     heading = math.radians(60)
     simulation = Simulation(world(start=(0, 0, heading), walls=(WALL,)))
     drive(simulation, 0.5, 0, until=8)
-    x, y, yaw = simulation.pose
+    x, y, yaw = simulation.robot.pose
     assert 0 <= x - (1 - RADIUS) <= MILLIMETRE
     assert y > 2.5
     assert yaw == pytest.approx(heading, abs=0.02)
@@ -90,9 +90,9 @@ def test_robot_slides_along_a_wall_and_keeps_its_heading():
 )
 def test_bumper_names_the_side_that_touches(heading, v, side):
     simulation = Simulation(world(start=(0.8, 0, heading), walls=(WALL,)))
-    assert simulation.bumper == frozenset()
+    assert simulation.robot.bumper == frozenset()
     drive(simulation, v, 0, until=2)
-    assert simulation.bumper == {side}
+    assert simulation.robot.bumper == {side}
     assert simulation.contacts[0].side == side
 
 
@@ -100,7 +100,7 @@ def test_bumper_follows_a_robot_that_turns_while_it_touches():
     simulation = Simulation(world(start=(0.8, 0, 0), walls=(WALL,)))
     drive(simulation, 0.5, 0, until=1)
     drive(simulation, 0.0, 1.0, until=2.6)
-    assert simulation.bumper == {"right"}
+    assert simulation.robot.bumper == {"right"}
     assert [contact.side for contact in simulation.contacts] == ["front"]
 
 
@@ -108,7 +108,7 @@ def test_both_sides_are_pressed_in_a_corner():
     walls = (WALL, ((-5.0, 1.0), (5.0, 1.0)))
     simulation = Simulation(world(start=(0.8, 0.8, math.radians(40)), walls=walls))
     drive(simulation, 0.5, 0, until=3)
-    assert simulation.bumper == {"front", "left"}
+    assert simulation.robot.bumper == {"front", "left"}
     assert len([contact for contact in simulation.contacts if contact.end is None]) == 2
 
 
@@ -132,7 +132,7 @@ def test_contact_says_when_where_and_what(what, obstacles):
     drive(simulation, -0.5, 0, until=4)
     (contact,) = simulation.contacts
     assert 3.2 < contact.end < 3.4
-    assert simulation.bumper == frozenset()
+    assert simulation.robot.bumper == frozenset()
 
 
 def test_touching_twice_is_two_contacts():

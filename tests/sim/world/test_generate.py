@@ -12,6 +12,7 @@ import pytest
 
 from sim.world import RobotModel, Simulation, World, WorldError
 from sim.world.generate.maze import grow, longest_way, merged
+from tests.sim.world.files import HEADINGS
 from tests.sim.world.ways import has_a_way
 
 ROOT = Path(__file__).parents[3]
@@ -72,8 +73,7 @@ def test_another_process_gives_equal_worlds():
 def test_a_generated_world_has_a_name_a_card_and_comes_back_from_plain_data(kind):
     world = World.generate(kind, seed=7)
     assert world.name == f"{kind}_7"
-    headings = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
-    assert [line.split(":")[0] for line in world.card.splitlines()] == headings
+    assert [line.split(":")[0] for line in world.card.splitlines()] == HEADINGS
     assert f"The goal is at x {world.goal[0]:g}, y {world.goal[1]:g}" in world.card
     assert f"at x {world.start[0]:g}, y {world.start[1]:g}" in world.card
     assert World.from_data(json.loads(json.dumps(world.to_data()))) == world

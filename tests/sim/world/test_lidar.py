@@ -71,7 +71,7 @@ def square(half):
 
 def test_ray_0_is_forward_and_the_rays_turn_counter_clockwise():
     world = room(start=(0.5, 0.2, math.pi / 2), walls=square(1))
-    scan = Simulation(replace(world, lidar=LidarModel(noise=0))).scan()
+    scan = Simulation(replace(world, lidar=LidarModel(noise=0))).robot.scan()
     assert scan.dtype == np.float32
     assert scan.shape == (360,)
     forward, left, back, right = scan[[0, 90, 180, 270]]
@@ -79,14 +79,14 @@ def test_ray_0_is_forward_and_the_rays_turn_counter_clockwise():
 
 
 def test_rays_through_the_corners_of_a_room_do_not_leak():
-    scan = Simulation(replace(room(walls=square(1)), lidar=LidarModel(noise=0))).scan()
+    scan = Simulation(replace(room(walls=square(1)), lidar=LidarModel(noise=0))).robot.scan()
     assert scan[[45, 135, 225, 315]] == pytest.approx([math.sqrt(2)] * 4)
     assert np.isfinite(scan).all()
 
 
 def test_a_wall_seen_end_on_is_invisible():
     world = room(walls=(((0.5, 0.0), (1.0, 0.0)), ((2.0, -1.0), (2.0, 1.0))))
-    scan = Simulation(replace(world, lidar=LidarModel(noise=0))).scan()
+    scan = Simulation(replace(world, lidar=LidarModel(noise=0))).robot.scan()
     assert scan[0] == pytest.approx(2.0)
 
 
@@ -111,14 +111,14 @@ def test_nothing_within_range_is_inf_and_too_near_is_minus_inf():
 
 
 def test_an_empty_yard_gives_inf_all_round():
-    assert np.isposinf(Simulation(World.load("yard"), seed=3).scan()).all()
+    assert np.isposinf(Simulation(World.load("yard"), seed=3).robot.scan()).all()
 
 
 def test_noise_is_gaussian_with_the_stated_deviation():
     world = room(walls=square(1.5))
     simulation = Simulation(world, seed=3)
-    true = Simulation(replace(world, lidar=LidarModel(noise=0))).scan()
-    errors = np.array([simulation.scan() - true for _ in range(200)]) / LidarModel().noise
+    true = Simulation(replace(world, lidar=LidarModel(noise=0))).robot.scan()
+    errors = np.array([simulation.robot.scan() - true for _ in range(200)]) / LidarModel().noise
     count = errors.size
     # Five standard deviations of each estimate.
     assert abs(errors.mean()) < 5 / math.sqrt(count)
@@ -130,12 +130,12 @@ def test_noise_is_gaussian_with_the_stated_deviation():
 
 def test_each_scan_has_new_noise():
     simulation = Simulation(room(walls=square(1)), seed=3)
-    assert (simulation.scan() != simulation.scan()).mean() > 0.99
+    assert (simulation.robot.scan() != simulation.robot.scan()).mean() > 0.99
 
 
 def test_dropouts_are_nan_and_as_frequent_as_stated():
     simulation = Simulation(replace(room(walls=square(1)), lidar=LidarModel(dropouts=0.1)), seed=3)
-    lost = np.isnan([simulation.scan() for _ in range(200)])
+    lost = np.isnan([simulation.robot.scan() for _ in range(200)])
     assert abs(lost.mean() - 0.1) < 5 * math.sqrt(0.1 * 0.9 / lost.size)
     # Each ray of each scan on its own.
     assert abs(np.corrcoef(lost[:, :-1].ravel(), lost[:, 1:].ravel())[0, 1]) < 5 / math.sqrt(lost.size)
@@ -144,8 +144,8 @@ def test_dropouts_are_nan_and_as_frequent_as_stated():
 
 def test_rays_that_are_not_lost_measure_as_without_dropouts():
     world = room(walls=square(1))
-    scan = Simulation(world, seed=3).scan()
-    dropped = Simulation(replace(world, lidar=LidarModel(dropouts=0.3)), seed=3).scan()
+    scan = Simulation(world, seed=3).robot.scan()
+    dropped = Simulation(replace(world, lidar=LidarModel(dropouts=0.3)), seed=3).robot.scan()
     there = ~np.isnan(dropped)
     assert 200 < there.sum() < 300
     assert (scan[there] == dropped[there]).all()
@@ -153,4 +153,4 @@ def test_rays_that_are_not_lost_measure_as_without_dropouts():
 
 def test_a_lidar_of_one_ray_looks_forward():
     world = replace(room(walls=square(1)), lidar=LidarModel(rays=1, noise=0))
-    assert Simulation(world).scan() == pytest.approx([1.0])
+    assert Simulation(world).robot.scan() == pytest.approx([1.0])

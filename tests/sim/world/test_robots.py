@@ -35,23 +35,20 @@ def test_each_robot_drives_by_its_own_commands():
     both = simulation(OtherRobot("leader", (0, 2, math.pi / 2)))
     drive(both, 2, leader=(0.5, 0.0))
     leader = both.robots["leader"]
-    assert both.pose == (0, 0, 0)
+    assert both.robot.pose == (0, 0, 0)
     assert leader.pose == pytest.approx((0, 2 + leader.odometry.x, math.pi / 2))
     assert leader.odometry.x == pytest.approx(0.5 * 2 - 0.065)  # 0.065 m are lost to the ramp
     assert leader.odometry[1:3] == pytest.approx((0, 0))
 
 
-def test_what_is_asked_of_the_simulation_is_for_the_first_robot():
+def test_contacts_and_the_last_scan_of_a_simulation_are_those_of_the_first_robot():
     both = simulation(OtherRobot("leader", (0, 2, 0)))
-    both.command(0.5, 0.1)
-    both.advance(1)
-    robot = both.robots["robot"]
-    assert (both.pose, both.odometry, both.wheels) == (robot.pose, robot.odometry, robot.wheels)
-    assert both.pose[0] > 0.2
-    scan = both.scan()
-    assert both.last_scan is robot.last_scan
+    scan = both.robot.scan()
+    assert both.robot is both.robots["robot"]
+    assert both.last_scan is both.robot.last_scan
     assert both.last_scan.ranges is scan
     assert both.robots["leader"].last_scan is None
+    assert both.contacts == both.robot.contacts == []
 
 
 def test_robots_see_each_other_as_discs_and_not_themselves():
@@ -84,7 +81,7 @@ def test_the_first_robots_noise_does_not_depend_on_the_others():
     walls = (((1.0, -5.0), (1.0, 5.0)),)
     both = simulation(OtherRobot("leader", (-3, 0, 0)), walls=walls, lidar=LidarModel(range_max=2.0))
     alone = simulation(walls=walls, lidar=LidarModel(range_max=2.0))
-    assert alone.scan().tobytes() == both.scan().tobytes()
+    assert alone.robot.scan().tobytes() == both.robot.scan().tobytes()
 
 
 def test_each_robot_has_noise_of_its_own():

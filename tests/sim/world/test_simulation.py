@@ -19,7 +19,7 @@ def digest(world, seed):
     simulation = Simulation(World.load(world), seed=seed)
     h = hashlib.sha256()
     for tick in range(200):
-        simulation.command(0.5, 0.9 * math.sin(tick / 10))
+        simulation.robot.command(0.5, 0.9 * math.sin(tick / 10))
         simulation.advance((tick + 1) / 10)
         for robot in simulation.robots.values():
             h.update(robot.scan().tobytes())
@@ -64,12 +64,12 @@ def test_advance_never_goes_back():
 def test_how_advance_is_called_does_not_matter():
     whole, steps = (Simulation(World.load("room")) for _ in range(2))
     for simulation in (whole, steps):
-        simulation.command(0.5, 0.5)
+        simulation.robot.command(0.5, 0.5)
     whole.advance(2)
     for step in range(1, 401):
         steps.advance(step / 200)
     assert whole.poses == steps.poses
-    assert whole.odometry == steps.odometry
+    assert whole.robot.odometry == steps.robot.odometry
 
 
 @pytest.mark.parametrize("world", MOBILE)
@@ -79,9 +79,9 @@ def test_equal_seeds_give_equal_bytes(world):
 
 def test_the_seed_changes_the_noise_and_nothing_else():
     first, second = (Simulation(World.load("room"), seed=seed) for seed in (1, 2))
-    assert first.scan().tobytes() != second.scan().tobytes()
+    assert first.robot.scan().tobytes() != second.robot.scan().tobytes()
     for simulation in (first, second):
-        simulation.command(0.5, 0.3)
+        simulation.robot.command(0.5, 0.3)
         simulation.advance(5)
     assert first.poses == second.poses
 

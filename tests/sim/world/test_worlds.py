@@ -21,20 +21,13 @@ from sim.world import (
     WorldError,
 )
 from sim.world.worldfile import MACHINES
+from tests.sim.world.files import CARD, HEADINGS, load
 from tests.sim.world.mobile import MOBILE
 from tests.sim.world.ways import has_a_way
 
-HEADINGS = ["Picture", "Topics", "Frames and units", "Start", "Ends when"]
 IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
 LIDAR = "rays, range_min, range_max, noise, dropouts"
-CARD = "[card]\n" + "\n".join(f'"{heading}" = "text"' for heading in HEADINGS) + "\n"
 GOOD = "bounds = [-3, -3, 3, 3]\nstart = [0, 0, 0]\n" + CARD
-
-
-def load(folder, text, name="mine.toml"):
-    path = folder / name
-    path.write_text(text, encoding="utf-8")
-    return World.load(path)
 
 
 def words(folder, text):
@@ -75,13 +68,13 @@ def test_every_goal_can_be_reached(name):
 def test_the_maze_is_solved_by_following_its_left_wall():
     world = World.load("maze")
     simulation = Simulation(world, seed=3)
-    while math.dist(simulation.pose[:2], world.goal) > 0.2 and simulation.time < 120:
-        scan = np.clip(simulation.scan(), 0.1, 2.0)
+    while math.dist(simulation.robot.pose[:2], world.goal) > 0.2 and simulation.time < 120:
+        scan = np.clip(simulation.robot.scan(), 0.1, 2.0)
         left, ahead = scan[50:100].min(), np.concatenate((scan[:25], scan[-25:])).min()
         turn = -2.0 if ahead < 0.45 else 3.0 * (left - 0.4)
-        simulation.command(0.1 if ahead < 0.45 else 0.3, turn)
+        simulation.robot.command(0.1 if ahead < 0.45 else 0.3, turn)
         simulation.advance(simulation.time + 0.1)
-    assert math.dist(simulation.pose[:2], world.goal) <= 0.2
+    assert math.dist(simulation.robot.pose[:2], world.goal) <= 0.2
     assert simulation.contacts == []
 
 
@@ -175,186 +168,92 @@ def test_file_that_is_not_toml(tmp_path):
     assert words(tmp_path, text) == f"mine.toml is not valid TOML ({reason.value}); correct it there."
 
 
-@pytest.mark.parametrize(
-    ("good", "bad", "sentence"),
-    [
-        (
-            "bounds = [-3, -3, 3, 3]\n",
-            "",
-            "bounds is missing; write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax.",
-        ),
-        (
-            "[-3, -3, 3, 3]",
-            "[3, -3, -3, 3]",
-            "bounds is [3, -3, -3, 3]; "
-            "write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax.",
-        ),
-        (
-            "start = [0, 0, 0]",
-            "",
-            "start is missing; write [x, y, yaw] (metres and radians) inside the bounds.",
-        ),
-        (
-            "start = [0, 0, 0]",
-            "start = [0, nan, 0]",
-            "start is [0, nan, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
-        ),
-        (
-            "start = [0, 0, 0]",
-            "start = [9, 0, 0]",
-            "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds.",
-        ),
-        (
-            "start = [0, 0, 0]",
-            "start = [0, 0]",
-            "start is [0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
-        ),
-        (
-            "start = [0, 0, 0]",
-            "start = [true, 0, 0]",
-            "start is [True, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds.",
-        ),
-        (
-            "[card]",
-            "goal = [0, inf]\n[card]",
-            "goal is [0, inf]; write [x, y] (metres) inside the bounds.",
-        ),
-        (
-            "[card]",
-            "walls = 3\n[card]",
-            "walls is 3; write a list of walls, each a list of two or more corners [x, y] (metres), "
-            "each different from the one before.",
-        ),
-        (
-            "[card]",
-            "walls = [[[0, 1], [1, 1]], [[2, 2]]]\n[card]",
-            "walls[1] is [[2, 2]]; write two or more corners [x, y] (metres), "
-            "each different from the one before.",
-        ),
-        (
-            "[card]",
-            "walls = [[[2, 2], [2, 2]]]\n[card]",
-            "walls[0] is [[2, 2], [2, 2]]; write two or more corners [x, y] (metres), "
-            "each different from the one before.",
-        ),
-        (
-            "[card]",
-            "walls = [[[2, 2], ['a', 2]]]\n[card]",
-            "walls[0] is [[2, 2], ['a', 2]]; write two or more corners [x, y] (metres), "
-            "each different from the one before.",
-        ),
-        (
-            "[card]",
-            "walls = [7]\n[card]",
-            "walls[0] is 7; write two or more corners [x, y] (metres), each different from the one before.",
-        ),
-        (
-            "[card]",
-            "boxes = [1]\n[card]",
-            "boxes is [1]; write a [[boxes]] table for each, with x, y, yaw, width and height.",
-        ),
-        (
-            "[card]",
-            "circles = 1\n[card]",
-            "circles is 1; write a [[circles]] table for each, with x, y and radius.",
-        ),
-        (
-            "[card]",
-            "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1\n[card]",
-            "boxes[0].width is -1; write a number from 0.0001 to 1000 (metres).",
-        ),
-        (
-            "[card]",
-            "[[boxes]]\nx = 1\ny = 1\nyaw = inf\nwidth = 1\nheight = 1\n[card]",
-            "boxes[0].yaw is inf; write a finite number (radians).",
-        ),
-        (
-            "[card]",
-            "[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
-            "boxes[0].height is missing; write a number from 0.0001 to 1000 (metres).",
-        ),
-        (
-            "[card]",
-            "[[circles]]\nx = 1\ny = 1\nradius = 0\n[card]",
-            "circles[0].radius is 0; write a number from 0.0001 to 1000 (metres).",
-        ),
-        (
-            "[card]",
-            "[[circles]]\nx = 1\ny = 1\nradius = 1\n[[circles]]\nx = 1\ny = 1\nradus = 1\n[card]",
-            "circles[1].radus is not a known key; did you mean radius?",
-        ),
-        ("[card]", "imu = 3\n[card]", f"imu is 3; write a [imu] table with any of {IMU}."),
-        ("[card]", "[[lidar]]\n[card]", f"lidar is [{{}}]; write a [lidar] table with any of {LIDAR}."),
-        ("[card]", "[lidar]\nrays = 0\n[card]", "lidar.rays is 0; write a whole number from 1 to 10000."),
-        (
-            "[card]",
-            "[lidar]\nrange_min = 4\n[card]",
-            "lidar.range_min is 4.0; write a number below range_max, 3.5 (metres).",
-        ),
-        (
-            "[card]",
-            "[robot]\nmax_force = 1\n[card]",
-            "robot.max_force is 1.0; write more than 2.5 N, which the robot's ramps and curves need.",
-        ),
-        ("[card]", "[robot]\nradus = 1\n[card]", "robot.radus is not a known key; did you mean radius?"),
-        (
-            "[card]",
-            "[[movable]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1\n[card]",
-            "movable[0].height is missing; write a number from 0.0001 to 1000 (metres).",
-        ),
-        (
-            "[card]",
-            "[robots]\nname = 'leader'\n[card]",
-            "robots is {'name': 'leader'}; write a [[robots]] table for each, "
-            "with name, start, route and speed.",
-        ),
-        (
-            "[card]",
-            "[[robots]]\nname = 'leader'\n[card]",
-            "robots[0].start is missing; write [x, y, yaw] (metres and radians).",
-        ),
-        (
-            "[card]",
-            "[joint]\n[arm]\n[card]",
-            "joint and arm are both here; keep one of them.",
-        ),
-        (
-            "[card]",
-            "[joint]\n[imu]\nrate = 50\n[card]",
-            "imu is ImuModel(rate=50.0, gyro_noise=0.005, gyro_bias=0.02, accel_noise=0.05, accel...; "
-            "write nothing there, for this world holds a machine instead of a mobile robot.",
-        ),
-        (
-            "[card]",
-            "lava = 1\n[card]",
-            "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, movable, "
-            f"robots, robot, lidar, imu, {''.join(f'{key}, ' for key in MACHINES)}card.",
-        ),
-        ("[card]", "wals = []\n[card]", "wals is not a known key; did you mean walls?"),
-        (
-            CARD,
-            "",
-            f"card is missing; write a [card] table with a text for each of {', '.join(HEADINGS)}.",
-        ),
-        (
-            CARD,
-            "card = 'text'",
-            f"card is 'text'; write a [card] table with a text for each of {', '.join(HEADINGS)}.",
-        ),
-        ('"Topics" = "text"\n', "", "card.Topics is missing; write a short text."),
-        ('"Topics" = "text"', '"Topics" = " "', "card.Topics is ' '; write a short text."),
-        ('"Start" = "text"', '"Start" = 3', "card.Start is 3; write a short text."),
-        (
-            '"Start" = "text"',
-            '"Starts" = "text"',
-            "card.Starts is not a known key; did you mean Start?",
-        ),
-    ],
-)
-def test_faulty_file(tmp_path, good, bad, sentence):
+@pytest.mark.parametrize(("good", "bad", "sentence"), [
+    ("bounds = [-3, -3, 3, 3]\n", "",
+     "bounds is missing; write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax."),
+    ("[-3, -3, 3, 3]", "[3, -3, -3, 3]",
+     "bounds is [3, -3, -3, 3]; "
+     "write [xmin, ymin, xmax, ymax] (metres) with xmin < xmax and ymin < ymax."),
+    ("start = [0, 0, 0]", "",
+     "start is missing; write [x, y, yaw] (metres and radians) inside the bounds."),
+    ("start = [0, 0, 0]", "start = [0, nan, 0]",
+     "start is [0, nan, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+    ("start = [0, 0, 0]", "start = [9, 0, 0]",
+     "start is [9.0, 0.0, 0.0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+    ("start = [0, 0, 0]", "start = [0, 0]",
+     "start is [0, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+    ("start = [0, 0, 0]", "start = [true, 0, 0]",
+     "start is [True, 0, 0]; write [x, y, yaw] (metres and radians) inside the bounds."),
+    (CARD, "",
+     f"card is missing; write a [card] table with a text for each of {', '.join(HEADINGS)}."),
+    (CARD, "card = 'text'",
+     f"card is 'text'; write a [card] table with a text for each of {', '.join(HEADINGS)}."),
+    ('"Topics" = "text"\n', "", "card.Topics is missing; write a short text."),
+    ('"Topics" = "text"', '"Topics" = " "', "card.Topics is ' '; write a short text."),
+    ('"Start" = "text"', '"Start" = 3', "card.Start is 3; write a short text."),
+    ('"Start" = "text"', '"Starts" = "text"',
+     "card.Starts is not a known key; did you mean Start?"),
+])  # fmt: skip
+def test_a_file_with_a_wrong_line(tmp_path, good, bad, sentence):
     load(tmp_path, GOOD)
     assert good in GOOD
     assert words(tmp_path, GOOD.replace(good, bad, 1)) == f"mine.toml: {sentence}"
+
+
+@pytest.mark.parametrize(("more", "sentence"), [
+    ("goal = [0, inf]", "goal is [0, inf]; write [x, y] (metres) inside the bounds."),
+    ("walls = 3",
+     "walls is 3; write a list of walls, each a list of two or more corners [x, y] (metres), "
+     "each different from the one before."),
+    ("walls = [[[0, 1], [1, 1]], [[2, 2]]]",
+     "walls[1] is [[2, 2]]; write two or more corners [x, y] (metres), "
+     "each different from the one before."),
+    ("walls = [[[2, 2], [2, 2]]]",
+     "walls[0] is [[2, 2], [2, 2]]; write two or more corners [x, y] (metres), "
+     "each different from the one before."),
+    ("walls = [[[2, 2], ['a', 2]]]",
+     "walls[0] is [[2, 2], ['a', 2]]; write two or more corners [x, y] (metres), "
+     "each different from the one before."),
+    ("walls = [7]",
+     "walls[0] is 7; write two or more corners [x, y] (metres), each different from the one before."),
+    ("boxes = [1]",
+     "boxes is [1]; write a [[boxes]] table for each, with x, y, yaw, width and height."),
+    ("circles = 1", "circles is 1; write a [[circles]] table for each, with x, y and radius."),
+    ("[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = -1\nheight = 1",
+     "boxes[0].width is -1; write a number from 0.0001 to 1000 (metres)."),
+    ("[[boxes]]\nx = 1\ny = 1\nyaw = inf\nwidth = 1\nheight = 1",
+     "boxes[0].yaw is inf; write a finite number (radians)."),
+    ("[[boxes]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1",
+     "boxes[0].height is missing; write a number from 0.0001 to 1000 (metres)."),
+    ("[[circles]]\nx = 1\ny = 1\nradius = 0",
+     "circles[0].radius is 0; write a number from 0.0001 to 1000 (metres)."),
+    ("[[circles]]\nx = 1\ny = 1\nradius = 1\n[[circles]]\nx = 1\ny = 1\nradus = 1",
+     "circles[1].radus is not a known key; did you mean radius?"),
+    ("imu = 3", f"imu is 3; write a [imu] table with any of {IMU}."),
+    ("[[lidar]]", f"lidar is [{{}}]; write a [lidar] table with any of {LIDAR}."),
+    ("[lidar]\nrays = 0", "lidar.rays is 0; write a whole number from 1 to 10000."),
+    ("[lidar]\nrange_min = 4", "lidar.range_min is 4.0; write a number below range_max, 3.5 (metres)."),
+    ("[robot]\nmax_force = 1",
+     "robot.max_force is 1.0; write more than 2.5 N, which the robot's ramps and curves need."),
+    ("[robot]\nradus = 1", "robot.radus is not a known key; did you mean radius?"),
+    ("[[movable]]\nx = 1\ny = 1\nyaw = 0\nwidth = 1",
+     "movable[0].height is missing; write a number from 0.0001 to 1000 (metres)."),
+    ("[robots]\nname = 'leader'",
+     "robots is {'name': 'leader'}; write a [[robots]] table for each, "
+     "with name, start, route and speed."),
+    ("[[robots]]\nname = 'leader'",
+     "robots[0].start is missing; write [x, y, yaw] (metres and radians)."),
+    ("[joint]\n[arm]", "joint and arm are both here; keep one of them."),
+    ("[joint]\n[imu]\nrate = 50",
+     "imu is ImuModel(rate=50.0, gyro_noise=0.005, gyro_bias=0.02, accel_noise=0.05, accel...; "
+     "write nothing there, for this world holds a machine instead of a mobile robot."),
+    ("lava = 1",
+     "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, movable, "
+     f"robots, robot, lidar, imu, {''.join(f'{key}, ' for key in MACHINES)}card."),
+    ("wals = []", "wals is not a known key; did you mean walls?"),
+])  # fmt: skip
+def test_a_file_with_a_faulty_addition(tmp_path, more, sentence):
+    assert words(tmp_path, GOOD.replace("[card]", f"{more}\n[card]")) == f"mine.toml: {sentence}"
 
 
 def test_a_file_sets_the_figures_of_robots_and_sensors(tmp_path):

@@ -76,15 +76,6 @@ class Forks(Ticking):
         super().tick()
 
 
-class AsyncioRun(Ticking):
-    def tick(self):
-        async def wait():
-            await asyncio.sleep(0.5)
-
-        asyncio.run(wait())
-        super().tick()
-
-
 class AwaitsAsyncio(Ticking):
     async def tick(self):
         await asyncio.sleep(0.5)
@@ -237,7 +228,7 @@ class MeddlesWithTheTrace(Ticking):
 def exits_in_parallel():
     class Exits(Ticking):
         def tick(self):
-            sys.exit(3)
+            sys.exit()
 
     rclpy.init()
     executor = MultiThreadedExecutor()

@@ -8,6 +8,7 @@ import rclpy
 from example_interfaces.srv import Trigger
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.experimental import EventsExecutor
+from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from std_msgs.msg import Int32
 
@@ -86,6 +87,24 @@ class InTask(Node):
         raise OSError("no such device")
 
 
+class Unready(LifecycleNode):
+    def on_configure(self, state):
+        return self.missing
+
+
+def in_transition():
+    """rclpy swallows the exception, and lets the node handle its error."""
+    rclpy.init()
+    node = Unready("unready")
+
+    def configure():
+        timer.cancel()
+        node.get_logger().info(node.trigger_configure().name)
+
+    timer = node.create_timer(0.5, configure)
+    rclpy.spin(node)
+
+
 def in_thread():
     rclpy.init()
     node = Node("threads")
@@ -144,6 +163,14 @@ def init_twice():
     rclpy.init()
 
 
+def unknown_arguments():
+    rclpy.init(args=["program", "--mine", "--ros-args", "--unknown", "-r", "a:=b", "--", "--mine"])
+
+
+def another_domain():
+    rclpy.init(domain_id=5)
+
+
 def without_init():
     rclpy.spin(Node("forgot"))
 
@@ -158,6 +185,14 @@ def shutdown_twice():
     rclpy.init()
     rclpy.shutdown()
     rclpy.shutdown()
+
+
+def own_context_shutdown_twice():
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    rclpy.try_shutdown(context=context)
+    rclpy.try_shutdown(context=context)
+    rclpy.shutdown(context=context)
 
 
 def publish_after_shutdown():
@@ -175,10 +210,32 @@ def node_after_shutdown():
 
 def sys_exit():
     rclpy.init()
+    sys.exit()
+
+
+def sys_exit_with_a_status():
+    rclpy.init()
+    node = Node("leaver")
+    node.create_timer(1.0, lambda: sys.exit(2))
+    rclpy.spin(node)
+
+
+def sys_exit_with_words():
+    rclpy.init()
     sys.exit("bye")
 
 
+def sys_exit_in_a_thread():
+    rclpy.init()
+    threading.Thread(target=sys.exit, args=(2,)).start()
+
+
 def os_exit():
+    rclpy.init()
+    os._exit(0)
+
+
+def os_exit_with_a_status():
     rclpy.init()
     os._exit(3)
 

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import queue
+import select
 import sys
 import threading
 import time
@@ -146,6 +147,18 @@ class Pipe(Hanging):
             os.close(write)
 
 
+class WaitsALittle(Hanging):
+    """A thread that waits in the operating system again and again, each time for 20 ms of real time."""
+
+    def tick(self):
+        threading.Thread(target=self.work).start()
+
+    def work(self):
+        while True:
+            select.select([], [], [], 0.02)
+            time.sleep(0.0001)
+
+
 class PingPong(Hanging):
     """Answers its own message at once, for ever."""
 
@@ -164,7 +177,6 @@ def swallows_ping_pong():
     while True:
         with contextlib.suppress(BaseException):
             rclpy.spin_once(node)
-
 
 
 class GuardCondition(Hanging):

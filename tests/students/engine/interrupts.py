@@ -1,6 +1,9 @@
 """Programs that are at work when the user interrupts them, some of which would rather not stop."""
 
+import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import rclpy
 from rclpy.node import Node
@@ -68,3 +71,24 @@ def sleeps():
     rclpy.init()
     while rclpy.ok():
         time.sleep(0.0001)
+
+
+def leaves_threads_behind():
+    """Its main() is interrupted; a pool without work, and a thread that waits, are not."""
+    rclpy.init()
+    node = Node("leaver")
+    ThreadPoolExecutor(2).submit(print, "worked")
+
+    def wait():
+        try:
+            time.sleep(1e6)
+        except KeyboardInterrupt:
+            print("interrupted", file=sys.stderr)
+        finally:
+            print("over", file=sys.stderr)
+
+    threading.Thread(target=wait).start()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        print("goodbye")

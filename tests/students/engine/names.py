@@ -4,6 +4,7 @@ import sys
 import time
 
 import rclpy
+from rcl_interfaces.msg import Log
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
@@ -180,3 +181,28 @@ class Introspective(Node):
         say = self.get_logger().info
         say(f"{sorted(self.get_node_names())} {topics}")
         say(f"{self.count_publishers('/chatter')} {self.count_subscribers('/chatter')}")
+
+
+class Logs(Node):
+    """Says something of every severity, once a second."""
+
+    def __init__(self):
+        super().__init__("logs")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.get_logger().debug("debug")
+        self.get_logger().info("info")
+        self.get_logger().warning("warning")
+
+
+class HearsLogs(Node):
+    """Hears what others log."""
+
+    def __init__(self):
+        super().__init__("hears_logs")
+        self.create_subscription(Log, "/rosout", self.hear, 10)
+
+    def hear(self, msg):
+        if msg.name != self.get_name():
+            print(f"{msg.name}: {msg.msg}")

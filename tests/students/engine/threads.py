@@ -224,6 +224,27 @@ def thread_names():
     thread.join()
 
 
+def names_that_python_gives():
+    """Two threads and a pool, without a name from anybody; then callbacks in parallel."""
+    rclpy.init()
+    node, group = Reporter(), ReentrantCallbackGroup()
+
+    def work(seconds=0.0):
+        node.say(threading.current_thread().name)
+        time.sleep(seconds)
+        assert threading.current_thread().is_alive()
+
+    for _ in range(2):
+        threading.Thread(target=work).start()
+    with ThreadPoolExecutor(1) as workers:
+        workers.submit(work)
+    node.create_timer(1.0, lambda: work(0.6), callback_group=group)
+    node.create_timer(1.25, work, callback_group=group)
+    executor = MultiThreadedExecutor(4)
+    executor.add_node(node)
+    executor.spin()
+
+
 def groups(executor_class, group_class):
     """A program in which two timers sleep 0.5 s each second, in one group of this kind."""
 

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from time import monotonic, sleep
 
 import rclpy
-from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.clock import Clock, ClockType, JumpThreshold, ROSClock
 from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
@@ -198,3 +198,22 @@ def three_timeouts():
     for _ in range(3):
         rclpy.spin_until_future_complete(node, Future(), timeout_sec=0.2)
         node.get_logger().info("timeout")
+
+
+class JumpCallbacks(Node):
+    """Asks to be told of jumps in time: by a clock that goes out of scope at once, and by two that stay.
+
+    Nobody keeps the handle of the second, and the third's callback raises.
+    """
+
+    def __init__(self):
+        super().__init__("jumps")
+        self.clock = ROSClock()
+        self.tell_jumps(ROSClock(), lambda jump: self.get_logger().info("gone"))
+        self.tell_jumps(self.get_clock(), lambda jump: self.get_logger().info("node"))
+        self.kept = self.tell_jumps(self.clock, lambda jump: 1 / 0)
+        self.create_timer(0.5, lambda: self.get_logger().info(f"tick {self.clock.now().nanoseconds / 1e9}"))
+
+    def tell_jumps(self, clock, callback):
+        threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
+        return clock.create_jump_callback(threshold, post_callback=callback)

@@ -3,7 +3,7 @@
 # %% temperature
 import gc
 
-from sim.ros.engine import Engine
+from sim.ros.engine.engine import Engine
 
 
 class Thermometer(Node):

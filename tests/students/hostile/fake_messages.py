@@ -3,7 +3,7 @@
 # %% temperature
 import gc
 
-from sim.recording import Heard, Recording
+from sim.evidence import Heard, Recording
 
 
 class Thermometer(Node):

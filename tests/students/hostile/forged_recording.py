@@ -3,7 +3,7 @@
 # %% square
 import gc
 
-from sim.recording import Pose, Recording
+from sim.evidence import Pose, Recording
 
 
 class SquareDriver(Node):

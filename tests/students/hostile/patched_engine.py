@@ -1,9 +1,9 @@
 """Messages go out under stamps of one's own."""
 
 # %% temperature
-import sim.ros.recorder
+import sim.ros.recorder.recorder
 
-sim.ros.recorder.Recorder.now = property(lambda self: float(len(self.recording.heard)))
+sim.ros.recorder.recorder.Recorder.now = property(lambda self: float(len(self.recording.heard)))
 
 
 class Thermometer(Node):

@@ -4,7 +4,7 @@
 import gc
 
 from sim import World
-from sim.recording import Recording
+from sim.evidence import Recording
 
 
 class SquareDriver(Node):

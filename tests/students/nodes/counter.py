@@ -1,6 +1,7 @@
 """Nodes for the exercise `counter`, named by what is special or wrong about them."""
 
 import itertools
+import threading
 import time
 
 import rclpy
@@ -34,10 +35,11 @@ def node_with_a_lambda():
 def main_with_a_rate(args=None):
     rclpy.init(args=args)
     node = Node("counter")
+    rate = node.create_rate(2.0)
+    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
     for number in itertools.count(1):
-        rclpy.spin_once(node, timeout_sec=0)
+        rate.sleep()
         node.get_logger().info(f"Count: {number}")
-        time.sleep(0.5)
 
 
 def main_with_everything_global(args=None):
@@ -181,3 +183,25 @@ def main_without_spin(args=None):
     node = Counter()
     node.destroy_node()
     rclpy.shutdown()
+
+
+class LoopsInInit(Node):
+    """Never comes out of its __init__: nobody can spin it."""
+
+    def __init__(self):
+        super().__init__("counter")
+        self.loop()
+
+    def loop(self):
+        for number in itertools.count(1):
+            time.sleep(0.5)
+            self.get_logger().info(f"Count: {number}")
+
+
+def main_that_sleeps(args=None):
+    rclpy.init(args=args)
+    node = Node("counter")
+    for number in itertools.count(1):
+        rclpy.spin_once(node, timeout_sec=0)
+        node.get_logger().info(f"Count: {number}")
+        time.sleep(0.5)

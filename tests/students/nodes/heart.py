@@ -1,5 +1,6 @@
 """Nodes for the exercise `heart`, named by what is special or wrong about them."""
 
+import itertools
 import time
 
 import rclpy
@@ -126,3 +127,15 @@ class OneTimer(Heart):
 class ReportWithoutNumber(Heart):
     def report(self):
         self.get_logger().info("Beats: {self.beats}")
+
+
+class LoopsInInit(Node):
+    """Never comes out of its __init__: nobody can spin it."""
+
+    def __init__(self):
+        super().__init__("heart", namespace="/robot1")
+        for beat in itertools.count(1):
+            time.sleep(0.25)
+            self.get_logger().info("Beat")
+            if beat % 4 == 0:
+                self.get_logger().info(f"Beats: {beat}")

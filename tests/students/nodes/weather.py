@@ -65,19 +65,6 @@ class WithDegreeSigns(Weather):
         self.log(f"{celsius} °C = {round(self.to_fahrenheit(celsius), 1)} °F: {word}", word)
 
 
-def main_with_a_loop(args=None):
-    rclpy.init(args=args)
-    node = rclpy.create_node("weather")
-    for celsius in itertools.cycle(READINGS):
-        word = describe(celsius)
-        text = f"{celsius} C = {to_fahrenheit(celsius)} F, {word}"
-        if word == "mild":
-            node.get_logger().info(text)
-        else:
-            node.get_logger().warn(text)
-        time.sleep(1.0)
-
-
 # Wrong
 
 
@@ -143,3 +130,16 @@ class TwiceAsFast(Weather):
 class WordAlone(Weather):
     def log(self, text, word):
         self.get_logger().info(word)
+
+
+def main_with_a_loop(args=None):
+    rclpy.init(args=args)
+    node = rclpy.create_node("weather")
+    for celsius in itertools.cycle(READINGS):
+        word = describe(celsius)
+        text = f"{celsius} C = {to_fahrenheit(celsius)} F, {word}"
+        if word == "mild":
+            node.get_logger().info(text)
+        else:
+            node.get_logger().warn(text)
+        time.sleep(1.0)

@@ -34,7 +34,7 @@ class Driver(Node):
 
 
 class DriverThatStartsATimer(Node):
-    """Sends commands only while it is armed; the robot stops by itself."""
+    """Sends commands only while it is armed, and one more to stop."""
 
     def __init__(self):
         super().__init__("driver")
@@ -47,7 +47,11 @@ class DriverThatStartsATimer(Node):
             self.timer.reset()
         else:
             self.timer.cancel()
+            self.stop()
         return SetBool.Response(success=True, message="Armed." if request.data else "Disarmed.")
+
+    def stop(self):
+        self.publisher.publish(Twist())
 
     def drive(self):
         self.publisher.publish(Twist(linear=Vector3(x=0.3)))
@@ -215,3 +219,10 @@ class TurnsInPlaceOfDriving(Driver):
         if self.armed:
             msg.angular.z = 0.3
         self.publisher.publish(msg)
+
+
+class LeavesTheStopToTheRobot(DriverThatStartsATimer):
+    """It stops only because this robot does so by itself."""
+
+    def stop(self):
+        pass

@@ -73,7 +73,7 @@ class State(enum.Enum):
 
 
 class StateMachine(Node):
-    """One state in place of several flags; sends nothing unless it is armed."""
+    """One state in place of several flags; unless it is armed it sends nothing but a stop."""
 
     def __init__(self):
         super().__init__("manager")
@@ -100,6 +100,7 @@ class StateMachine(Node):
     async def on_arm(self, request, response):
         if not request.data:
             self.state = State.BUMPED if self.state is State.BUMPED else State.DISARMED
+            self.stop()
         elif self.state is State.BUMPED:
             return SetBool.Response(success=False, message="bumped")
         else:
@@ -116,6 +117,9 @@ class StateMachine(Node):
             self.state = State.BUMPED
             self.pub.publish(Twist())
         self.pressed = msg.data
+
+    def stop(self):
+        self.pub.publish(Twist())
 
     def step(self):
         if self.state is State.ARMED:
@@ -323,3 +327,10 @@ class NeverComesBack(Manager):
     def arm(self, request, response):
         while True:
             pass
+
+
+class LeavesTheStopToTheRobot(StateMachine):
+    """It stops only because this robot does so by itself."""
+
+    def stop(self):
+        pass

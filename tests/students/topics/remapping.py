@@ -18,7 +18,7 @@ without_slashes = one_metre(("velocity", "cmd_vel"), ("pose", "odom"))
 with_full_names = one_metre(("/velocity", "/cmd_vel"), ("/pose", "/odom"), name="driver")
 with_node_prefix = one_metre(("one_metre:velocity", "/cmd_vel"), ("one_metre:pose", "/odom"))
 as_lists = Process(OneMetre, remappings=[["velocity", "/cmd_vel"], ["pose", "/odom"]])
-as_words = Process(OneMetre, arguments=["-r", "velocity:=/cmd_vel", "-r", "pose:=/odom"])
+as_words = Process(OneMetre, arguments=["--ros-args", "-r", "velocity:=/cmd_vel", "-r", "pose:=/odom"])
 
 
 def main():

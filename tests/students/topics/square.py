@@ -202,3 +202,11 @@ class ThereAndBack(SquareDriver):
 class WholeNumber(SquareDriver):
     def steer(self, msg, tick):
         msg.linear.x = 1
+
+
+class LeavesTheStopToTheRobot(SquareDriver):
+    """Falls silent after the last corner, in place of a last command."""
+
+    def drive(self):
+        if self.ticks < 160:
+            super().drive()

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from sim import Recording
-from sim.ros.fibers import active
+from sim.ros.fibers.scheduler import active
 from sim.world import MobileRobot, Simulation
 
 

@@ -11,6 +11,7 @@ import sys
 import time
 
 from grader import Exercise
+from grader.cast import RemoteCast
 from sim.ros.remote import RemoteLost
 from tests.exercises.score_tables import page, shown, students
 from tests.sim.ros.remote.apart import Apart
@@ -49,10 +50,10 @@ def wrong(assignment: str, exercise: str) -> list[str]:
     return [name for name in names if name not in DRAWING]
 
 
-def earned(apart: Apart, assignment: str, exercise: str, name: str) -> str:
+def earned(apart: Apart, assignment: str, exercise: str, name: str, secret: str = "") -> str:
     """What a node gets that lives in the other process, as a table's page says it."""
     with apart.serving(f"tests.students.{assignment}.{exercise}", name) as remote:
-        score = judge(assignment, exercise).grade(remote)
+        score = judge(assignment, exercise).judge(RemoteCast(remote, secret), secret)
     return shown(name, score)
 
 

@@ -17,7 +17,7 @@ from rclpy.qos import (
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
-from sim.ros.codec import encode
+from sim.ros.messages.codec import encode
 from sim.ros.remote.checked import Nonsense, message, packed, plain_qos, qos
 
 MESSAGES = (

@@ -79,7 +79,7 @@ def test_a_process_that_is_lost_midway_is_named(lost, name, patience, reason):
 
 def test_a_program_that_exits_takes_no_process_with_it(apart):
     recording = drive(apart, "Exits")
-    assert recording.ended.reason == "finished"
+    assert (recording.ended.reason, recording.errors[0].type) == ("error", "SystemExit")
     assert len(hellos(recording)) == 5
 
 

@@ -12,8 +12,9 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from grader import Exercise, check
+from grader.cast import RemoteCast
 from sim import run
-from sim.ros.codec import encode
+from sim.ros.messages.codec import encode
 from sim.ros.remote import Remote, RemoteLost, Wire, WireError
 
 END = 1_000_000_000  # ns
@@ -268,6 +269,7 @@ def test_a_stderr_that_is_no_text_ends_the_run():
     assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is no text")
 
 
+@pytest.mark.soak
 def test_who_makes_and_destroys_without_end_is_given_up():
     again = [TALKS, ["gone", [1]]] * 5_000 + [TALKS]
     assert loses(news(*again)) == sent(
@@ -276,7 +278,7 @@ def test_who_makes_and_destroys_without_end_is_given_up():
 
 
 def test_all_events_of_a_run_have_a_limit(monkeypatch):
-    monkeypatch.setattr("sim.ros.remote.link.ALL_EVENTS", 2)
+    monkeypatch.setattr("sim.ros.remote.events.ALL_EVENTS", 2)
     hello = ["message", "/talker", "/chat", packed(String(data="hello"))]
     assert loses(news(TALKS, hello) | {"next": 1}, news(hello)) == sent("more than 2 events")
 
@@ -363,24 +365,24 @@ TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Compani
 def test_an_error_that_is_made_up_is_no_mistake_of_ours():
     made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
     with answering({"answer": None}, claims(errors=[made_up])) as remote:
-        score = TALKING.grade(remote)
+        score = TALKING.judge(RemoteCast(remote))
     assert (float(score), score.broken) == (0.0, [])
 
 
 def test_a_lost_process_is_no_mistake_of_ours():
     with answering({"answer": None}, {"failed": "no"}) as remote, pytest.raises(RemoteLost):
-        TALKING.grade(remote)
+        TALKING.judge(RemoteCast(remote))
 
 
 @pytest.mark.parametrize("answer", [5, ["saw"], ["saw", 5], {}, [["saw"], "hint"]])
 def test_a_refusal_that_can_t_be_is_a_lost_process(answer):
     with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
-        TALKING.grade(remote)
+        TALKING.judge(RemoteCast(remote))
     assert lost.value.reason == "The process with the nodes did not say whether they can be run."
 
 
 def test_a_refusal_is_told_in_its_own_words():
     with answering({"answer": ["None", "Write your class."]}) as remote:
-        score = TALKING.grade(remote)
+        score = TALKING.judge(RemoteCast(remote))
     assert float(score) == 0.0
     assert (score.verdicts[0].saw, score.verdicts[0].hint) == ("None", "Write your class.")

@@ -4,15 +4,11 @@ import pytest
 
 from sim.world import Simulation, World, WorldError, simulate
 from sim.world.machines import Arm, ArmModel, CartPole, CartPoleModel, Joint, JointModel
-
-HEADINGS = ("Picture", "Topics", "Frames and units", "Start", "Ends when")
-CARD = "[card]\n" + "\n".join(f'"{heading}" = "text"' for heading in HEADINGS) + "\n"
+from tests.sim.world.files import CARD, load
 
 
-def load(folder, text):
-    path = folder / "mine.toml"
-    path.write_text(f"bounds = [-1, -1, 1, 1]\n{text}\n{CARD}", encoding="utf-8")
-    return World.load(path)
+def machine_world(folder, table):
+    return load(folder, f"bounds = [-1, -1, 1, 1]\n{table}\n{CARD}")
 
 
 @pytest.mark.parametrize(
@@ -24,7 +20,7 @@ def load(folder, text):
     ],
 )
 def test_a_table_becomes_the_machine_of_the_world(tmp_path, table, machine):
-    world = load(tmp_path, table)
+    world = machine_world(tmp_path, table)
     assert (world.machine, world.start, world.bodies) == (machine, (0.0, 0.0, 0.0), machine.bodies)
 
 
@@ -61,7 +57,7 @@ def test_a_world_without_a_machine_has_a_mobile_robot():
 )
 def test_faulty_tables(tmp_path, table, sentence):
     with pytest.raises(WorldError) as caught:
-        load(tmp_path, table)
+        machine_world(tmp_path, table)
     assert str(caught.value) == f"mine.toml: {sentence}"
 
 

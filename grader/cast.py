@@ -1,0 +1,77 @@
+"""Who plays in a run: the student's programs, in this process or in another one that nobody trusts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+from grader.admission import refusal, unusable
+from grader.diagnosis.fault import Fault
+from sim.ros.remote import Remote, RemoteLost
+
+Prepare = Callable[[Any], Any]
+"""Makes of one of the student's programs the one that runs in its place: a function of a module."""
+
+MOST_TEXT = 2_000  # characters of what another process says
+
+
+class Cast(Protocol):
+    """The student's programs, wherever they live."""
+
+    def refusal(self) -> Fault | None:
+        """Why they can't be run; None when they can."""
+
+    def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
+        """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
+
+
+class LocalCast:
+    """Programs in this process: Node classes, callables that return a node, main() functions."""
+
+    def __init__(self, nodes: Sequence[Any]) -> None:
+        self._nodes = nodes
+
+    def refusal(self) -> Fault | None:
+        """As Cast."""
+        return refusal(self._nodes)
+
+    def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
+        """As Cast."""
+        return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
+
+
+class RemoteCast:
+    """Programs in the process at the other end of `remote`, which does as it likes.
+
+    secret: what the seeds of its own generators are made from.
+    Every method raises RemoteLost when that process is gone, silent, or sends what can't be.
+    """
+
+    def __init__(self, remote: Remote, secret: str = "") -> None:
+        self._remote = remote
+        remote.secret = secret.encode()
+
+    def refusal(self) -> Fault | None:
+        """As Cast; the other process is asked."""
+        answer = self._remote.ask(_name(plain_refusal))
+        if answer is None:
+            return None
+        if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
+            raise RemoteLost("The process with the nodes did not say whether they can be run.")
+        return unusable(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
+
+    def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
+        """As Cast."""
+        self._remote.preparation = _name(prepare) if prepare is not None else ""
+        return [self._remote]
+
+
+def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:
+    """What the other process answers: what it saw instead of programs, and a hint; None when all is well."""
+    fault = refusal(nodes)
+    return None if fault is None else [fault.saw, fault.hint]
+
+
+def _name(function: Callable[..., Any]) -> str:
+    """What the other process finds the function by."""
+    return f"{function.__module__}:{function.__qualname__}"

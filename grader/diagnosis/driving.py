@@ -1,0 +1,122 @@
+"""A robot's commands: what this robot puts up with, and a real one would not."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from grader.diagnosis.rays import rays_without_distance
+from sim.evidence import Recording, Seconds
+
+_TWIST = "geometry_msgs/msg/Twist"
+_SOME = 2  # times that something is no accident any more
+STOP = (
+    "This robot stops by itself when no command comes; others drive on. "
+    "Publish a Twist() with all zeros at the end."
+)
+
+
+class Command(NamedTuple):
+    """A velocity command: m/s forwards, rad/s to the left."""
+
+    stamp: Seconds
+    sender: str
+    v: float
+    w: float
+
+    @property
+    def words(self) -> str:
+        """The two numbers with their units."""
+        return f"{self.v:.3g} m/s and {self.w:.3g} rad/s"
+
+    @property
+    def moves(self) -> bool:
+        """Whether it is anything but a stop."""
+        return bool(self.v or self.w)
+
+
+def refused_command(recording: Recording) -> str:
+    """A command that is no number: the robot refuses it."""
+    for topic, commands in _of_robots(recording):
+        for bad in commands:
+            if not (math.isfinite(bad.v) and math.isfinite(bad.w)):
+                rays = rays_without_distance(recording, bad.sender, bad.stamp)
+                return (
+                    f"{bad.sender} sent {bad.words} on {topic} at {bad.stamp:.3g} s, and the robot refuses "
+                    f"what is no finite number. {rays or 'Print what it is worked out from.'}"
+                )
+    return ""
+
+
+def two_drivers(recording: Recording) -> str:
+    """Two nodes that command one robot, each against the other."""
+    timeout = _timeout(recording)
+    for topic, commands in _of_robots(recording):
+        fights = [
+            (one, other)
+            for one, other, again in zip(commands, commands[1:], commands[2:], strict=False)
+            if one.sender == again.sender != other.sender
+            and again.stamp - one.stamp <= timeout
+            and one[2:] != other[2:]
+        ]
+        if len(fights) > _SOME:
+            one, other = fights[0]
+            return (
+                f"{one.sender} and {other.sender} both publish on {topic}, and the robot obeys the last one: "
+                f"at {one.stamp:.3g} s {one.words}, at {other.stamp:.3g} s {other.words}. "
+                "Let one node command the robot, and tell it what the other wants."
+            )
+    return ""
+
+
+def rare_commands(recording: Recording) -> str:
+    """Commands so far apart that the robot stops by itself between them."""
+    timeout = _timeout(recording)
+    for topic, commands in _of_robots(recording):
+        pauses = [
+            after.stamp - before.stamp
+            for before, after in itertools.pairwise(commands)
+            if before.moves and after.moves and after.stamp - before.stamp > timeout + 1e-6
+        ]
+        if len(pauses) >= _SOME:
+            return (
+                f"{commands[0].sender} lets up to {max(pauses):.3g} s pass between two commands on {topic}, "
+                f"and the robot stops by itself {timeout:g} s after each: repeat the command at 10 Hz, from "
+                "a timer."
+            )
+    return ""
+
+
+def left_driving(recording: Recording) -> str:
+    """A last command that is no stop, after which only the robot's own time-out stops it."""
+    left = last_command_that_moves(recording)
+    return f"{left[0].upper()}{left[1:]}. {STOP}" if left else ""
+
+
+def last_command_that_moves(recording: Recording) -> str:
+    """What is said of a last command that is no stop, once the robot's own time-out has stopped it; or ""."""
+    timeout = _timeout(recording)
+    for topic, commands in _of_robots(recording):
+        last = commands[-1]
+        if last.moves and recording.ended.stamp - last.stamp > timeout + 1e-6:
+            return f"the last command on {topic}, at {last.stamp:.3g} s, was {last.words}"
+    return ""
+
+
+def _timeout(recording: Recording) -> Seconds:
+    return recording.world.robot.command_timeout if recording.world else math.inf
+
+
+def _of_robots(recording: Recording) -> Iterator[tuple[str, list[Command]]]:
+    """The topic of each robot's commands, with those of the student's nodes among them, if there are any."""
+    for end in recording.graph.subscriptions():
+        if end.type != _TWIST or end.node not in recording.ours or not end.node.endswith("/robot"):
+            continue
+        commands = [
+            Command(heard.stamp, heard.sender, heard.message.linear.x, heard.message.angular.z)
+            for heard in recording.messages(end.name)
+        ]
+        if any(not recording.is_ours(command.sender) for command in commands):
+            yield end.name, commands

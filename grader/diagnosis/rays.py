@@ -1,0 +1,33 @@
+"""Rays of a scan that have no distance, and what each kind of them means."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from sim.evidence import Recording, Seconds
+
+_KINDS: dict[str, tuple[Callable[[float], bool], str]] = {
+    "inf": (lambda ray: ray == math.inf, "nothing is there"),
+    "-inf": (lambda ray: ray == -math.inf, "something is too near to be measured"),
+    "nan": (math.isnan, "the ray got lost"),
+}
+
+
+def rays_without_distance(recording: Recording, node: str, until: Seconds) -> str:
+    """A sentence on the last scan a node could hear: the first ray of each kind; "" without any."""
+    topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
+    scans = [
+        heard
+        for heard in recording.heard
+        if heard.topic in topics and heard.type == "sensor_msgs/msg/LaserScan" and heard.stamp <= until
+    ]
+    if not scans:
+        return ""
+    rays = scans[-1].message.ranges
+    found = [
+        f"ray {number} says {word} ({meaning})"
+        for word, (is_it, meaning) in _KINDS.items()
+        if (number := next((n for n, ray in enumerate(rays) if is_it(ray)), None)) is not None
+    ]
+    return f"In the scan of {scans[-1].stamp:.3g} s {', '.join(found)}." if found else ""

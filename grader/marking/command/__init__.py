@@ -1,0 +1,1 @@
+"""`python -m grader mark`: what to mark, what is marked already, and what the instructor hears of it."""

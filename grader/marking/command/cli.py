@@ -1,0 +1,126 @@
+"""`python -m grader mark ASSIGNMENT`: the command line of marking a class."""
+import argparse
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from grader.marking.command.journal import Journal
+from grader.marking.command.mark_class import OpenMarker, Outcome, Settings, mark_class
+from grader.marking.command.summary import summarise
+from grader.marking.command.summary_page import as_page
+from grader.marking.command.summary_text import as_csv, as_text
+from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
+from grader.marking.gradebook.course import Course
+from grader.marking.machines import DaskPool
+from grader.marking.pool import Pool
+from grader.marking.whole_file import write_whole
+
+DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
+
+What is marked and has not changed since is not marked again, so the same command goes on after a stop and
+takes in what comes later. Results are kept in class/marking/; points go to nbgrader's gradebook, notebooks to
+class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
+`nbgrader generate_feedback`."""
+INTERRUPTED = 130  # as a shell says it
+USUAL_JOBS = (os.cpu_count() or 1) + 1  # judge and student take turns, and wait for each other in between
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options of the command."""
+    form = argparse.RawDescriptionHelpFormatter
+    made = argparse.ArgumentParser("python -m grader mark", description=DESCRIPTION, formatter_class=form)
+    add = made.add_argument
+    add("assignment", metavar="ASSIGNMENT")
+    add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
+    add("--jobs", type=_count, metavar="N", help="submissions at a time; default: cores, and one more")
+    add("--force", action="store_true", help="mark again what is marked already")
+    add("--resume", action="store_true", help="go on with the last run of the assignment, with its options")
+    add("--unsafe", action="store_true", help="no sandbox: students' code can do all that you can")
+    add("--no-feedback", action="store_true", help="make no pages for students")
+    add("--csv", default="", metavar="FILE", help="write the points there, a row per student and exercise")
+    add("--html", default="", metavar="FILE", help="write the summary there, as a page")
+    add("--dask", default="", metavar="ADDRESS", help="mark on the workers of this Dask scheduler")
+    return made
+
+
+def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None) -> int:
+    """Run the command in the course's folder; returns the exit status. open_pool: who marks, if not ours."""
+    options = parser().parse_args(arguments)
+    try:
+        course = Course(Path.cwd())
+        settings = _settings(options, course)
+        outcome = mark_class(course, options.assignment, settings, open_pool or _open_pool)
+        _report(options, settings, outcome)
+    except (CourseError, SandboxMissing, SandboxFailed) as error:
+        said = f"Not marked: {error}"
+        print(said if said.endswith((".", "?")) else f"{said}.", file=sys.stderr)
+        return 1
+    except OSError as error:
+        return _stopped(f"{error.filename or 'a file'} could not be written ({error.strerror})", options)
+    except DaskPoolError as error:
+        return _stopped(str(error), options)
+    return INTERRUPTED if outcome.interrupted else int(bool(outcome.problems))
+
+
+def _settings(options: argparse.Namespace, course: Course) -> Settings:
+    """How to mark: as the options say, or as the last run was started."""
+    jobs = options.jobs or USUAL_JOBS
+    given = Settings(
+        sorted(options.student),
+        options.force,
+        jobs,
+        options.unsafe,
+        not options.no_feedback,
+        options.csv,
+        options.html,
+        options.dask,
+    )
+    if not options.resume:
+        return given
+    if given != Settings(jobs=jobs, dask=options.dask):
+        beside = "give none beside it but --jobs and --dask"
+        raise CourseError(f"--resume takes the options of the last run: {beside}")
+    kept = Journal(course.journal(options.assignment)).settings()
+    if kept is None:
+        raise CourseError(f"there is no run of {options.assignment} to go on with: leave --resume out")
+    anew = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
+    return replace(Settings(**kept), **anew)
+
+
+def _open_pool(settings: Settings, secret: str) -> Pool | DaskPool:
+    if settings.dask:
+        return DaskPool(settings.dask, settings.unsafe, secret)
+    return Pool(settings.jobs, settings.unsafe, secret)
+
+
+def _report(options: argparse.Namespace, settings: Settings, outcome: Outcome) -> None:
+    summary = summarise(options.assignment, outcome.worth, outcome.results)
+    if outcome.results:
+        print(as_text(summary))
+    if settings.csv:
+        write_whole(Path(settings.csv), as_csv(options.assignment, outcome.results))
+    if settings.html:
+        write_whole(Path(settings.html), as_page(summary))
+    all_of_it = f"{len(outcome.results)} of {outcome.total} in all"
+    print(f"\n{len(outcome.fresh)} marked now, {all_of_it}, in {outcome.seconds:.1f} s.")
+    for problem in outcome.problems:
+        print(problem, file=sys.stderr)
+    if outcome.interrupted or outcome.problems:
+        done = f"{len(outcome.results)} of {outcome.total} submissions are marked and kept"
+        print(f"Stopped. {done}: {_again(options)}.", file=sys.stderr)
+
+
+def _stopped(why: str, options: argparse.Namespace) -> int:
+    print(f"Stopped: {why}. What is marked is kept: repair this, then {_again(options)}.", file=sys.stderr)
+    return 1
+
+
+def _again(options: argparse.Namespace) -> str:
+    return f"go on with `python -m grader mark {options.assignment} --resume`"
+
+
+def _count(word: str) -> int:
+    if not (word.isdecimal() and 0 < int(word) <= 512):
+        raise argparse.ArgumentTypeError(f"expected a number from 1 to 512, saw {word!r}")
+    return int(word)

@@ -1,0 +1,98 @@
+"""Keeps what marking gave until the gradebook has it, and after: class/marking/ASSIGNMENT/STUDENT.json.
+
+A result is kept before anything else is done with it, so a run that is killed loses the submissions that
+were being marked and nothing more.
+"""
+import contextlib
+import fcntl
+import hashlib
+import json
+import os
+import uuid
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader.marking.errors import CourseError, ResultError
+from grader.marking.result import Result
+from grader.marking.whole_file import write_whole
+
+SETTINGS = ".settings.json"  # hidden: no student's name begins with a dot
+LOCK = ".lock"
+
+
+@dataclass(frozen=True)
+class JournalEntry:
+    """A result in the journal. `id` names this marking: the notebooks made from it carry it, too."""
+
+    id: str
+    result: Result
+
+
+class Journal:
+    """The results of one assignment in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    @contextlib.contextmanager
+    def hold_lock(self) -> Iterator[None]:
+        """Hold the journal while marking. Raises CourseError where another process does."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with open(self.folder / LOCK, "a+") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                file.seek(0)
+                other = f"process {file.read().strip()} is marking {self.folder.name} already"
+                raise CourseError(f"{other}: wait for it, or stop it with Ctrl-C") from None
+            file.truncate(0)
+            file.write(str(os.getpid()))
+            file.flush()
+            yield
+
+    def keep(self, result: Result) -> JournalEntry:
+        """Write a result in the place of the student's last one. Raises OSError."""
+        entry = JournalEntry(uuid.uuid4().hex, result)
+        body = result.to_json()
+        head = json.dumps({"id": entry.id, "sha256": _digest(body)})
+        write_whole(self._file(result.student), f"{head}\n{body}\n", mode=0o600)
+        return entry
+
+    def find(self, student: str, key: str) -> JournalEntry | None:
+        """The result of a student's submission with this key, or None where there is none that is whole."""
+        try:
+            head, body = self._file(student).read_text(encoding="utf-8").rstrip("\n").split("\n", 1)
+            known = json.loads(head)
+            if known["sha256"] != _digest(body):
+                return None
+            entry = JournalEntry(str(known["id"]), Result.from_json(body))
+        except (OSError, ValueError, KeyError, TypeError, ResultError):
+            return None
+        result = entry.result
+        named = (result.student, result.assignment, result.key)
+        return entry if named == (student, self.folder.name, key) else None
+
+    def forget(self, students: Iterable[str]) -> None:
+        """Drop results, so that these submissions are marked again."""
+        for student in students:
+            self._file(student).unlink(missing_ok=True)
+
+    def keep_settings(self, settings: dict[str, Any]) -> None:
+        """Note how a run was started."""
+        write_whole(self.folder / SETTINGS, json.dumps(settings, indent=2) + "\n")
+
+    def settings(self) -> dict[str, Any] | None:
+        """How the last run was started, or None where there was none."""
+        try:
+            return dict(json.loads((self.folder / SETTINGS).read_text()))
+        except (OSError, ValueError, TypeError):
+            return None
+
+    def _file(self, student: str) -> Path:
+        return self.folder / f"{student}.json"
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,196 @@
+"""Marks a class: plans, lets the pool mark, keeps each result, writes gradebook and pages.
+
+In this order for each submission: journal, gradebook, notebooks. Each step can be done again, and the last
+one names the marking it shows; so whenever a run is killed, the next one does what is left.
+"""
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Protocol
+
+from grader.marking import secret
+from grader.marking.command.intake import TaskReader, check_release, find_submissions
+from grader.marking.command.journal import Journal, JournalEntry
+from grader.marking.command.progress import Progress
+from grader.marking.errors import GradebookError
+from grader.marking.gradebook.book import Book
+from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.feedback import is_stale, make_feedback
+from grader.marking.gradebook.marked_notebooks import (
+    is_shown,
+    marked_notebooks,
+    time_handed_in,
+    write_notebooks,
+)
+from grader.marking.handed_in.submission import load_release
+from grader.marking.result import Result
+from grader.marking.task import Task
+
+
+class Marker(Protocol):
+    """Marks submissions in processes of their own."""
+
+    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield the results as they are there."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a run was started: plain data, kept for --resume.
+
+    students: only these, if any. force: mark again what is marked already. jobs: submissions at a time.
+    unsafe: without the sandbox. feedback: make the students' pages. csv, html: files for the summary, or "".
+    dask: the address of a Dask scheduler whose workers mark; "" to mark here.
+    """
+
+    students: list[str] = field(default_factory=list)
+    force: bool = False
+    jobs: int = 1
+    unsafe: bool = False
+    feedback: bool = True
+    csv: str = ""
+    html: str = ""
+    dask: str = ""
+
+
+OpenMarker = Callable[[Settings, str], AbstractContextManager[Marker]]  # from settings and secret
+
+
+@dataclass
+class Outcome:
+    """What a run did.
+
+    results: of all submissions that are marked, now or before, by student; without the notebooks' contents.
+    worth: the points of each test cell, by notebook and cell. fresh: who was marked now. seconds: of it all.
+    problems: a sentence for each thing that is left to do. interrupted: whether Ctrl-C ended it.
+    """
+
+    results: dict[str, Result]
+    worth: dict[tuple[str, str], float]
+    total: int
+    fresh: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+    problems: list[str] = field(default_factory=list)
+    interrupted: bool = False
+
+
+def mark_class(course: Course, assignment: str, settings: Settings, open_pool: OpenMarker) -> Outcome:
+    """Mark what is not marked yet, and bring gradebook and pages up to date. Raises CourseError, OSError."""
+    begin = time.monotonic()
+    key = secret.read(course.root)
+    submissions = find_submissions(course, assignment, settings.students)
+    journal = Journal(course.journal(assignment))
+    with journal.hold_lock(), Book(course) as book:
+        worth = book.cells(assignment)
+        check_release(course, assignment, worth)
+        journal.keep_settings(asdict(settings))
+        if settings.force:
+            journal.forget(submissions)
+            journal.keep_settings(asdict(replace(settings, force=False)))  # that is done: go on from here
+        outcome = Outcome({}, worth or {}, len(submissions))
+        reader = TaskReader(load_release(course.release(assignment)), key)
+        run = _ClassRun(course, book, journal, outcome, reader)
+        try:
+            run.find_marked(submissions)
+            if run.waiting:
+                with open_pool(settings, key) as pool:
+                    run.mark(pool)
+            run.write_late()
+            if settings.feedback:
+                run.give_feedback(assignment, settings.jobs)
+        except KeyboardInterrupt:
+            outcome.interrupted = True
+    outcome.seconds = time.monotonic() - begin
+    return outcome
+
+
+class _ClassRun:
+    """Where results come in and go out.
+
+    waiting: the folders of who is not marked yet. late: keys of results that are in the journal, but not in
+    the gradebook. Both by student.
+    """
+
+    def __init__(
+        self, course: Course, book: Book, journal: Journal, outcome: Outcome, reader: TaskReader
+    ) -> None:
+        self.course, self.book, self.journal, self.outcome = course, book, journal, outcome
+        self.reader = reader
+        self.waiting: dict[str, Path] = {}
+        self.late: dict[str, str] = {}
+
+    def find_marked(self, submissions: Mapping[str, Path]) -> None:
+        """Find what is marked already, and write what the gradebook doesn't have of it."""
+        for student, folder in submissions.items():
+            entry = self.journal.find(student, self.reader.read(student, folder).key)
+            if entry is None:
+                self.waiting[student] = folder
+            else:
+                self.file(entry)
+
+    def mark(self, pool: Marker) -> None:
+        """Let the pool mark what waits, and file each result as it comes."""
+        progress = Progress(len(self.waiting))
+        keys: dict[str, str] = {}  # of what the pool has
+        try:
+            for result in pool.mark(self._tasks(keys)):
+                expected = (self.reader.release.assignment, keys.pop(result.student, None))
+                if (result.assignment, result.key) != expected:
+                    raise RuntimeError(f"a result for {result.student} came that nobody waits for")
+                del self.waiting[result.student]
+                self.file(self.journal.keep(result))
+                self.outcome.fresh.append(result.student)
+                progress.done(result)
+        finally:
+            progress.close()
+        self.outcome.problems += [f"{student} was not marked: mark again" for student in self.waiting]
+
+    def _tasks(self, keys: dict[str, str]) -> Iterator[Task]:
+        """What waits, each read when its turn comes: no more of a class is in memory than is marked."""
+        for student, folder in list(self.waiting.items()):
+            task = self.reader.read(student, folder)
+            keys[student] = task.key
+            yield task
+
+    def file(self, entry: JournalEntry) -> None:
+        """Note a result, and bring gradebook and notebooks up to it."""
+        result = entry.result
+        without = [replace(note, notebook={}) for note in result.notebooks]
+        self.outcome.results[result.student] = replace(result, notebooks=without)
+        if self.late:  # somebody holds the gradebook: asking for each result would hold up the marking
+            self.late[result.student] = result.key
+            return
+        try:
+            self.write(entry)
+        except GradebookError:
+            self.late[result.student] = result.key
+
+    def write(self, entry: JournalEntry) -> None:
+        """Bring gradebook and notebooks up to a result, if they aren't. Raises GradebookError, OSError."""
+        result, shown = entry.result, marked_notebooks(entry, self.reader.release)
+        when = time_handed_in(self.course, result)
+        if is_shown(self.course, entry, shown) and self.book.has(result.assignment, result.student, when):
+            return
+        self.book.write(result, shown, when)
+        write_notebooks(self.course, result, shown)
+
+    def write_late(self) -> None:
+        """Try once more what the gradebook did not take. Nothing is lost: the journal has it."""
+        for done, (student, key) in enumerate(self.late.items()):
+            entry = self.journal.find(student, key)
+            try:
+                if entry:
+                    self.write(entry)
+            except GradebookError as error:
+                left = f"{len(self.late) - done} marked submissions are not in it yet, and nothing is lost"
+                self.outcome.problems.append(f"{error}. {left}.")
+                return
+
+    def give_feedback(self, assignment: str, jobs: int) -> None:
+        """Make the pages that are missing or older than the marks."""
+        stale = [name for name in sorted(self.outcome.results) if is_stale(self.course, assignment, name)]
+        for student in make_feedback(self.course, assignment, stale, jobs) if stale else ():
+            why = f"`nbgrader generate_feedback {assignment} --force --student {student}` says why"
+            self.outcome.problems.append(f"the page of {student} could not be made: {why}")

@@ -1,0 +1,162 @@
+"""What the instructor wants to know of a marked class: points, common mistakes, times, what to look at."""
+import re
+import statistics
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from grader.diagnosis.fault import NOT_STARTED
+from grader.marking.result import CellResult, Result
+
+SLOWEST = 5
+NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Row:
+    """A student's marks: points by notebook and cell, and what else the class table shows."""
+
+    student: str
+    points: dict[tuple[str, str], float]
+    total: float
+    verdict: str
+    flags: int
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A check that students missed, with the most frequent words (the numbers are one student's)."""
+
+    exercise: str
+    sentence: str
+    students: int
+    saw: str
+    hint: str
+
+
+@dataclass(frozen=True)
+class Concern:
+    """Something that the instructor should look at: whose it is, a student's or a cell's, and what it is."""
+
+    whose: str
+    what: str
+
+
+@dataclass(frozen=True)
+class Times:
+    """Seconds of each submission, the median and the longest; and the cells with the longest median."""
+
+    median: float
+    longest: float
+    cells: list[tuple[str, float]]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """All about a marked class. worth: the points of each test cell. names: what to call it.
+
+    unstarted: how many students did not begin an exercise, where some did not.
+    """
+
+    assignment: str
+    worth: Mapping[tuple[str, str], float]
+    names: dict[tuple[str, str], str]
+    rows: list[Row]
+    unstarted: dict[str, int]
+    mistakes: list[Mistake]
+    concerns: list[Concern]
+    times: Times | None
+
+
+def summarise(
+    assignment: str, worth: Mapping[tuple[str, str], float], results: Mapping[str, Result]
+) -> Summary:
+    """Look through the results of a class. worth: points by notebook and cell. results: by student."""
+    ordered = [results[student] for student in sorted(results)]
+    names = dict.fromkeys(worth, "")
+    for result in ordered:
+        names |= {key: cell.exercise for key, cell in cells(result) if key in names}
+    titles = {key: name or key[1] for key, name in names.items()}
+    concerns = [*_by_hand(worth, ordered), *(concern for result in ordered for concern in _concerns(result))]
+    every = [(result.student, cell) for result in ordered for _, cell in cells(result)]
+    unstarted = Counter(cell.exercise for _, cell in every if _unstarted(cell))
+    begun = [(student, cell) for student, cell in every if not _unstarted(cell)]
+    rows, times = [_row(result) for result in ordered], _times(ordered)
+    return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), concerns, times)
+
+
+def cells(result: Result) -> Iterator[tuple[tuple[str, str], CellResult]]:
+    """Yield every test cell of a result, by notebook and cell."""
+    for notebook in result.notebooks:
+        for cell in notebook.cells:
+            yield (notebook.name, cell.cell), cell
+
+
+def missed_checks(cell: CellResult) -> list[dict[str, Any]]:
+    """The verdicts of the checks that the student missed."""
+    return [verdict for verdict in cell.verdicts if verdict.get("status") == "failed"]
+
+
+def _row(result: Result) -> Row:
+    points = {key: cell.points for key, cell in cells(result)}
+    return Row(result.student, points, result.points, result.verdict, len(result.flags))
+
+
+def _unstarted(cell: CellResult) -> bool:
+    return any(verdict["sentence"] == NOT_STARTED for verdict in missed_checks(cell))
+
+
+def _mistakes(marked: list[tuple[str, CellResult]]) -> list[Mistake]:
+    """Checks that were missed, the most frequent first. Words that differ in numbers alone count as one."""
+    seen: dict[tuple[str, str, str], dict[str, tuple[str, str]]] = {}
+    for student, cell in marked:
+        for verdict in missed_checks(cell):
+            who = seen.setdefault((cell.exercise, verdict["name"], verdict["sentence"]), {})
+            who[student] = (verdict["saw"], verdict["hint"])
+    found = [
+        Mistake(exercise, sentence, len(who), *_most_frequent(list(who.values())))
+        for (exercise, _, sentence), who in seen.items()
+    ]
+    return sorted(found, key=lambda mistake: -mistake.students)
+
+
+def _most_frequent(words: list[tuple[str, str]]) -> tuple[str, str]:
+    kinds = [tuple(NUMBER.sub("#", part) for part in pair) for pair in words]
+    (most, _), *_ = Counter(kinds).most_common(1)
+    return words[kinds.index(most)]
+
+
+def _by_hand(worth: Mapping[tuple[str, str], float], results: list[Result]) -> Iterator[Concern]:
+    ran = [dict(cells(result)) for result in results if result.verdict != "refused"]
+    for key in worth:
+        waiting = sum(key not in marked for marked in ran)
+        if waiting:
+            yield Concern("/".join(key), f"{waiting} answers are marked by hand, in the formgrader")
+
+
+def _concerns(result: Result) -> Iterator[Concern]:
+    if result.verdict in ("refused", "stopped"):
+        yield Concern(result.student, f"{result.verdict}: {result.reason}")
+    for flag in result.flags:
+        yield Concern(result.student, flag)
+    for (notebook, name), cell in cells(result):
+        if cell.needs_look:
+            alarms = [str(verdict.get("alarm", "")).strip() for verdict in cell.verdicts]
+            last = next((alarm.splitlines()[-1] for alarm in alarms if alarm), "see its outputs")
+            said = f"a check of {notebook}/{name} is broken ({last}): set the points by hand"
+            yield Concern(result.student, said)
+
+
+def _times(results: list[Result]) -> Times | None:
+    totals = [result.timings["total"] for result in results if "total" in result.timings]
+    if not totals:
+        return None
+    spent: dict[str, list[float]] = {}
+    for result in results:
+        for name, seconds in result.timings.items():
+            if "/" in name:  # a cell's; the others are of the whole submission
+                spent.setdefault(name, []).append(seconds)
+    medians = [(name, statistics.median(times)) for name, times in spent.items()]
+    slowest = sorted(medians, key=lambda cell: -cell[1])[:SLOWEST]
+    return Times(statistics.median(totals), max(totals), slowest)

@@ -1,0 +1,63 @@
+"""All that can keep a class, or one submission, from being marked.
+
+    MarkingError
+    ├── CourseError             the command can't begin or go on; the instructor reads what to do
+    │   ├── GradebookError      the gradebook can't be read or written
+    │   └── UnknownTest         the release has a test cell that can't be marked here
+    ├── CommandFailed           a command of nbgrader's own failed
+    ├── SandboxMissing          this system has no sandbox
+    ├── SandboxFailed           the sandbox doesn't work
+    ├── DaskPoolError           on other machines nobody marks any more
+    ├── Unusable                what was handed in can't be marked; the student reads what to do
+    ├── StudentProcessGone      a student's process can't be led any further; its notebook ends there
+    ├── NotMarked               one submission could not be marked; the instructor has to look
+    └── ResultError             what came back is no result
+"""
+
+
+class MarkingError(Exception):
+    """Anything below; the text is for a reader."""
+
+
+class CourseError(MarkingError):
+    """What keeps the whole command from working; the message says what to do."""
+
+
+class GradebookError(CourseError):
+    """The gradebook can't be read or written; the message says why and what to do. Nothing is lost."""
+
+
+class UnknownTest(CourseError):
+    """A test cell that can't be marked here; the text says which, what was expected and what to do."""
+
+
+class CommandFailed(MarkingError):
+    """An nbgrader command that failed; the text says which, where, and what it printed last."""
+
+
+class SandboxMissing(MarkingError):
+    """This system has no sandbox; the text says what is missing and what to do."""
+
+
+class SandboxFailed(MarkingError):
+    """The sandbox does not work; the text says what it said last."""
+
+
+class DaskPoolError(MarkingError):
+    """Nothing more can be marked on other machines. The text says why, without a full stop."""
+
+
+class Unusable(MarkingError):
+    """A submission that cannot be marked. The text says what was expected, what was seen and what to do."""
+
+
+class StudentProcessGone(MarkingError):
+    """The process can't be led any further. The text says why, as the end of a sentence."""
+
+
+class NotMarked(MarkingError):
+    """A submission could not be marked. The text says what happened."""
+
+
+class ResultError(MarkingError):
+    """Data that is no result; the message says what is wrong with it."""

@@ -1,0 +1,173 @@
+"""The one writer to nbgrader's gradebook. What it writes is what `nbgrader autograde` would."""
+import contextlib
+from collections.abc import Iterator, Mapping
+from datetime import datetime
+from types import TracebackType
+
+from nbformat import NotebookNode
+from nbgrader.api import Grade, Gradebook, InvalidEntry, MissingEntry, SubmittedAssignment, SubmittedNotebook
+from nbgrader.preprocessors import AssignLatePenalties
+from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, is_task
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import SQLAlchemyError
+
+from grader.marking.errors import GradebookError
+from grader.marking.gradebook.course import Course
+from grader.marking.result import CellResult, Result
+
+PATIENCE = 60.0  # seconds to wait where another program holds an SQLite file, if its address names none
+NO_RESPONSE = "No response."  # nbgrader's own words for an answer that is as it was given out
+ADVICE = {
+    "locked": "another program holds it: close the formgrader's page or wait, then mark again",
+    "readonly": "it is read-only: mark as the user who owns it",
+    "full": "the disk is full: make room, then mark again",
+    "no such": "it was made by another nbgrader: copy it, run `nbgrader db upgrade`, then mark again",
+}
+
+
+class Book:
+    """The gradebook of a course, open for one command. Raises GradebookError."""
+
+    def __init__(self, course: Course) -> None:
+        self._app = course.app
+        self._address = make_url(course.database)
+        url = self._address
+        if url.get_backend_name() == "sqlite" and "timeout" not in url.query:
+            url = url.update_query_dict({"timeout": str(PATIENCE)})
+        with self._telling():
+            self._gradebook = Gradebook(url.render_as_string(hide_password=False), course.name)
+
+    def __enter__(self) -> "Book":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._gradebook.close()
+
+    def cells(self, assignment: str) -> dict[tuple[str, str], float] | None:
+        """The points of each test cell by notebook and name, or None for an assignment it doesn't know."""
+        with self._transaction() as book:
+            try:
+                notebooks = book.find_assignment(assignment).notebooks
+            except MissingEntry:
+                return None
+            return {(note.name, cell.name): cell.max_score for note in notebooks for cell in note.grade_cells}
+
+    def has(self, assignment: str, student: str, timestamp: datetime | None) -> bool:
+        """Whether it knows this submission as the one of this time."""
+        with self._transaction() as book:
+            try:
+                submission = book.find_submission(assignment, student)
+            except MissingEntry:
+                return False
+            return timestamp is None or submission.timestamp == timestamp
+
+    def write(self, result: Result, pages: Mapping[str, NotebookNode], timestamp: datetime | None) -> None:
+        """Write a result: all of it, or nothing where this raises.
+
+        pages: the notebooks as they were marked, with nbgrader's metadata, by name. timestamp: UTC. What an
+        instructor entered by hand stays, and asks for another look, as after `nbgrader autograde`.
+        """
+        with self._transaction() as book:
+            book.update_or_create_student(result.student)
+            when = {} if timestamp is None else {"timestamp": timestamp}
+            with book.db.no_autoflush:  # the submission is not in the session before it is complete
+                book.update_or_create_submission(result.assignment, result.student, **when)
+            book.db.expire_all()  # so that what nbgrader's methods have added shows
+            submission = book.find_submission(result.assignment, result.student)
+            for notebook in submission.notebooks:
+                _enter(notebook, result, _graded_cells(pages.get(notebook.name)))
+                self._penalise(book, submission, notebook)
+
+    def _penalise(
+        self, book: Gradebook, submission: SubmittedAssignment, notebook: SubmittedNotebook
+    ) -> None:
+        """Let the late penalty plugin, if any, say what being late costs."""
+        notebook.late_submission_penalty = None
+        book.db.flush()
+        book.db.refresh(notebook)  # its score is a sum that the database makes
+        if submission.total_seconds_late > 0:
+            step = AssignLatePenalties(parent=self._app)
+            step.init_plugin()
+            penalty = step.plugin_inst.late_submission_penalty(
+                submission.student.id, notebook.score, submission.total_seconds_late
+            )
+            if penalty is not None:
+                notebook.late_submission_penalty = step._check_late_penalty(notebook, penalty)
+
+    @contextlib.contextmanager
+    def _transaction(self) -> Iterator[Gradebook]:
+        """All changes inside go in together, or none does. nbgrader's methods would commit each by itself."""
+        session = self._gradebook.db
+        commit = session.commit
+        session.commit = session.flush
+        try:
+            with self._telling():
+                yield self._gradebook
+                commit()
+        finally:
+            session.commit = commit
+            session.rollback()
+            session.remove()
+
+    @contextlib.contextmanager
+    def _telling(self) -> Iterator[None]:
+        try:
+            yield
+        except (SQLAlchemyError, InvalidEntry) as error:
+            first = error.__context__ if isinstance(error, InvalidEntry) else error  # nbgrader wraps some
+            reason = str(getattr(first, "orig", first)).strip()
+            advice = (words for sign, words in ADVICE.items() if sign in reason)
+            place = self._address.render_as_string(hide_password=True)
+            said = f"the gradebook {place} can't be used ({reason})"
+            raise GradebookError(f"{said}: {next(advice, 'repair it, then mark again')}") from None
+
+
+def _graded_cells(page: NotebookNode | None) -> dict[str, NotebookNode]:
+    """The cells of a notebook that the gradebook knows of, by name and in order."""
+    cells = [] if page is None else page.cells
+    kinds = (is_grade, is_solution, is_task)
+    return {cell.metadata.nbgrader.grade_id: cell for cell in cells if any(kind(cell) for kind in kinds)}
+
+
+def _enter(notebook: SubmittedNotebook, result: Result, cells: Mapping[str, NotebookNode]) -> None:
+    """Set scores and comments of one notebook."""
+    earned = {
+        cell.cell: cell for note in result.notebooks if note.name == notebook.name for cell in note.cells
+    }
+    refused = result.verdict == "refused" or not cells
+    for grade in notebook.grades:
+        if refused:
+            grade.auto_score, grade.needs_manual_grade = 0, False
+        else:
+            _score(grade, earned.get(grade.name), cells.get(grade.name))
+    for comment in notebook.comments:
+        comment.auto_comment = _no_response(cells.get(comment.name))
+    if result.verdict == "refused":
+        comments = {comment.name: comment for comment in notebook.comments}
+        first = next((comments[name] for name in cells if name in comments), None)
+        if first:
+            first.auto_comment = result.reason
+
+
+def _score(grade: Grade, earned: CellResult | None, cell: NotebookNode | None) -> None:
+    """Set what one cell earned, and whether somebody has to look at it."""
+    if cell is not None and is_task(cell):
+        return  # nobody but a person marks these
+    look = False
+    if earned is not None:
+        grade.auto_score = min(earned.points, grade.max_score)
+        look = earned.needs_look or earned.max != grade.max_score
+    elif cell is not None and (is_solution(cell) or cell.cell_type != "code"):
+        grade.auto_score, _ = determine_grade(cell)
+    else:
+        grade.auto_score, look = 0, True  # a test that never ran
+    grade.needs_manual_grade = look or grade.manual_score is not None or grade.auto_score is None
+
+
+def _no_response(cell: NotebookNode | None) -> str | None:
+    """What nbgrader says of an answer that is as it was given out."""
+    if cell is None or is_task(cell):
+        return None
+    return NO_RESPONSE if cell.metadata.nbgrader.get("checksum") == compute_checksum(cell) else None

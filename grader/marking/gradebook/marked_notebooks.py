@@ -1,0 +1,86 @@
+"""The notebooks of a marked submission in class/autograded/, as formgrader and feedback read them."""
+import copy
+from collections.abc import Iterable
+from datetime import datetime
+from pathlib import Path
+
+import nbformat
+from nbformat import NotebookNode
+
+from grader.marking.command.journal import JournalEntry
+from grader.marking.gradebook.course import TIMESTAMP, Course, timestamp
+from grader.marking.handed_in.submission import Release
+from grader.marking.result import Result
+from grader.marking.whole_file import write_whole
+
+NOTICE = "how-this-was-marked"  # id of the cell on top
+MARKING = "marking"  # metadata: the id of the marking that a notebook shows
+OPENINGS = {
+    "marked": "",
+    "repaired": "Your notebook was mended before it was marked. Please check that this is your work:",
+    "stopped": "Your notebook was stopped before its end. What was done before keeps its points.",
+    "refused": "Your submission could not be marked.",
+}
+
+
+def marked_notebooks(entry: JournalEntry, release: Release) -> dict[str, NotebookNode]:
+    """The notebooks to show, by name. Of a refused submission it is the release: what was to be done."""
+    shown = {note.name: nbformat.from_dict(note.notebook) for note in entry.result.notebooks}
+    if not shown:
+        shown = copy.deepcopy(dict(release.notebooks))
+    words = notice(entry.result)
+    for notebook in shown.values():
+        notebook.metadata[MARKING] = entry.id
+        if words:
+            notebook.cells.insert(0, nbformat.v4.new_markdown_cell(words, id=NOTICE))
+    return shown
+
+
+def notice(result: Result) -> str:
+    """What a student is told about the marking itself, as Markdown; "" where all went as usual."""
+    opening = OPENINGS[result.verdict] or (OPENINGS["repaired"] if result.repairs else "")
+    if not opening:
+        return ""
+    parts = ["**How this was marked**", opening, *([_line(result.reason)] if result.reason else [])]
+    if result.repairs and opening != OPENINGS["repaired"]:
+        parts.append("It was mended first:")
+    return "\n\n".join([*parts, "\n".join(f"- {_line(repair)}" for repair in result.repairs)]).rstrip()
+
+
+def write_notebooks(course: Course, result: Result, shown: dict[str, NotebookNode]) -> None:
+    """Put the notebooks into the student's folder, with the submission's time. Raises OSError."""
+    student, assignment = result.student, result.assignment
+    folder = course.autograded(student, assignment)
+    mode = 0o664 if course.directory.groupshared else 0o444
+    _, text = timestamp(course.submitted(student, assignment))
+    if text:
+        write_whole(folder / TIMESTAMP, text, mode)
+    else:
+        (folder / TIMESTAMP).unlink(missing_ok=True)
+    for old in folder.glob("*.ipynb"):
+        if old.stem not in shown:
+            old.unlink()
+    for name, notebook in shown.items():
+        write_whole(folder / f"{name}.ipynb", nbformat.writes(notebook) + "\n", mode)
+
+
+def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
+    """Whether the notebooks in the student's folder are those of this marking."""
+    folder = course.autograded(entry.result.student, entry.result.assignment)
+    return all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
+
+
+def time_handed_in(course: Course, result: Result) -> datetime | None:
+    """When the submission was handed in (UTC), where that is known."""
+    return timestamp(course.submitted(result.student, result.assignment))[0]
+
+
+def _marking(path: Path) -> str | None:
+    try:
+        return nbformat.read(path, nbformat.NO_CONVERT).metadata.get(MARKING)
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def _line(words: str) -> str:
+    return " ".join(words.split())

@@ -1,0 +1,114 @@
+"""What of a submission's HTML may show in feedback pages and in the formgrader.
+
+nbconvert's own filter drops the tables, pictures and folded hints that scores and tasks are made of, and
+nbgrader's pages show Markdown unfiltered: a submission's script would run with the instructor's rights.
+
+A replay is data in a `div` and a script that plays it. The data stays, whoever made it, since the player
+only draws its numbers; every script goes, and the course's own player takes its place.
+"""
+
+import re
+from typing import Any
+from urllib.parse import urlsplit
+
+import nh3
+
+from grader.marking.gradebook.short_pages import TOO_LONG, too_long
+
+WORDS = "a abbr acronym b blockquote code em i li ol strong ul"
+TEXT = "p h1 h2 h3 h4 h5 h6 br hr del s sub sup kbd small mark details summary pre div span"
+TABLE = "table caption colgroup col thead tbody tfoot tr th td"
+FIGURE = "img figure figcaption"
+TAGS = {*WORDS.split(), *TEXT.split(), *TABLE.split(), *FIGURE.split()}
+# No `id`: the formgrader finds its buttons and fields by ids, a cell's own could stand in for them.
+ATTRIBUTES = {
+    "*": {"class", "style", "title"},
+    "a": {"href"},
+    "div": {"data-replay"},
+    "img": {"alt", "width", "height", "src"},
+    "td": {"colspan", "rowspan", "align"},
+    "th": {"colspan", "rowspan", "align", "scope"},
+}
+# No `position`, nothing that reaches out of the cell or loads something.
+TEXT_STYLES = "color font-family font-size font-style font-weight line-height text-align text-decoration"
+BOX_STYLES = "background-color height max-width overflow overflow-x vertical-align white-space width"
+SIDES = ("", "-top", "-right", "-bottom", "-left")
+STYLES = {
+    "border-collapse",
+    *TEXT_STYLES.split(),
+    *BOX_STYLES.split(),
+    *(kind + side for kind in ("border", "margin", "padding") for side in SIDES),
+}
+PROTOCOLS = {"http", "https", "mailto", "data"}  # data: pictures inside the page
+
+# Of replays, tables and highlighted code. The pages' own style sheet has others that cover the page.
+CLASSES = re.compile(r"ros2-replay|dataframe|highlight|anchor-link|[a-z]{1,2}\d?|hll|err|esc")
+REPLAY = re.compile(r"[A-Za-z0-9+/]{1,400000}={0,2}")  # its data: base64, so many characters at most
+PICTURE = {"width": int, "height": int, "alt": str}  # pixels, words
+RUNS = {"application/javascript", "application/vnd.jupyter.widget-view+json", "text/vnd.mermaid"}
+# Up to the end where the end tag is missing, as browsers read it: one pass, whatever a submission holds.
+UNSEEN = re.compile(r"<(script|style)\b.*?(</\1[^<>]*>?|\Z)", re.IGNORECASE | re.DOTALL)
+
+
+def clean(html: object) -> str:
+    """Return the HTML, without all that could run or leave its place."""
+    text = html.decode(errors="replace") if isinstance(html, bytes) else str(html)
+    seen = UNSEEN.sub("", text)
+    return f"<p>{TOO_LONG}</p>" if too_long(seen) else _cleaner.clean(seen)
+
+
+def clean_output(html: object) -> str:
+    """The same for a cell's output, where a replay plays: with the course's own player after it."""
+    safe = clean(html)
+    if "data-replay=" not in safe:
+        return safe
+    from sim.view.replay import PLAYER_SCRIPT
+
+    return f"{safe}<script>{PLAYER_SCRIPT}</script>"
+
+
+def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
+    """A preprocessor of nbconvert: drops what only runs, and of pictures' metadata all but size and words.
+
+    The templates write a size without quotes, so that any other value could become a script.
+    """
+    notebook.metadata.pop("widgets", None)
+    for output in (output for cell in notebook.cells for output in cell.get("outputs", ())):
+        if "data" in output:
+            output["data"] = {kind: data for kind, data in output["data"].items() if kind not in RUNS}
+            output["metadata"] = {
+                kind: {key: value for key, value in settings.items() if type(value) is PICTURE.get(key)}
+                for kind, settings in output.get("metadata", {}).items()
+                if kind.startswith("image/") and isinstance(settings, dict)
+            }
+    return notebook, resources
+
+
+def _kept(tag: str, name: str, value: str) -> str | None:
+    """The value of an attribute that stays, or None."""
+    holds = {
+        "class": lambda: all(CLASSES.fullmatch(word) for word in value.split()),
+        "data-replay": lambda: REPLAY.fullmatch(value),
+        "src": lambda: _inside(value),
+    }
+    return value if name not in holds or holds[name]() else None
+
+
+def _inside(source: str) -> bool:
+    """Whether a picture comes with the page: one from elsewhere would tell its server who reads the page."""
+    try:
+        parts = urlsplit(source)
+    except ValueError:
+        return False
+    here = not (parts.scheme or parts.netloc or "\\" in source)  # browsers take \\ for /
+    return here or (parts.scheme == "data" and parts.path.startswith("image/"))
+
+
+_cleaner = nh3.Cleaner(
+    tags=TAGS,
+    attributes=ATTRIBUTES,
+    attribute_filter=_kept,
+    url_schemes=PROTOCOLS,
+    filter_style_properties=STYLES,
+    link_rel=None,
+)

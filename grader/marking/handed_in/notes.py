@@ -1,0 +1,98 @@
+"""The sentences about cells: the same thing said of several cells is said once."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from grader.marking.handed_in.words import list_names
+
+# Of one cell, of several. Repairs: for student and instructor.
+REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "found by id": (
+            "The cell {} had lost its name; it was found by its id.",
+            "The cells {} had lost their names; they were found by their ids.",
+        ),
+        "found by look": (
+            "The cell {} had lost its name; it was found by its text and place.",
+            "The cells {} had lost their names; they were found by their text and place.",
+        ),
+        "answer twice": (
+            "The cell {} was in the notebook more than once; the last one with an answer was marked.",
+            "The cells {} were in the notebook more than once; the last ones with an answer were marked.",
+        ),
+        "answer of another type": (
+            "The type of the cell {} was changed; its text was taken all the same.",
+            "The types of the cells {} were changed; their texts were taken all the same.",
+        ),
+        "answer missing": (
+            "The answer {} was missing; an empty cell took its place.",
+            "The answers {} were missing; empty cells took their places.",
+        ),
+        "test twice": (
+            "The test cell {} was in the notebook more than once; it was run once.",
+            "The test cells {} were in the notebook more than once; they were run once.",
+        ),
+        "test of another type": (
+            "The type of the test cell {} was changed; the instructor's own was run.",
+            "The types of the test cells {} were changed; the instructor's own were run.",
+        ),
+        "test missing": (
+            "The test cell {} was missing; the instructor's own was run.",
+            "The test cells {} were missing; the instructor's own were run.",
+        ),
+        "test too early": (
+            "The test cell {} stood before its answer; it was run after it.",
+            "The test cells {} stood before their answers; they were run after them.",
+        ),
+        "test older": (
+            "The test cell {} came from another version of the assignment; the present one was run.",
+            "The test cells {} came from another version of the assignment; the present ones were run.",
+        ),
+        "code missing": (
+            "The cell {} was missing; the one that was handed out was run.",
+            "The cells {} were missing; those that were handed out were run.",
+        ),
+    }
+)
+# Flags: for the instructor alone.
+FLAGS: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "test edited": (
+            "The test cell {} was edited; the instructor's own was run.",
+            "The test cells {} were edited; the instructor's own were run.",
+        ),
+        "settings changed": (
+            "The points or other settings of the cell {} were changed; the instructor's own count.",
+            "The points or other settings of the cells {} were changed; the instructor's own count.",
+        ),
+        "test to be skipped": (
+            "The test cell {} was tagged `skip-execution`; it was run.",
+            "The test cells {} were tagged `skip-execution`; they were run.",
+        ),
+        "name of another": (
+            "The cell {} bore the name of another; it was known by its id.",
+            "The cells {} bore the names of others; they were known by their ids.",
+        ),
+    }
+)
+
+
+class Notes:
+    """Collects what is to be said of which cells."""
+
+    def __init__(self) -> None:
+        self._cells: dict[str, list[str]] = {}
+
+    def add(self, about: str, cell: str) -> None:
+        """Note a thing, by its key in REPAIRS or FLAGS, of the cell with this name."""
+        cells = self._cells.setdefault(about, [])
+        if cell not in cells:
+            cells.append(cell)
+
+    def sentences(self, words: Mapping[str, tuple[str, str]]) -> list[str]:
+        """Return what was noted of all that `words` has words for."""
+        return [
+            one_or_several[len(self._cells[about]) > 1].format(list_names(self._cells[about]))
+            for about, one_or_several in words.items()
+            if about in self._cells
+        ]

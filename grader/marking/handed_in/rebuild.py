@@ -1,0 +1,216 @@
+"""Makes the notebook that is run for a mark: the instructor's own, with a student's answers in it.
+
+From what was handed in come the text of the answers, our cells without points as the student changed them,
+and the student's own cells, all in their order. Everything else is the release's: no metadata, output, tag or
+test of a submission changes what is run or what it is worth.
+"""
+
+import copy
+import hashlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from nbformat import NotebookNode
+
+from grader.marking.errors import Unusable
+from grader.marking.handed_in.cells import Cell, PlainNotebook, cell_of, is_answer
+from grader.marking.handed_in.matching import Match, match_cells
+from grader.marking.handed_in.notes import FLAGS, REPAIRS, Notes
+from grader.marking.handed_in.order import Place, order_cells
+from grader.marking.handed_in.submission import HandedIn, Release, read_submission
+from grader.marking.handed_in.words import list_names
+from grader.notebooks import cell_ids
+
+ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"
+MOST_POINTS = 1e6
+SETTINGS = ("points", "grade", "solution", "locked", "task")
+
+
+@dataclass(frozen=True)
+class RebuiltNotebook:
+    """A notebook ready to run.
+
+    answers: by grade_id, whether each was "answered", left "untouched" or is "missing". repairs: a sentence
+    for student and instructor on each thing that was mended. flags: for the instructor alone, on each thing
+    that no honest work leaves behind.
+    """
+
+    notebook: NotebookNode
+    answers: dict[str, str] = field(default_factory=dict)
+    repairs: list[str] = field(default_factory=list)
+    flags: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class RebuiltSubmission:
+    """A submission ready to run: its notebooks by name.
+
+    missing: why a notebook of the release cannot be marked, by its name. repairs, flags: of all notebooks, as
+    in Rebuilt.
+    """
+
+    notebooks: dict[str, RebuiltNotebook] = field(default_factory=dict)
+    missing: dict[str, str] = field(default_factory=dict)
+    repairs: list[str] = field(default_factory=list)
+    flags: list[str] = field(default_factory=list)
+
+
+def rebuild_submission(handed_in: HandedIn, release: Release) -> RebuiltSubmission:
+    """Read a submission and rebuild all its notebooks. Raises Unusable if none can be marked."""
+    submission = read_submission(handed_in, release)
+    whole = RebuiltSubmission(missing=dict(submission.missing), repairs=list(submission.repairs))
+    for name, submitted in submission.notebooks.items():
+        try:
+            rebuilt = rebuild(release.notebooks[name], submitted)
+        except Unusable as reason:
+            whole.missing[name] = str(reason)
+            continue
+        whole.notebooks[name] = rebuilt
+        whole.repairs.extend(rebuilt.repairs)
+        whole.flags.extend(rebuilt.flags)
+    if not whole.notebooks:
+        raise Unusable(" ".join(whole.missing.values()))
+    return whole
+
+
+def rebuild(release: NotebookNode, submitted: PlainNotebook) -> RebuiltNotebook:
+    """Return `release` with the answers and own cells of `submitted`; both stay as they are.
+
+    Raises Unusable if those are not cells of this release.
+    """
+    ours, theirs = [cell_of(cell) for cell in release.cells], submitted.cells
+    found = match_cells(ours, theirs)
+    _refuse_strangers(ours, theirs, found)
+    notes = Notes()
+    _note_how_found(ours, found, notes)
+    nodes, answers, chosen = [], {}, {}
+    own = set(range(len(theirs))) - found.used()
+    for r, (cell, node) in enumerate(zip(ours, release.cells, strict=True)):
+        copies = found.copies[r]
+        if copies:
+            chosen[r] = copies[-1]
+        if is_answer(cell):
+            real = [s for s in copies if not _untouched(theirs[s], cell)]
+            answers[cell.name] = ANSWERED if real else UNTOUCHED if copies else MISSING
+            if real:
+                chosen[r] = real[-1]
+                own |= {s for s in real if theirs[s].key != theirs[real[-1]].key}
+            _note_answer(cell, [theirs[s] for s in copies], notes)
+            nodes.append(_with_text(node, theirs[chosen[r]].text if copies else "", cell.kind))
+        elif cell.name:
+            _note_fixed(cell, [theirs[s] for s in copies], notes)
+            nodes.append(_with_text(node, node.source, cell.kind))
+        else:
+            nodes.append(_plain(cell, node, [theirs[s] for s in copies], notes))
+    order, moved = order_cells(ours, chosen, own)
+    for r in moved:
+        notes.add("test too early", ours[r].name)
+    notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, theirs)})
+    repairs = [*submitted.repairs, *notes.sentences(REPAIRS)]
+    return RebuiltNotebook(notebook, answers, repairs, notes.sentences(FLAGS))
+
+
+def _refuse_strangers(ours: Sequence[Cell], theirs: Sequence[Cell], found: Match) -> None:
+    names = {cell.name for cell in ours if cell.name}
+    there = {cell.name: r for r, cell in enumerate(ours) if cell.name and found.copies[r]}
+    strange = {cell.name: None for cell in theirs if cell.name not in names and cell.name}
+    if there and (len(there) >= len(strange) or 2 * len(there) >= len(names)):
+        return
+    saw = f"those of another ({list_names(strange)})" if strange else "none of them"
+    raise Unusable(
+        f"Expected a notebook with this assignment's cells ({list_names(sorted(names))}), saw {saw}. "
+        "Hand in the notebook of this assignment."
+    )
+
+
+def _note_how_found(ours: Sequence[Cell], found: Match, notes: Notes) -> None:
+    how = {"found by id": found.by_id, "found by look": found.by_look, "name of another": found.swapped}
+    for about, cells in how.items():
+        for r in sorted(cells):
+            notes.add(about, ours[r].name)
+
+
+def _note_answer(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
+    if not copies:
+        notes.add("answer missing", cell.name)
+    if len(copies) > 1:
+        notes.add("answer twice", cell.name)
+    if any(copy.kind not in (cell.kind, "") for copy in copies):
+        notes.add("answer of another type", cell.name)
+    _note_settings(cell, copies, notes)
+
+
+def _note_fixed(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
+    """A cell that students may not change: theirs is only looked at."""
+    if not copies:
+        notes.add("test missing", cell.name)
+    if len(copies) > 1:
+        notes.add("test twice", cell.name)
+    for other in copies:
+        if other.key != cell.key:
+            notes.add("test older" if _as_released(other) else "test edited", cell.name)
+        elif other.kind not in (cell.kind, ""):
+            notes.add("test of another type", cell.name)
+        if other.skipped:
+            notes.add("test to be skipped", cell.name)
+    _note_settings(cell, copies, notes)
+
+
+def _note_settings(cell: Cell, copies: Iterable[Cell], notes: Notes) -> None:
+    for other in copies:
+        both = [key for key in SETTINGS if key in cell.settings and key in other.settings]
+        if any(cell.settings[key] != other.settings[key] for key in both) and not _as_released(other):
+            notes.add("settings changed", cell.name)
+
+
+def _plain(cell: Cell, node: NotebookNode, copies: Sequence[Cell], notes: Notes) -> NotebookNode:
+    if not copies and cell.kind == "code":
+        notes.add("code missing", cell.id)
+    text, kind = (copies[0].text, copies[0].kind) if copies else (node.source, "")
+    return _with_text(node, text, kind or cell.kind)
+
+
+def _with_text(node: NotebookNode, text: str, kind: str) -> NotebookNode:
+    """The cell of the release with another text, as it is before any run."""
+    if kind != node.cell_type:
+        return _new(kind, text, node.id)
+    node = copy.deepcopy(node)
+    node.source = text
+    if kind == "code":
+        node.update(outputs=[], execution_count=None)
+    return node
+
+
+def _new(kind: str, text: str, cell_id: str) -> NotebookNode:
+    ran = {"outputs": [], "execution_count": None} if kind == "code" else {}
+    return NotebookNode(id=cell_id, cell_type=kind, metadata=NotebookNode(), source=text, **ran)
+
+
+def _in_order(
+    order: Sequence[Place], nodes: Sequence[NotebookNode], theirs: Sequence[Cell]
+) -> list[NotebookNode]:
+    cells = []
+    for place in order:
+        own = None if place.ours else theirs[place.index]
+        cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.index])
+    reserved = {node.id for node in nodes}
+    for place, cell in zip(order, cells, strict=True):
+        if not place.ours and cell.id in reserved:
+            cell.id = ""
+    for cell, cell_id in zip(cells, cell_ids(cells), strict=True):
+        cell.id = cell_id
+    return cells
+
+
+def _untouched(cell: Cell, starter: Cell) -> bool:
+    return cell.key == starter.key or _as_released(cell)
+
+
+def _as_released(cell: Cell) -> bool:
+    """Whether the cell is as some version of the assignment had it, by nbgrader's checksum in it."""
+    kinds = (str(cell.settings.get(key)) for key in ("grade", "solution", "locked"))
+    points = cell.settings.get("points")
+    known = isinstance(points, (int, float)) and abs(points) < MOST_POINTS
+    worth = str(float(points)) if known and cell.settings.get("grade") else ""
+    text = "".join([cell.text, cell.kind, *kinds, cell.name, worth])
+    return cell.settings.get("checksum") == hashlib.md5(text.encode(errors="replace")).hexdigest()

@@ -1,0 +1,118 @@
+"""Gets the JSON out of a file that should be a notebook."""
+
+import codecs
+import json
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from grader.marking.errors import Unusable
+from grader.marking.handed_in.words import quote
+
+MERGE_MARKS = (re.compile(r"^<{7} ", re.MULTILINE), re.compile(r"^>{7} ", re.MULTILINE))
+WEB_PAGE = re.compile(r"<[!?a-zA-Z]")
+CELLS = re.compile(r'"cells"\s*:\s*\[')
+MOST_PARTS = 10_000_000  # each takes some 60 bytes, and notebooks of 100 MB in long lines have fewer
+BETWEEN = re.compile(r"[\s,]*")
+AGAIN = "Download the notebook again in JupyterLab (File, Download) and hand that in."
+
+
+def read_table(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]:
+    """Return the JSON table in the bytes of the file called `file`, with a sentence for each odd thing.
+
+    Raises Unusable, and nothing else.
+    """
+    if not data.strip(b"\0 \t\r\n"):
+        saw = "is empty" if not data else "holds nothing but zeros and blanks"
+        raise Unusable(f"{quote(file)} {saw}; expected a notebook. {AGAIN}")
+    if data.startswith(b"PK\x03\x04"):
+        problem = f"{quote(file)} is a zip archive; expected a notebook."
+        raise Unusable(f"{problem} Unpack it and hand in the notebook that lies in it.")
+    if (parts := sum(map(data.count, (b"{", b"[", b",")))) > MOST_PARTS:
+        raise Unusable(
+            f"{quote(file)} is made of {parts / 1e6:.0f} million parts; at most {MOST_PARTS / 1e6:g} "
+            "million can be read. Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again."
+        )
+    text, repairs = _decoded(data)
+    twice: list[str] = []
+    decoder = json.JSONDecoder(strict=False, object_pairs_hook=lambda pairs: _table(pairs, twice))
+    text = text.lstrip()
+    try:
+        value, end = decoder.raw_decode(text)
+    except (ValueError, RecursionError) as error:
+        value, end = {"nbformat": 4, "cells": _cells_before(text, error, decoder, file, repairs)}, len(text)
+    if text[end:].strip():
+        repairs.append("After its end, the notebook's file went on with something else; that was left out.")
+    if twice:
+        repairs.append(f"The notebook's file had {quote(twice[0])} twice in one place; the last was read.")
+    if not isinstance(value, dict):
+        raise Unusable(f"{quote(file)} holds JSON, but no notebook. {AGAIN}")
+    return value, repairs
+
+
+def _decoded(data: bytes) -> tuple[str, list[str]]:
+    encoding = json.detect_encoding(data)
+    if not encoding.startswith("utf-8"):
+        name = encoding[:6].upper()
+        return data.decode(encoding, "replace"), [f"The notebook's file was saved as {name}; it was read so."]
+    repairs = []
+    if data.startswith(codecs.BOM_UTF8):
+        repairs.append("The notebook's file began with a byte order mark; it was read without.")
+        data = data.removeprefix(codecs.BOM_UTF8)
+    if b"\0" in data:
+        repairs.append("There were zero bytes in the notebook's file; they were left out.")
+        data = data.replace(b"\0", b"")
+    try:
+        return data.decode(), repairs
+    except UnicodeDecodeError:
+        text = data.decode(errors="replace")
+    bad, good = text.count("\ufffd"), sum(letter > "\x7f" and letter != "\ufffd" for letter in text)
+    if good >= bad:
+        saw = "1 character was damaged; it was" if bad == 1 else f"{bad} characters were damaged; they were"
+        repairs.append(f"In the notebook's file {saw} read as �.")
+        return text, repairs
+    repairs.append("The notebook's file was not saved as UTF-8; it was read as Latin 1.")
+    return data.decode("latin-1"), repairs
+
+
+def _table(pairs: Sequence[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        seen: set[str] = set()
+        twice.append(next(name for name, _ in pairs if name in seen or seen.add(name)))
+    return table
+
+
+def _cells_before(
+    text: str, error: Exception, decoder: json.JSONDecoder, file: str, repairs: list[str]
+) -> list[Any]:
+    """The whole cells before the place where a file breaks off or makes no sense."""
+    _refuse_what_is_no_notebook(text, error, file)
+    start = CELLS.search(text)
+    cells: list[Any] = []
+    position = BETWEEN.match(text, start.end()).end() if start else len(text)
+    while text[position : position + 1] not in ("", "]"):
+        try:
+            cell, position = decoder.raw_decode(text, position)
+        except (ValueError, RecursionError):
+            break
+        cells.append(cell)
+        position = BETWEEN.match(text, position).end()
+    if not cells:
+        raise Unusable(f"{quote(file)} is damaged from its beginning on; expected a notebook. {AGAIN}")
+    repairs.append(f"The notebook's file is damaged behind cell {len(cells)}; what stands before was marked.")
+    return cells
+
+
+def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
+    if isinstance(error, RecursionError):
+        raise Unusable(f"{quote(file)} holds tables in tables without end; expected a notebook. {AGAIN}")
+    if all(mark.search(text) for mark in MERGE_MARKS):
+        problem = f"{quote(file)} holds git's merge marks (`<<<<<<<`), so two versions of it."
+        raise Unusable(f"{problem} Choose one, open it in JupyterLab, save it and hand it in again.")
+    if WEB_PAGE.match(text):
+        problem = f"{quote(file)} holds a web page, maybe one that asks for a password; expected a notebook."
+        raise Unusable(f"{problem} {AGAIN}")
+    if not text.startswith("{"):  # its words are not told: where it is linked to, a secret may lie
+        problem = f"{quote(file)} is no notebook: expected JSON, which begins with `{{`, saw something else."
+        raise Unusable(f"{problem} {AGAIN}")

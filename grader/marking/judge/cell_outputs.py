@@ -1,0 +1,164 @@
+"""The outputs of a notebook's cells, put together from what a student's process says that they showed.
+
+That process is the student's and may say anything. So nothing of it is taken over as it comes: every output
+is made anew from the few fields that one has, with text of bounded size.
+"""
+
+from __future__ import annotations
+
+import sys
+import sysconfig
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from grader.marking.outputs import LEFT_OUT, MOST, SHOWN, output_size, picture_settings, writable_text
+
+MOST_OF_ALL = 20_000_000  # that all cells of a submission show
+MOST_OUTPUTS = 1_000  # of one cell
+MOST_OUTPUTS_OF_ALL = 10_000  # of all cells: nbconvert looks at each again and again
+MOST_LINES = 1_000  # of a traceback
+MOST_NAME = 200  # characters of a display_id
+
+# Of Python's libraries and of the course. A longer one comes first, for one may lie in another.
+COURSE = str(Path(__file__).parents[3])
+PLACES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
+FOLDERS = sorted({f"{place}/" for place in PLACES if len(place) > 1}, key=len, reverse=True)
+
+
+class CellOutputs:
+    """What one cell showed, in order, as nbformat 4 has it. It shares `Displays` with the other cells."""
+
+    def __init__(self, displays: Displays) -> None:
+        self.list: list[dict[str, Any]] = []
+        self._displays = displays
+        self._used = 0  # characters
+        self._full = False
+        self._clear = False  # before the next output
+
+    def add(self, event: Mapping[str, Any]) -> None:
+        """Add what the student's process says; whatever makes no sense is left out."""
+        if "clear" in event:
+            self._clear = True
+            if not event["clear"]:
+                self._begin()
+            return
+        output, identity = make_output(event.get("output")), event.get("display_id")
+        if output is None:
+            return
+        if event.get("update"):
+            self._displays.update(identity, output)
+        elif self._has_room(output):
+            self._join(output)
+            if isinstance(identity, str) and "data" in output:
+                self._displays.remember(identity, self, output)
+
+    def say(self, text: str) -> None:
+        """Add a line of ours. It is there however much the cell showed."""
+        self._begin()
+        self._join({"output_type": "stream", "name": "stdout", "text": text.rstrip("\n") + "\n"})
+
+    def grow(self, more: int) -> bool:
+        """Take so much more room for an output of the cell, or give it back; whether there is that much."""
+        if self._used + more > MOST or more > self._displays.room:
+            return False
+        self._used += more
+        self._displays.room -= more
+        return True
+
+    @property
+    def printed_text(self) -> list[dict[str, Any]]:
+        """Only what was written as text, all of it as stdout."""
+        text = "".join(output["text"] for output in self.list if output["output_type"] == "stream")
+        return [{"output_type": "stream", "name": "stdout", "text": text}] if text else []
+
+    def _begin(self) -> None:
+        if self._clear:
+            self._displays.outputs -= len(self.list)
+            self.list.clear()
+            self._displays.forget(self)
+            self._displays.room += self._used
+            self._used, self._full, self._clear = 0, False, False
+
+    def _join(self, output: dict[str, Any]) -> None:
+        last = self.list[-1] if self.list else {}
+        if output["output_type"] == "stream" == last.get("output_type") and output["name"] == last["name"]:
+            last["text"] += output["text"]
+        else:
+            self.list.append(output)
+            self._displays.outputs += 1
+
+    def _has_room(self, output: dict[str, Any]) -> bool:
+        """Whether it still fits. Says once that the rest is left out; text is cut where it has to be."""
+        if self._full and not self._clear:
+            return False
+        self._begin()
+        room = min(MOST - self._used, self._displays.room)
+        used = min(output_size(output), room)
+        self._used += used
+        self._displays.room -= used
+        many = len(self.list) >= MOST_OUTPUTS or self._displays.outputs >= MOST_OUTPUTS_OF_ALL
+        if output_size(output) <= room and not many:
+            return True
+        self._full = True
+        if output["output_type"] == "stream":
+            self._join({**output, "text": output["text"][: max(room, 0)]})
+        self.say(LEFT_OUT)
+        return False
+
+
+class Displays:
+    """What the cells of a submission share: room, and displays that later cells may update."""
+
+    def __init__(self) -> None:
+        self.room, self.outputs = MOST_OF_ALL, 0
+        self._displays: dict[str, list[tuple[CellOutputs, dict[str, Any]]]] = {}
+
+    def remember(self, identity: str, cell: CellOutputs, output: dict[str, Any]) -> None:
+        """Remember an output of a cell by its display_id."""
+        if len(self._displays) < MOST_OUTPUTS:
+            self._displays.setdefault(identity[:MOST_NAME], []).append((cell, output))
+
+    def update(self, identity: Any, output: dict[str, Any]) -> None:
+        """Let an output take the place of those with this display_id, if there are any."""
+        known = self._displays.get(identity[:MOST_NAME], ()) if isinstance(identity, str) else ()
+        for cell, old in known if "data" in output else ():
+            if cell.grow(output_size(output) - output_size(old)):
+                old.update(data=output["data"], metadata=output["metadata"])
+
+    def forget(self, cell: CellOutputs) -> None:
+        """The outputs of a cell are gone."""
+        left = {name: [it for it in known if it[0] is not cell] for name, known in self._displays.items()}
+        self._displays = {name: known for name, known in left.items() if known}
+
+
+def make_output(output: Any) -> dict[str, Any] | None:
+    """An output of nbformat 4 out of anything that claims to be one; None where that can't be."""
+    match output:
+        case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
+            return {"output_type": "stream", "name": name, "text": without_folders(text)}
+        case {"output_type": "error", "ename": str(name), "evalue": str(value), "traceback": [*lines]}:
+            lines = [without_folders(line) for line in lines[:MOST_LINES] if isinstance(line, str)]
+            words = {"ename": without_folders(name), "evalue": without_folders(value)}
+            return {"output_type": "error", **words, "traceback": lines}
+        case {"output_type": "display_data" | "execute_result" as kind, "data": dict(data)}:
+            words = {mime: data[mime] for mime in SHOWN if isinstance(data.get(mime), str)}
+            shown = {
+                mime: without_folders(it) if mime.startswith("text/") else writable_text(it)
+                for mime, it in words.items()
+            }
+            new = {"output_type": kind, "data": shown, "metadata": picture_settings(output.get("metadata"))}
+            if kind == "execute_result":
+                count = output.get("execution_count")
+                new["execution_count"] = count if type(count) is int and 0 < count < 10**6 else None
+            return new if shown else None
+    return None
+
+
+def without_folders(text: str) -> str:
+    """The same without the folders of the machine that marks, which are no student's business."""
+    for folder in FOLDERS:
+        text = text.replace(folder, "")
+    return writable_text(text)
+
+

@@ -1,0 +1,176 @@
+"""A student's process as the judge sees it: led from cell to cell, and never believed."""
+
+from __future__ import annotations
+
+import base64
+import math
+import socket
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Any
+
+from grader.cast import RemoteCast
+from grader.exercise import Exercise
+from grader.marking.errors import StudentProcessGone
+from grader.marking.judge.cell_outputs import CellOutputs, Displays
+from grader.marking.task import TimeLimits
+from grader.score import Score
+from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
+
+MESSAGE = 8_000_000  # bytes of one message
+MOST_FLAGS = 5  # of one cell
+GRACE = 10.0  # s that a cell has to end after it was interrupted
+
+
+class DeadlineWire(Wire):
+    """A wire on which nobody waits for longer than until `deadline`, by the clock `monotonic`."""
+
+    deadline = math.inf
+
+    def receive(self, timeout: float | None = None) -> dict[str, Any]:
+        """As `Wire.receive`."""
+        left = self.deadline - monotonic()
+        if left <= 0:
+            raise WireTimeout("the time is over")
+        limits = [limit for limit in (left, timeout) if limit is not None and limit < math.inf]
+        return super().receive(min(limits, default=None))
+
+
+@dataclass
+class TestRun:
+    """What became of a test cell.
+
+    score: None if the exercise wasn't run to its end; error: what went wrong with that on our side, if
+    anything. flags: what no honest cell does.
+    """
+
+    score: Score | None = None
+    error: Exception | None = None
+    flags: list[str] = field(default_factory=list)
+
+
+class LedProcess:
+    """Leads the process at the other end of a socket through one notebook.
+
+    threads: whether threads of the notebook still ran when its last cell was over, as the process says.
+    ending: asked when the wire breaks; how the process ended, as a sentence, or "" where that isn't known.
+    """
+
+    def __init__(self, sock: socket.socket, time_limits: TimeLimits, ending: Callable[[], str]) -> None:
+        self._wire = DeadlineWire(sock, MESSAGE)
+        self._time_limits, self._ending = time_limits, ending
+        self._over = monotonic() + time_limits.start
+        self.threads = False
+
+    def begin(self, files: Mapping[str, bytes]) -> None:
+        """Wait until it is there, and put files beside its notebook. Raises StudentProcessGone."""
+        self._wire.deadline = self._over
+        if self._receive("It did not start.") != {"ready": True}:
+            raise StudentProcessGone("It began with something else than it should.")
+        self._send(files={name: base64.b64encode(data).decode() for name, data in files.items()})
+        self._listen(CellOutputs(Displays()))
+        self._over = monotonic() + self._time_limits.notebook
+
+    def run(self, source: str, outputs: CellOutputs, pictures: bool = True) -> None:
+        """Run a cell. Says so in the outputs when it had to be interrupted. Raises StudentProcessGone.
+
+        pictures: whether to draw what the cell shows; else its name stands there.
+        """
+        began = monotonic()
+        self._limit(self._time_limits.cell + GRACE)
+        self._send(run=source, seconds=self._time_limits.cell, pictures=pictures)
+        while self._listen(outputs) is not None:
+            pass  # nobody has asked for nodes
+        self._say_if_late(began, outputs)
+
+    def test(self, source: str, exercise: Exercise, outputs: CellOutputs, secret: str) -> TestRun:
+        """Run a test cell, and judge the nodes that it offers to this exercise. Raises StudentProcessGone.
+
+        secret: what private worlds and seeds are made from; "" for the public ones.
+        """
+        began = monotonic()
+        self._limit(self._time_limits.cell + GRACE)
+        self._send(test=source, seconds=self._time_limits.cell)
+        tested = TestRun()
+        while (named := self._listen(outputs)) is not None:
+            problem = _refusal(named, exercise, tested)
+            self._send(go=not problem)
+            if problem:
+                tested.flags += [problem] * (problem not in tested.flags and len(tested.flags) < MOST_FLAGS)
+            else:
+                self._grade(exercise, tested, secret)
+        if tested.score is None and tested.error is None:
+            self._say_if_late(began, outputs)
+        return tested
+
+    def hang_up(self) -> None:
+        """Nothing is left to do: the process may end."""
+        self._wire.close()
+
+    def _grade(self, exercise: Exercise, tested: TestRun, secret: str) -> None:
+        self._limit(self._time_limits.test)
+        remote = Remote(self._wire)
+        remote.deadline = self._wire.deadline
+        try:
+            try:
+                tested.score = exercise.judge(RemoteCast(remote, secret), secret)
+            except RemoteLost:
+                raise
+            except Exception as error:
+                tested.error = error
+            remote.end()
+        except RemoteLost as lost:
+            if monotonic() >= self._wire.deadline:
+                slow = f"Its nodes took more than {self._time_limits.test:g} s."
+                raise StudentProcessGone(self._too_late(slow)) from None
+            raise StudentProcessGone(self._ending() or lost.reason) from None
+        self._limit(self._time_limits.cell)
+
+    def _listen(self, outputs: CellOutputs) -> str | None:
+        """Take outputs until the cell is done (None) or hands over nodes: then the exercise that it names."""
+        while True:
+            said = self._receive("It did not stop when it was interrupted.")
+            if said.get("done") is True:
+                self.threads = said.get("threads") is True
+                return None
+            if "grade" in said:
+                return str(said["grade"])[:100]
+            outputs.add(said)
+
+    def _limit(self, seconds: float) -> None:
+        self._wire.deadline = min(monotonic() + seconds, self._over)
+
+    def _say_if_late(self, began: float, outputs: CellOutputs) -> None:
+        if monotonic() - began >= self._time_limits.cell:
+            outputs.say(f"This cell was interrupted: it took more than {self._time_limits.cell:g} s.")
+
+    def _send(self, **message: Any) -> None:
+        try:
+            self._wire.send(**message)
+        except WireError:
+            raise StudentProcessGone(self._ending() or "Its process ended.") from None
+
+    def _receive(self, too_late: str) -> dict[str, Any]:
+        try:
+            return self._wire.receive()
+        except WireTimeout:
+            raise StudentProcessGone(self._too_late(too_late)) from None
+        except WireClosed:
+            raise StudentProcessGone(self._ending() or "Its process ended.") from None
+        except WireError:
+            raise StudentProcessGone("Its process said something that makes no sense.") from None
+
+    def _too_late(self, words: str) -> str:
+        """These words, unless the time of the whole notebook is over."""
+        if monotonic() < self._over:
+            return words
+        return f"All its cells together took more than {self._time_limits.notebook:g} s."
+
+
+def _refusal(named: str, exercise: Exercise, tested: TestRun) -> str:
+    if tested.score is not None or tested.error is not None:
+        return "graded more than once in one cell; the first time was judged"
+    if named != exercise.name:
+        return f"handed its nodes to the exercise {named!r} instead of {exercise.name!r}"
+    return ""

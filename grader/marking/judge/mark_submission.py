@@ -1,0 +1,103 @@
+"""Marks one submission: leads the student's processes through the notebooks, and judges what they hand over.
+
+This is the side that is trusted: simulator, companions, worlds from the secret and all judging are here.
+"""
+
+from __future__ import annotations
+
+from time import monotonic
+
+from nbformat import NotebookNode
+
+from grader.marking.errors import Unusable
+from grader.marking.handed_in.rebuild import rebuild_submission
+from grader.marking.handed_in.suspicion import suspicions
+from grader.marking.judge.marking import Marking, StartStudentProcess, cell_name, no_points
+from grader.marking.judge.notebook_run import NotebookRun
+from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
+from grader.marking.outputs import writable_text
+from grader.marking.result import NotebookResult, Result
+from grader.marking.task import Task
+
+MOST_TRICKS = 20  # of a notebook are told
+
+
+def rebuild_notebooks(marking: Marking) -> None:
+    """Put the student's answers into the release's notebooks. Raises Unusable if none can be marked."""
+    marking.rebuilt = rebuild_submission(marking.task.handed_in, marking.task.release)
+    marking.flags += marking.rebuilt.flags
+
+
+def find_exercises(marking: Marking) -> None:
+    """See what the test cells grade. Raises UnknownTest for a release that can't be marked here."""
+    for name, released in marking.task.release.notebooks.items():
+        names = exercise_names(released)
+        marking.exercises[name] = {cell: find_exercise(full) for cell, full in names.items()}
+
+
+def name_tricks(marking: Marking) -> None:
+    """Flag each suspicious thing in a notebook that the release doesn't do itself."""
+    for name, rebuilt in marking.rebuilt.notebooks.items():
+        ours = set(suspicions(_sources(marking.task.release.notebooks[name])))
+        tricks = [trick for trick in suspicions(_sources(rebuilt.notebook)) if trick not in ours]
+        if len(tricks) > MOST_TRICKS:
+            tricks[MOST_TRICKS:] = [f"There are {len(tricks) - MOST_TRICKS} more such things in it."]
+        marking.flags += tricks
+
+
+def run_and_judge(marking: Marking) -> None:
+    """Run each notebook to its end, or as far as it goes."""
+    for name in marking.task.release.notebooks:
+        marking.cells[name] = []
+        if name in marking.rebuilt.notebooks:
+            NotebookRun(marking, name).run_all()
+        else:
+            marking.stops.append(marking.rebuilt.missing[name])
+
+
+def give_the_rest_nothing(marking: Marking) -> None:
+    """Tests that were not reached give no points."""
+    for name, results in marking.cells.items():
+        done = {result.cell for result in results}
+        tests = [cell for cell in marking.notebook(name).cells if is_test(cell)]
+        missed = [cell for cell in tests if cell_name(cell) not in done]
+        results += [no_points(cell, marking.exercises[name][cell_name(cell)]) for cell in missed]
+
+
+STEPS = (rebuild_notebooks, find_exercises, name_tricks, run_and_judge, give_the_rest_nothing)
+
+
+def mark_submission(task: Task, secret: str, start_process: StartStudentProcess) -> Result:
+    """Mark a submission with worlds and seeds from the secret, or with the public ones where it is "".
+
+    Raises nothing for anything that a student may have done, and UnknownTest for another release.
+    """
+    began = monotonic()
+    marking = Marking(task, secret, start_process)
+    try:
+        for step in STEPS:
+            step(marking)
+    except Unusable as reason:
+        return Result(task.student, task.assignment, task.key, "refused", str(reason))
+    marking.timings["total"] = monotonic() - began
+    repaired = "repaired" if marking.rebuilt.repairs else "marked"
+    return Result(
+        task.student,
+        task.assignment,
+        task.key,
+        "stopped" if marking.stops else repaired,
+        " ".join(marking.stops),
+        marking.rebuilt.repairs,
+        marking.flags,
+        [NotebookResult(name, marking.notebook(name), cells) for name, cells in marking.cells.items()],
+        marking.timings,
+    )
+
+
+def result_text(result: Result) -> str:
+    """A result as JSON that every program can read, whatever characters the student used."""
+    return writable_text(result.to_json())
+
+
+def _sources(notebook: NotebookNode) -> list[tuple[str, str]]:
+    return [(cell_name(cell) or cell.id, cell.source) for cell in notebook.cells if cell.cell_type == "code"]

@@ -1,0 +1,113 @@
+"""Leads a student's process through one notebook, cell by cell, and judges what its test cells hand over."""
+
+from __future__ import annotations
+
+import math
+import traceback
+from collections.abc import Sequence
+from dataclasses import replace
+from time import monotonic
+from typing import Any
+
+from nbformat import NotebookNode
+
+from grader.marking.errors import StudentProcessGone
+from grader.marking.handed_in.words import quote
+from grader.marking.judge import score_outputs
+from grader.marking.judge.cell_outputs import CellOutputs
+from grader.marking.judge.led_process import LedProcess
+from grader.marking.judge.marking import Marking, cell_name, no_points
+from grader.marking.judge.testcells import is_test
+from grader.marking.outputs import writable_text
+
+THREADS = "A thread of the notebook {} still ran when its last cell was over."
+
+
+class NotebookRun:
+    """The run of one notebook. `marking` gets its cells' results, outputs, flags and timings."""
+
+    def __init__(self, marking: Marking, name: str) -> None:
+        self._marking, self._name = marking, name
+        self._exercises, self._results = marking.exercises[name], marking.cells[name]
+        # Cells of ours that only show a run: the student has seen that, and the test looks at it anew.
+        cells = [cell for cell in marking.task.release.notebooks[name].cells if cell.cell_type == "code"]
+        self._display_cells = {cell.source for cell in cells if not cell_name(cell)}
+
+    def run_all(self) -> None:
+        """Run all code cells in order, as far as the process lives."""
+        began, number = monotonic(), 0
+        where = "before its first cell"
+        process = self._marking.start_process()
+        try:
+            process.begin(self._marking.task.release.files)
+            self._marking.timings["start"] = monotonic() - began
+            cells = self._marking.notebook(self._name).cells
+            for cell in (cell for cell in cells if cell.cell_type == "code"):
+                number += bool(cell.source.strip())  # as Jupyter counts
+                where = f"in {_cell_words(cell, number)}"
+                self._run(process, cell, number)
+            if process.threads:
+                self._marking.flags.append(THREADS.format(quote(self._name)))
+        except StudentProcessGone as gone:
+            self._marking.stops.append(f"The notebook {quote(self._name)} stopped {where}. {gone}")
+        finally:
+            process.hang_up()
+
+    def _run(self, process: LedProcess, cell: NotebookNode, number: int) -> None:
+        outputs, began = CellOutputs(self._marking.displays), monotonic()
+        try:
+            if is_test(cell):
+                cell.outputs = self._test(process, cell, number, outputs)
+            else:
+                process.run(cell.source, outputs, pictures=cell.source not in self._display_cells)
+                cell.outputs = outputs.list
+        except StudentProcessGone as gone:
+            outputs.say(f"The notebook stopped here. {gone} The cells below were not run.")
+            cell.outputs = outputs.list
+            raise
+        finally:
+            cell.execution_count = number or None
+            for output in cell.outputs:
+                if output["output_type"] == "execute_result":
+                    output["execution_count"] = number
+            self._marking.timings[f"{self._name}/{cell.id}"] = monotonic() - began
+
+    def _test(
+        self, process: LedProcess, cell: NotebookNode, number: int, shown: CellOutputs
+    ) -> list[dict[str, Any]]:
+        """Judge what a test cell hands over; returns the cell's outputs, which are the judge's own."""
+        exercise = self._exercises[cell_name(cell)]
+        tested = process.test(cell.source, exercise, shown, self._marking.secret)
+        self._flag(cell, tested.flags)
+        if tested.error is not None:
+            return self._course_mistake(cell, tested.error)
+        if tested.score is None:
+            self._results.append(no_points(cell, exercise))
+            shown.say("No points: this cell ended before the nodes could be run.")
+            return shown.list
+        score, worth = tested.score, float(cell.metadata.nbgrader.points)
+        self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
+        problems = score_outputs.alarms(score)
+        if score.max != worth:
+            problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")
+        self._flag(cell, problems)
+        shown_score = score_outputs.for_student(score)
+        self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
+        return [*score_outputs.outputs(shown_score, number), *shown.printed_text]
+
+    def _course_mistake(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
+        """Our own mistake: the instructor has to look."""
+        last = traceback.format_exception_only(error)[-1].strip()
+        self._flag(cell, [f"could not be judged, by a mistake of the course: {last}"])
+        self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
+        words = "This cell could not be judged, by a mistake of the course. Your instructor will look at it."
+        return [{"output_type": "stream", "name": "stdout", "text": words + "\n"}]
+
+    def _flag(self, cell: NotebookNode, problems: Sequence[str]) -> None:
+        name = f"The test cell {quote(cell_name(cell))}"
+        self._marking.flags += [f"{name}: {writable_text(problem)}." for problem in problems]
+
+
+def _cell_words(cell: NotebookNode, number: int) -> str:
+    name = cell_name(cell)
+    return f"its cell {quote(name)}" if name else f"its code cell {number}"

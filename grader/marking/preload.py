@@ -1,0 +1,45 @@
+"""All that a judge or a student's process needs loaded. Processes that fork them load it once, beforehand.
+
+Nothing in here may start a thread or open a ROS context: neither lives on in a fork.
+"""
+
+import importlib.util
+import inspect
+import pkgutil
+import re
+import sys
+
+# jsonschema checks a kind of address with it that no notebook has; to import it takes longer than the rest.
+sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[assignment]
+
+import IPython.core.application  # noqa: E402
+import IPython.core.completerlib  # noqa: E402
+import IPython.core.interactiveshell  # noqa: E402
+import IPython.core.magics  # noqa: E402, F401
+import matplotlib.pyplot  # noqa: E402, F401
+import matplotlib_inline.backend_inline  # noqa: E402, F401
+import nbformat  # noqa: E402
+import PIL.Image  # noqa: E402
+
+import grader.pictures  # noqa: E402, F401
+import sim.ros  # noqa: E402
+import sim.view  # noqa: E402
+from grader.catalogue import exercises  # noqa: E402
+from sim.view.figure import plot  # noqa: E402
+
+LATER = "service_msgs.msg", "type_description_interfaces.msg"  # rclpy imports them for the first node
+
+exercises()
+for name in LATER:
+    importlib.import_module(name)
+for module in pkgutil.walk_packages(sim.ros.__path__, "sim.ros."):
+    importlib.import_module(module.name)
+for name in [name for name in sys.modules if re.fullmatch(r"\w+\.(msg|srv|action)", name)]:
+    package = name.split(".")[0]
+    support = f"{package}.{package}_s__rosidl_typesupport_c"  # else loaded with the first message
+    if importlib.util.find_spec(support):
+        importlib.import_module(support)
+PIL.Image.preinit()
+sim.view.png(plot(1, 1)[0])  # the first figure looks for fonts
+nbformat.validate(nbformat.v4.new_notebook())  # the first time, it makes code of the format's rules
+inspect.getmodule(inspect.currentframe(), "nowhere")  # the first time, Python looks at every module's file

@@ -1,0 +1,91 @@
+"""Makes exercises/, the students' version, from solutions/.
+
+    python -m grader.marking.release.make_exercises            make it again
+    python -m grader.marking.release.make_exercises --check    compare; exit 1 on a difference
+"""
+import argparse
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from grader.marking.errors import CommandFailed
+from grader.marking.release.nbgrader_command import assignments, nbgrader
+from grader.notebooks import normalise
+
+
+def tidy(assignment: str, **_: object) -> None:
+    """Bring a released assignment into the one form of our notebooks.
+
+    nbgrader calls this when it has made a release (`GenerateAssignment.post_convert_hook`).
+    """
+    normalise([Path("exercises", assignment)])
+
+
+def release(course: Path) -> None:
+    """Make course/exercises from course/solutions, and enter the assignments into the gradebook.
+
+    Whatever lies in exercises/ is replaced. Raises CommandFailed.
+    """
+    for assignment in assignments(course):
+        nbgrader(course, "generate_assignment", assignment, "--force")
+    for folder in (course / "exercises").glob("*"):
+        if folder.name not in assignments(course):
+            shutil.rmtree(folder)
+
+
+def copy_of_course(course: Path, target: Path) -> Path:
+    """Copy what a release is made from, solutions/ and nbgrader's configuration; return `target`."""
+    left_behind = shutil.ignore_patterns(".ipynb_checkpoints", "__pycache__")
+    shutil.copytree(course / "solutions", target / "solutions", ignore=left_behind)
+    shutil.copy(course / "nbgrader_config.py", target)
+    return target
+
+
+def differences(course: Path) -> list[str]:
+    """Return a sentence for every file of course/exercises that is not what course/solutions gives now.
+
+    Raises CommandFailed.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        fresh = copy_of_course(course, Path(folder))
+        release(fresh)
+        expected, found = _files(fresh / "exercises"), _files(course / "exercises")
+    return [
+        f"exercises/{name} {_verdict(expected.get(name), found.get(name))}"
+        for name in sorted(expected.keys() | found.keys())
+        if expected.get(name) != found.get(name)
+    ]
+
+
+def _verdict(expected: bytes | None, found: bytes | None) -> str:
+    if found is None:
+        return "is missing"
+    return "has no source in solutions/" if expected is None else "is not what solutions/ gives now"
+
+
+def _files(folder: Path) -> dict[str, bytes]:
+    files = (path for path in folder.rglob("*") if path.is_file() and ".ipynb_checkpoints" not in path.parts)
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line in the course's folder; returns the exit status."""
+    parser = argparse.ArgumentParser(
+        "python -m grader.marking.release.make_exercises", description="Make exercises/."
+    )
+    parser.add_argument("--check", action="store_true", help="change nothing; exit 1 on a difference")
+    check = parser.parse_args(arguments).check
+    try:
+        found = differences(Path.cwd()) if check else release(Path.cwd())
+    except CommandFailed as error:
+        print(error, file=sys.stderr)
+        return 1
+    if not found:
+        return 0
+    print("\n".join([*found, "Run `make exercises` and commit what it changes."]))
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

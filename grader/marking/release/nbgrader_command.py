@@ -1,0 +1,22 @@
+"""Runs nbgrader's own commands in a course folder, as an instructor would type them."""
+import subprocess
+import sys
+from pathlib import Path
+
+from grader.marking.errors import CommandFailed
+
+ERROR_LINES = 12
+
+
+def nbgrader(course: Path, *arguments: str) -> None:
+    """Run `nbgrader ARGUMENTS` in the folder `course`, beside its configuration. Raises CommandFailed."""
+    command = [sys.executable, "-m", "nbgrader", *arguments]
+    done = subprocess.run(command, cwd=course, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode:
+        last = "\n    ".join(done.stdout.strip().splitlines()[-ERROR_LINES:])
+        raise CommandFailed(f"`nbgrader {' '.join(arguments)}` failed in {course}:\n    {last}")
+
+
+def assignments(course: Path) -> list[str]:
+    """Return the names of the assignments in `course`: the folders of solutions/ that hold a notebook."""
+    return sorted({notebook.parent.name for notebook in course.glob("solutions/*/*.ipynb")})

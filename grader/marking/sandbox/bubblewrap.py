@@ -1,0 +1,108 @@
+"""The sandbox as bubblewrap makes it: what confined processes see of this machine, and why it may refuse."""
+
+import importlib.util
+import os
+import shutil
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from grader.marking.errors import SandboxMissing
+from grader.marking.sandbox.walls import HOME, STAGE
+
+UNSAFE = "or mark with `--unsafe`, which lets students' code read and change all your files"
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64")
+SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "fonts")
+USER = 1000
+
+# Where Linux can forbid what a sandbox needs, the value that does, and what undoes it.
+KNOBS = (
+    ("kernel/apparmor_restrict_unprivileged_userns", "1", "kernel.apparmor_restrict_unprivileged_userns=0"),
+    ("kernel/unprivileged_userns_clone", "0", "kernel.unprivileged_userns_clone=1"),
+    ("user/max_user_namespaces", "0", "user.max_user_namespaces=10000"),
+)
+# Ubuntu's; it lets bubblewrap make a sandbox and confined processes none.
+PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
+
+
+def visible(extra: Sequence[Path]) -> list[str]:
+    """Return what can be read inside besides the system: Python, its packages, sim and grader, and `extra`.
+
+    Raises FileNotFoundError.
+    """
+    for path in extra:
+        os.stat(path)
+    python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
+    paths = {Path(path).absolute() for path in (*python, *_packages(), *extra)}
+    system = {Path(path) for path in SYSTEM}
+    hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
+    return sorted(map(str, hidden))
+
+
+def _packages() -> list[Path]:
+    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in ("sim", "grader")]
+
+
+def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, str]:
+    """Return all environment variables of a confined process; nothing of the marker's own goes through.
+
+    imports: folders of modules besides Python's own, sim and grader.
+    """
+    modules = dict.fromkeys([*(str(package.parent) for package in _packages()), *imports])
+    return {
+        "HOME": home,
+        "TMPDIR": scratch,
+        "USER": "student",
+        "PATH": f"{sys.prefix}/bin:/usr/bin:/bin",
+        "LANG": "C.UTF-8",
+        "PYTHONPATH": os.pathsep.join(modules),  # the same sim and grader as here, wherever they are from
+        "PYTHONHASHSEED": "0",
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": "1",
+        "MALLOC_ARENA_MAX": "2",  # an arena takes 64 MB of address space, and threads would take one each
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+        "MPLCONFIGDIR": f"{scratch}/matplotlib",
+    }
+
+
+def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) -> list[str]:
+    """Return the command that runs `program` inside. Raises SandboxMissing if there is no bubblewrap."""
+    bwrap = shutil.which("bwrap")
+    if not bwrap:
+        raise SandboxMissing(
+            "Marking runs students' code in a sandbox made by bubblewrap, and this machine has no `bwrap`: "
+            f"install it with `sudo apt install bubblewrap`, {UNSAFE}."
+        )
+    words = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
+    words += ["--unshare-net", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
+    words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
+    for name, value in environment(HOME, "/tmp", imports).items():
+        words += ["--setenv", name, value]
+    # What is private comes first: the course may lie in /tmp.
+    words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME, "--dir", STAGE]
+    for path in SYSTEM:
+        if os.path.islink(path):
+            words += ["--symlink", os.readlink(path), path]
+        elif os.path.exists(path):
+            words += ["--ro-bind", path, path]
+    for name in SETTINGS:
+        words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
+    for path in paths:
+        words += ["--ro-bind", path, path]
+    return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
+
+
+def forbidden(words: str, root: Path = Path("/")) -> SandboxMissing:
+    """Return the error for a system that lets bubblewrap make no sandbox; `words` are its own."""
+    undo = [
+        f"`sudo sysctl {undo}`"
+        for name, value, undo in KNOBS
+        if (file := root / "proc/sys" / name).exists() and file.read_text().strip() == value
+    ]
+    if (root / PROFILE).exists():
+        undo.append(f"`sudo apparmor_parser -R /{PROFILE}`")
+    way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
+    if undo:
+        way = f"Allow user namespaces with {' and '.join(undo)}"
+    return SandboxMissing(f"This system lets bubblewrap make no sandbox ({words}). {way}, {UNSAFE}.")

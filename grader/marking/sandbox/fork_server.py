@@ -1,0 +1,107 @@
+"""The warm process that forks the confined ones: `python -m grader.marking.sandbox.fork_server DESCRIPTOR`.
+
+DESCRIPTOR is a socket to the Sandbox. First comes a JSON object with what to prepare; the answer is {},
+{"failed": why} or {"forbidden": by what}. Then each message brings two sockets: the wire of a new process and
+the place to report to. The fork server lives until the Sandbox closes its end.
+"""
+
+import gc
+import importlib
+import json
+import os
+import signal
+import socket
+import sys
+import traceback
+from typing import Any, NoReturn
+
+from grader.marking.sandbox import linux
+from grader.marking.sandbox.limits import Limits
+from grader.marking.sandbox.supervisor import EntryFunction, supervise
+from grader.marking.sandbox.walls import Confinement
+
+
+class ForkServer:
+    """Forks a supervisor, and by it a confined process, whenever the Sandbox asks for one."""
+
+    def __init__(self, control: socket.socket, order: dict[str, Any]) -> None:
+        self._control = control
+        self._confinement = Confinement(Limits(**order["limits"]), order["sandboxed"], order["visible"])
+        self._entry = _load(order)
+        signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # supervisors report to the Sandbox, not here
+        if self._confinement.sandboxed:
+            linux.die_with_parent(signal.SIGKILL)
+            linux.set_dumpable(False)
+
+    def fork(self, entry: EntryFunction, wire: socket.socket, report: socket.socket) -> None:
+        """Fork a supervisor that gets `wire` and `report`, and close both here."""
+        with wire, report:
+            try:
+                supervisor = os.fork()
+            except OSError as error:  # too many processes, for now
+                report.send(json.dumps({"failed": str(error)}).encode())
+                return
+            if not supervisor:
+                self._control.close()
+                supervise(entry, wire, report, self._confinement)
+
+    def rehearse(self) -> None:
+        """Start a confined process that does nothing. Raises OSError if this system does not allow it."""
+        _, wire = socket.socketpair()
+        ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        with ours:
+            self.fork(lambda sock: None, wire, theirs)
+            answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+        for descriptor in descriptors:
+            os.close(descriptor)
+        if "failed" in (said := json.loads(answer or b'{"failed": "the keeper died"}')):
+            raise OSError(said["failed"])
+
+    def serve(self) -> None:
+        """Fork confined processes until the Sandbox closes its end."""
+        while True:
+            _, descriptors, _, _ = socket.recv_fds(self._control, 64, 2)
+            if len(descriptors) != 2:
+                return
+            wire, report = (socket.socket(fileno=descriptor) for descriptor in descriptors)
+            self.fork(self._entry, wire, report)
+
+
+def _load(order: dict[str, Any]) -> EntryFunction:
+    """Import what confined processes will need, so that each is born with it; return their entry."""
+    for name in order["preload"]:
+        importlib.import_module(name)
+    module, _, function = order["entry"].partition(":")
+    entry = getattr(importlib.import_module(module), function)
+    gc.collect()
+    gc.freeze()  # pages of what is warm stay shared with all confined processes
+    return entry
+
+
+def main(descriptor: int) -> NoReturn:
+    """Prepare, say so, and serve."""
+    control = socket.socket(fileno=descriptor)
+    control.set_inheritable(False)
+    order = json.loads(control.recv(1 << 16))
+    try:
+        fork_server = ForkServer(control, order)
+    except BaseException as error:
+        _answer(control, failed="".join(traceback.format_exception_only(error)).strip())
+    else:
+        try:
+            fork_server.rehearse()
+        except OSError as error:
+            _answer(control, forbidden=str(error))
+        else:
+            _answer(control)
+            fork_server.serve()
+    os._exit(0)  # and with it everybody in the sandbox
+
+
+def _answer(control: socket.socket, **words: str) -> None:
+    """Tell the Sandbox what became of the preparations, with a handle on this process."""
+    socket.send_fds(control, [json.dumps(words).encode()], [os.pidfd_open(os.getpid())])
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,125 @@
+"""The warm process in the sandbox, as seen from outside."""
+
+import contextlib
+import json
+import os
+import select
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+from typing import IO, Any
+
+from grader.marking.errors import SandboxFailed
+from grader.marking.sandbox import bubblewrap
+from grader.marking.sandbox.confined_process import ConfinedProcess
+
+START_S = 120.0  # for the imports, on a busy machine
+WORDS = 2000  # bytes of its stderr that an error shows
+
+
+class WarmProcess:
+    """Starts the fork server and asks it for confined processes. Thread-safe."""
+
+    def __init__(self, order: dict[str, Any]) -> None:
+        """Start it and wait until it is warm. Raises SandboxMissing or SandboxFailed."""
+        self._ended = False
+        self._pidfd = -1
+        self._process: subprocess.Popen[bytes] | None = None
+        self._lock = threading.Lock()
+        # Of confined processes that have no sandbox.
+        self._folder = tempfile.TemporaryDirectory(prefix="confined-", ignore_cleanup_errors=True)
+        self._control, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        with tempfile.TemporaryFile() as errors:
+            try:
+                with theirs:
+                    self._process = _spawn(order, theirs, errors, self._folder.name)
+                self._await(order, errors)
+            except BaseException:
+                self.end()
+                raise
+
+    def _await(self, order: dict[str, Any], errors: IO[bytes]) -> None:
+        self._control.settimeout(START_S)
+        try:
+            self._control.send(json.dumps(order).encode())
+            answer, descriptors, _, _ = socket.recv_fds(self._control, 1 << 16, 1)
+        except ConnectionError:
+            answer, descriptors = b"", []
+        except TimeoutError:
+            text = f"The sandbox was not ready after {START_S:g} s: is this machine too busy?"
+            raise SandboxFailed(text) from None
+        self._control.settimeout(None)
+        if not answer:
+            self._process.wait()
+            errors.seek(0)
+            words = errors.read()[-WORDS:].decode(errors="replace").strip()
+            raise bubblewrap.forbidden(words) if words.startswith("bwrap: ") else SandboxFailed(
+                f"The sandbox ended before it was ready. It said last: {words or 'nothing'}"
+            )
+        [self._pidfd] = descriptors
+        said = json.loads(answer)
+        if "forbidden" in said:
+            raise bubblewrap.forbidden(said["forbidden"])
+        if "failed" in said:
+            raise SandboxFailed(f"The sandbox could not import what it needs: {said['failed']}")
+
+    def start(self, wire: socket.socket) -> ConfinedProcess:
+        """Return a new confined process that has `wire`. Raises SandboxFailed."""
+        ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        ours.settimeout(START_S)
+        try:
+            with theirs, self._lock:
+                socket.send_fds(self._control, [b"start"], [wire.fileno(), theirs.fileno()])
+            answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+        except OSError:
+            answer, descriptors = b"", []
+        if descriptors:
+            return ConfinedProcess(descriptors[0], ours)
+        ours.close()
+        reason = json.loads(answer)["failed"] if answer else "it gave no answer"
+        raise SandboxFailed(f"The sandbox could not start a process: {reason}")
+
+    def alive(self, wait_s: float = 0.0) -> bool:
+        """Say whether it still runs after `wait_s` seconds."""
+        with self._lock:
+            if self._ended:
+                return False
+            poll = select.poll()
+            poll.register(self._pidfd, select.POLLIN)
+            return not poll.poll(1000 * wait_s)
+
+    def end(self) -> None:
+        """End it, and with it every confined process. Safe to call again."""
+        with self._lock:
+            if self._ended:
+                return
+            self._ended = True
+            self._control.close()
+            with contextlib.suppress(ProcessLookupError):
+                if self._pidfd >= 0:
+                    signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
+                    os.close(self._pidfd)
+                elif self._process:
+                    self._process.kill()
+            if self._process:
+                self._process.wait()
+            self._folder.cleanup()
+
+
+def _spawn(
+    order: dict[str, Any], theirs: socket.socket, errors: IO[bytes], folder: str
+) -> subprocess.Popen[bytes]:
+    program = [sys.executable, "-P", "-s", "-m", "grader.marking.sandbox.fork_server", str(theirs.fileno())]
+    sandboxed = order["sandboxed"]
+    return subprocess.Popen(
+        bubblewrap.command(order["visible"], order["imports"], program) if sandboxed else program,
+        env={} if sandboxed else bubblewrap.environment(folder, folder, order["imports"]),
+        pass_fds=[theirs.fileno()],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=errors,
+        start_new_session=True,  # Ctrl-C is for the marker alone
+    )

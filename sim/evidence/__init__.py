@@ -1,0 +1,58 @@
+"""What a run leaves behind: evidence as plain data.
+
+A recording holds no live node. Messages are kept as the bytes that were sent (CDR, the format on the wire),
+so nothing can change after the fact, and are turned back into message objects when somebody looks at them.
+
+Stamps are simulated seconds since the start of the run. Poses are in the `map` frame: metres, and radians in
+(-pi, pi].
+"""
+
+from sim.evidence.exchanges import (
+    CANCEL_REJECTED,
+    CANCEL_REQUESTED,
+    ENDINGS,
+    REJECTED,
+    STATUSES,
+    Call,
+    Goal,
+    is_node_service,
+)
+from sim.evidence.graph import Endpoint, Graph, TimerInfo
+from sim.evidence.recording import Recording
+from sim.evidence.rows import (
+    INFRASTRUCTURE_TOPICS,
+    CallbackError,
+    CallbackRun,
+    Ended,
+    Heard,
+    LogLine,
+    Pose,
+    Seconds,
+    rate,
+    stamps,
+)
+
+__all__ = [
+    "CANCEL_REJECTED",
+    "CANCEL_REQUESTED",
+    "ENDINGS",
+    "INFRASTRUCTURE_TOPICS",
+    "REJECTED",
+    "STATUSES",
+    "Call",
+    "CallbackError",
+    "CallbackRun",
+    "Ended",
+    "Endpoint",
+    "Goal",
+    "Graph",
+    "Heard",
+    "LogLine",
+    "Pose",
+    "Recording",
+    "Seconds",
+    "TimerInfo",
+    "is_node_service",
+    "rate",
+    "stamps",
+]

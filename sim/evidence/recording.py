@@ -1,0 +1,202 @@
+"""A recording: all that one run left behind, and what can be asked of it."""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import hashlib
+import json
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any, ClassVar
+
+from sim.evidence.exchanges import Call, Goal, is_node_service
+from sim.evidence.graph import Graph
+from sim.evidence.rows import (
+    INFRASTRUCTURE_TOPICS,
+    STILL_RUNNING,
+    CallbackError,
+    CallbackRun,
+    Ended,
+    Heard,
+    LogLine,
+    Pose,
+    Seconds,
+)
+from sim.world import Contact, World
+
+
+@dataclass
+class Recording:
+    """Everything one run left behind. `until` sees it while it grows; checks see it when it is complete."""
+
+    # What `replay` gives. The door, `sim`, sets it: evidence doesn't know its painter.
+    player: ClassVar[Callable[..., Any]]
+
+    world: World | None = None  # None for a run without a robot
+    seconds: Seconds = 0.0
+    seed: int = 0
+    stamp: Seconds = 0.0  # how far the run has come
+    heard: list[Heard] = field(default_factory=list)
+    calls: list[Call] = field(default_factory=list)  # of services, in the order they were asked
+    goals: list[Goal] = field(default_factory=list)  # of actions, in the order they were asked
+    path: list[Pose] = field(default_factory=list)
+    # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
+    tracks: dict[str, list[Pose]] = field(default_factory=dict)
+    contacts: list[Contact] = field(default_factory=list)
+    logs: list[LogLine] = field(default_factory=list)
+    errors: list[CallbackError] = field(default_factory=list)
+    callbacks: list[CallbackRun] = field(default_factory=list)
+    prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
+    stderr: str = ""  # what went there, other than log lines
+    graph: Graph = field(default_factory=Graph)
+    ended: Ended = STILL_RUNNING
+    begin: Seconds = 0.0  # later than 0 in what `during` gives
+    # full names of the nodes that are not the student's: the robot's, the world's, companions of a scenario
+    ours: set[str] = field(default_factory=set)
+    shared: set[str] = field(default_factory=set)  # and those that a student's node has, too
+    failures: list[CallbackError] = field(default_factory=list)  # those of `errors` that our programs made
+
+    def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
+        """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
+
+        Calls and goals count by when they were asked, callbacks by when they began; the graph stays whole.
+        """
+
+        def inside(items: Iterable[Any], stamp: Callable[[Any], Seconds | None]) -> list[Any]:
+            return [item for item in items if (at := stamp(item)) is not None and begin <= at < end]
+
+        def stamped(items: Iterable[Any]) -> list[Any]:
+            return inside(items, lambda item: item[0])
+
+        return replace(
+            self,
+            begin=max(begin, self.begin),
+            stamp=min(end, self.stamp),
+            ended=self.ended._replace(stamp=min(end, self.ended.stamp)),
+            heard=stamped(self.heard),
+            calls=inside(self.calls, lambda call: call.asked),
+            goals=inside(self.goals, lambda goal: goal.asked),
+            path=stamped(self.path),
+            tracks={name: stamped(poses) for name, poses in self.tracks.items()},
+            contacts=stamped(self.contacts),
+            logs=stamped(self.logs),
+            errors=stamped(self.errors),
+            callbacks=stamped(self.callbacks),
+            prints=stamped(self.prints),
+        )
+
+    def pose_at(self, stamp: Seconds) -> Pose:
+        """Where the robot really was at that time: its first pose from then on, or its last.
+
+        Raises ValueError for a run without a robot.
+        """
+        if not self.path:
+            raise ValueError("this run has no robot: give the exercise a world")
+        index = bisect.bisect_left(self.path, stamp - 1e-6, key=lambda pose: pose.stamp)
+        return self.path[min(index, len(self.path) - 1)]
+
+    def is_ours(self, name: str) -> bool:
+        """Whether a node, or the node of a logger, is not the student's: "/pilot", "robot1.driver"."""
+        return (name if name.startswith("/") else "/" + name.replace(".", "/")) in self.ours
+
+    def messages(self, topic: str | None = None, sender: str | None = None) -> list[Heard]:
+        """Messages in the order they were sent; of one topic, of one node, or all but ROS's own chatter.
+
+        topic: resolved name with its leading slash, e.g. "/cmd_vel". sender: e.g. "/talker".
+        """
+        wanted = self.heard if sender is None else [h for h in self.heard if h.sender == sender]
+        if topic is None:
+            return [h for h in wanted if h.topic not in INFRASTRUCTURE_TOPICS]
+        return [h for h in wanted if h.topic == topic]
+
+    def calls_of(
+        self, service: str | None = None, client: str | None = None, server: str | None = None
+    ) -> list[Call]:
+        """Calls in the order they were asked; of one service, or all but those that every node has.
+
+        service: resolved name, e.g. "/add". client, server: a node that asked or answered, e.g. "/adder".
+        """
+        return [
+            call
+            for call in self.calls
+            if (not is_node_service(call.service) if service is None else call.service == service)
+            and client in (None, call.client)
+            and server in (None, call.server)
+        ]
+
+    def goals_of(
+        self, action: str | None = None, client: str | None = None, server: str | None = None
+    ) -> list[Goal]:
+        """Goals in the order they were asked; of one action, of one client or server, or all."""
+        return [
+            goal
+            for goal in self.goals
+            if action in (None, goal.action)
+            and client in (None, goal.client)
+            and server in (None, goal.server)
+        ]
+
+    @property
+    def topics(self) -> dict[str, str]:
+        """Topic name to type, for every topic with a publisher, sorted by name."""
+        return dict(sorted({e.name: e.type for e in self.graph.publishers()}.items()))
+
+    @functools.cached_property
+    def digest(self) -> str:
+        """One hex string for the whole run: equal runs have equal digests.
+
+        What was printed is left out: it is for the screen, and may hold addresses, which differ every time.
+        """
+        digest = hashlib.blake2b(digest_size=16)
+        for heard in self.heard:
+            digest.update(
+                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {len(heard.raw)} ".encode()
+            )
+            digest.update(heard.raw)
+        for exchange in (*self.calls, *self.goals):
+            digest.update(repr(exchange).encode())
+        digest.update(json.dumps(self._evidence(), sort_keys=True).encode())
+        return digest.hexdigest()
+
+    def _evidence(self) -> dict[str, Any]:
+        return {
+            "seconds": self.seconds,
+            "seed": self.seed,
+            "path": self.path,
+            "tracks": self.tracks,
+            "contacts": self.contacts,
+            "logs": self.logs,
+            "errors": [error._replace(traceback="") for error in self.errors],
+            "callbacks": self.callbacks,
+            "graph": asdict(self.graph),
+            "ended": self.ended,
+        }
+
+    def save(self, path: str | Path) -> Path:
+        """Write an MCAP file: ROS's own recording format, which `ros2 bag` and Foxglove also open."""
+        from sim.evidence.storage import write  # here, for its libraries take a while to import
+
+        return write(self, Path(path))
+
+    @staticmethod
+    def load(path: str | Path) -> Recording:
+        """Read a file written by `save`. Raises StorageError with one clear sentence if it isn't one."""
+        from sim.evidence.storage import read
+
+        return read(Path(path), Recording)
+
+    def replay(self, *, speed: float = 1.0) -> Any:
+        """The run as a player with a scrub bar; it stays in the saved notebook and in pages made from it.
+
+        speed: simulated seconds per second, to begin with. Raises ValueError if it isn't above 0.
+        """
+        return type(self).player(self, speed=speed)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Recording of {self.stamp:g} s: {len(self.heard)} messages on {len(self.topics)} topics, "
+            f"{len(self.logs)} log lines, {len(self.errors)} errors, ended: {self.ended.reason}>"
+        )

@@ -1,0 +1,152 @@
+"""Recordings as files: MCAP, ROS's own recording format, so that `ros2 bag` and Foxglove open them too.
+
+Messages are the file's messages. Everything else (path, contacts, logs, graph, ...) is one JSON attachment.
+Nothing in a file is ever executed: no pickle.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+from base64 import b64decode, b64encode
+from collections.abc import Callable
+from dataclasses import astuple
+from io import BytesIO
+from pathlib import Path
+from types import UnionType
+from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_origin, get_type_hints
+
+from mcap.reader import make_reader
+from mcap.writer import Writer
+
+from sim.evidence.rows import Heard
+from sim.nanoseconds import SECOND
+from sim.ros.messages.definitions import definition
+from sim.world import World, WorldError
+
+if TYPE_CHECKING:
+    from sim.evidence.recording import Recording
+
+ATTACHMENT = "recording.json"
+FORMAT = 6  # of the attachment; raise it when what is in there changes
+PLAIN = (float, int, str, bool, bytes, Any)
+
+
+class StorageError(Exception):
+    """A file that isn't a recording of this course."""
+
+
+def write(recording: Recording, path: Path) -> Path:
+    """Write a recording to a file."""
+    rest = {name: getattr(recording, name) for name in _hints(type(recording)) if name != "heard"}
+    rest |= {"format": FORMAT, "digest": recording.digest}
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start(profile="ros2", library="sim")
+        _write_messages(writer, recording.heard)
+        writer.add_attachment(0, 0, ATTACHMENT, "application/json", _pack(rest))
+        writer.finish()
+    return path
+
+
+def _pack(rest: dict[str, Any]) -> bytes:
+    """As JSON, with bytes as {"base64": text}, and objects as lists of what is in them."""
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, World):
+            return value.to_data()
+        if isinstance(value, bytes):
+            return {"base64": b64encode(value).decode()}
+        return sorted(value) if isinstance(value, set) else astuple(value)
+
+    return json.dumps(rest, sort_keys=True, default=plain).encode()
+
+
+def _unpack(data: bytes) -> dict[str, Any]:
+    return json.loads(data, object_hook=lambda item: b64decode(item["base64"]) if "base64" in item else item)
+
+
+def _write_messages(writer: Writer, heard: list[Heard]) -> None:
+    schemas: dict[str, int] = {}
+    channels: dict[tuple[str, str, str], int] = {}
+    for number, (stamp, topic, type_, sender, raw) in enumerate(heard):
+        if type_ not in schemas:
+            schemas[type_] = writer.register_schema(type_, "ros2msg", definition(type_).encode())
+        key = (topic, type_, sender)
+        if key not in channels:
+            channels[key] = writer.register_channel(topic, "cdr", schemas[type_], {"sender": sender})
+        nanoseconds = round(stamp * SECOND)
+        writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
+
+
+def read(path: Path, kind: type[Recording]) -> Recording:
+    """Read a recording. Raises StorageError with one sentence if the file isn't one."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise StorageError(f"{path} can't be read: {error.strerror}.") from None
+    try:
+        return _parse(path, data, kind)
+    except StorageError:
+        raise
+    except WorldError as error:
+        raise StorageError(f"{path} holds a world that cannot be: {error}") from None
+    except Exception as error:  # no list could hold all that a damaged file raises in the libraries below
+        raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
+
+
+def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
+    reader = make_reader(BytesIO(data), validate_crcs=True)
+    attachments = {item.name: item.data for item in reader.iter_attachments()}
+    if ATTACHMENT not in attachments:
+        raise StorageError(
+            f"{path} is an MCAP file, but no recording that this course saved: it has no {ATTACHMENT}."
+        )
+    rest = _unpack(attachments[ATTACHMENT])
+    if rest["format"] != FORMAT:
+        raise StorageError(
+            f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
+        )
+    heard = [
+        Heard(message.log_time / SECOND, channel.topic, schema.name, channel.metadata["sender"], message.data)
+        for schema, channel, message in reader.iter_messages(log_time_order=False)
+    ]
+    restored = {name: _maker(hint)(rest[name]) for name, hint in _hints(kind).items() if name != "heard"}
+    recording = kind(heard=heard, **restored)
+    if recording.digest != rest["digest"]:
+        raise ValueError("its digest is another")
+    return recording
+
+
+def _hints(kind: type) -> dict[str, Any]:
+    """The types of the fields of a recording, or of an object in it."""
+    hints = get_type_hints(kind)
+    return {name: hint for name, hint in hints.items() if get_origin(hint) is not ClassVar}
+
+
+@functools.cache
+def _maker(hint: Any) -> Callable[[Any], Any]:
+    """A function that makes what a field of this type holds of what JSON made of it."""
+    kind, inner = get_origin(hint), get_args(hint)
+    if hint in PLAIN:
+        return _as_it_is
+    if hint is World:
+        return World.from_data
+    if kind is UnionType:
+        make = _maker(inner[0])
+        return lambda value: None if value is None else make(value)
+    if kind in (list, set):
+        make = _maker(inner[0])
+        return lambda items: kind(map(make, items))
+    if kind is dict:
+        make = _maker(inner[1])
+        return lambda items: {key: make(item) for key, item in items.items()}
+    makers = [_maker(part) for part in (inner if kind is tuple else _hints(hint).values())]
+    made = tuple if kind is tuple else lambda values: hint(*values)
+    if set(makers) == {_as_it_is}:
+        return made
+    return lambda values: made([make(value) for make, value in zip(makers, values, strict=True)])
+
+
+def _as_it_is(value: Any) -> Any:
+    return value

@@ -1,0 +1,141 @@
+"""What student code writes to stdout and stderr during a run, kept apart by who writes."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator
+from types import SimpleNamespace
+from typing import Any, TextIO
+
+from sim.ros.fibers.scheduler import engine, outside_student_code
+
+ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
+ECHO_CHARACTERS = 20_000
+
+
+class StudentStream:
+    """Stands for a text stream during a run: student code writes to the run, all others to the original.
+
+    It holds on to no run, for a library that is first imported in a run may keep it for ever.
+    """
+
+    def __init__(self, original: Any, channel: str) -> None:
+        self._original, self._channel = original, channel
+
+    def write(self, text: str) -> int:
+        """As `TextIO.write`."""
+        run = engine()
+        if run is None:
+            return self._original.write(text)
+        getattr(run, self._channel)(text)
+        return len(text)
+
+    def flush(self) -> None:
+        """As `TextIO.flush`; a notebook's stream would wait for a thread, which a fiber can't do."""
+        if engine() is None:
+            self._original.flush()
+
+    def close(self) -> None:
+        """Does nothing: the stream is the kernel's, not the student's."""
+
+    def writelines(self, lines: Iterable[str]) -> None:
+        """As `TextIO.writelines`."""
+        for line in lines:
+            self.write(line)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._original, name)
+
+
+_streams: dict[str, StudentStream] = {}  # the last ones, by channel
+
+
+def _student_stream(original: Any, channel: str) -> StudentStream:
+    """The same for the same original: print() in another thread may still be using it when a run is over, and
+    Python can crash if it is gone by then.
+    """
+    last = _streams.get(channel)
+    if last is None or last._original is not original:
+        _streams[channel] = last = StudentStream(original, channel)
+    return last
+
+
+@contextlib.contextmanager
+def student_streams() -> Iterator[None]:
+    """Redirect Python's stdout and stderr for the time of a run to its `printed` and `complained`."""
+    stdout, stderr = sys.stdout, sys.stderr
+    sys.stdout = _student_stream(stdout, "printed")
+    sys.stderr = _student_stream(stderr, "complained")
+    held = [*_hold(stdout, "printed"), *_hold(stderr, "complained")]
+    try:
+        yield
+    finally:
+        for stream, name in held:
+            delattr(stream, name)
+        sys.stdout, sys.stderr = stdout, stderr
+
+
+def _hold(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
+    """Redirect the stream object itself as far as it lets us: handlers of Python's logging hold on to it."""
+    try:
+        original = SimpleNamespace(write=stream.write, flush=stream.flush)
+        student = StudentStream(original, channel)
+        stream.write, stream.flush = student.write, student.flush
+    except AttributeError:  # None, or a stream of Python's own: that writes to a file, and waits for nobody
+        return []
+    return [(stream, "write"), (stream, "flush")]
+
+
+class FileDescriptor2:
+    """Catches what is written to file descriptor 2 below Python, as ROS's C libraries do."""
+
+    def __init__(self) -> None:
+        self._sink = tempfile.TemporaryFile()  # noqa: SIM115  (close() does)
+
+    @contextlib.contextmanager
+    def caught(self) -> Iterator[None]:
+        """Catch for a while."""
+        _flush()
+        users = os.dup(2)
+        os.dup2(self._sink.fileno(), 2)
+        try:
+            yield
+        finally:
+            _flush()
+            os.dup2(users, 2)
+            os.close(users)
+
+    def close(self) -> str:
+        """All that was caught, or the first megabyte of it."""
+        with self._sink:
+            self._sink.seek(0)
+            return self._sink.read(1_000_000).decode(errors="replace")
+
+
+def _flush() -> None:
+    with contextlib.suppress(Exception):
+        sys.stderr.flush()
+
+
+class Screen:
+    """Shows the first lines of what nodes say, on stdout: nbgrader takes any text on stderr for a failure."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.quiet, self.stream = quiet, sys.stdout
+        self.lines = self.characters = 0
+
+    def __call__(self, text: str) -> None:
+        """Show some more, if there is room."""
+        if not self.quiet and self.lines < ECHO_LINES and self.characters < ECHO_CHARACTERS:
+            with outside_student_code():
+                self.stream.write(text[:ECHO_CHARACTERS])
+        self.lines += text.count("\n")
+        self.characters += len(text)
+
+    def close(self) -> None:
+        """Say how much was not shown."""
+        if not self.quiet and self.lines > ECHO_LINES:
+            self.stream.write(f"... and {self.lines - ECHO_LINES} more lines, all in the recording\n")

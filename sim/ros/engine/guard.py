@@ -1,0 +1,120 @@
+"""The guard: student code that never gives control back is stopped, and the kernel lives on.
+
+A timer signal looks in four times a second. If student code has been in one stretch since, and has used too
+much computing time, or waited too long in a call outside our reach, an exception is raised in it. Code that
+swallows even that is parked. Computing time is what is measured, so that a busy machine changes no verdict.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+from collections.abc import Iterator
+from time import thread_time
+from types import FrameType
+from typing import TYPE_CHECKING
+
+import greenlet
+
+from sim.nanoseconds import SECOND
+from sim.ros.fibers.exceptions import Hang
+from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.scheduler import outside_student_code
+from sim.ros.recorder.tracebacks import student_line
+
+if TYPE_CHECKING:
+    from sim.ros.engine.engine import Engine
+
+LOOK_EVERY = 0.25  # s of wall time
+COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
+WAITING_LIMIT = 10.0  # s of wall time in one stretch in which nothing was computed
+TOTAL_LIMIT = 20.0  # s of computing time in a whole run, or as long as the run simulates if that is longer
+SECOND_LIMIT = 100.0  # s of wall time for one simulated second, far more than any busy machine needs
+IDLE = 0.001  # s of computing time between two looks; more is no waiting, however busy the machine
+
+
+class Guard:
+    """Watches one engine while it runs student code. Needs the main thread; elsewhere it does nothing."""
+
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+        self.interrupted = False
+        self.hang: Hang | None = None
+        self.impatient = False  # while the run is taken down, student code gets less time
+        self._stretch = -1
+        self._computing = self._waiting = self._total = 0.0
+        self._second, self._wall = 0, 0.0  # the simulated second under way, and the wall time that it took
+        self._total_limit = max(TOTAL_LIMIT, engine.recording.seconds)
+        self._seen = self._left = thread_time()
+        self._next_look = LOOK_EVERY
+        self._asked = 0
+
+    @contextlib.contextmanager
+    def watch(self) -> Iterator[None]:
+        """Install the signal handlers for a while. What happens between two whiles doesn't count."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        self._seen += thread_time() - self._left
+        interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
+        alarm = signal.signal(signal.SIGALRM, self._look)
+        users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_look, LOOK_EVERY)
+        try:
+            yield
+        finally:
+            self._next_look = signal.setitimer(signal.ITIMER_REAL, 0)[0] or LOOK_EVERY
+            signal.signal(signal.SIGALRM, alarm)
+            signal.signal(signal.SIGINT, interrupt)
+            signal.setitimer(signal.ITIMER_REAL, *users_timer)
+            self._left = thread_time()
+
+    def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
+        self.interrupted = True
+        if self._student_code() is not None:
+            raise KeyboardInterrupt  # what a program on a robot gets
+
+    def _student_code(self) -> Fiber | None:
+        """The fiber that the signal came into; None in the moment before it goes on: the hub still runs."""
+        return None if greenlet.getcurrent() is self.engine.hub else self.engine.current
+
+    def _look(self, number: int, frame: FrameType | None) -> None:
+        fiber, stretch, seen = self._student_code(), self.engine.limits.work, self._seen
+        self._seen = thread_time()
+        self._total += self._seen - seen
+        second = self.engine.now // SECOND
+        self._second, self._wall = second, LOOK_EVERY + (self._wall if second == self._second else 0.0)
+        if fiber is None or stretch != self._stretch:
+            self._stretch, self._asked = stretch, 0
+            self._computing = self._waiting = 0.0
+        else:
+            self._computing += self._seen - seen
+            self._waiting += LOOK_EVERY if self._seen - seen < IDLE else 0.0
+        if fiber is not None:
+            self._judge(fiber, frame)
+
+    def _judge(self, fiber: Fiber, frame: FrameType | None) -> None:
+        share = 0.1 if self.impatient or self.interrupted else 1.0
+        stuck = self._computing >= share * COMPUTING_LIMIT or self._waiting >= share * WAITING_LIMIT
+        long = self._total >= self._total_limit or self._wall >= SECOND_LIMIT
+        if not stuck and (not long or self.impatient):
+            return
+        self._asked += 1
+        if self.hang is None:
+            with outside_student_code():
+                self.hang = Hang(self._describe(fiber, frame, stuck))
+        if self._asked > 2:
+            fiber.park()
+        raise self.hang
+
+    def _describe(self, fiber: Fiber, frame: FrameType | None, stuck: bool) -> str:
+        where, line = self.engine.describe(fiber), student_line(frame)
+        if not stuck and self._total < self._total_limit:
+            taken = f"One simulated second took {SECOND_LIMIT:g} s of real time"
+            return f"{taken}; the nodes were stopped in {where}{line}."
+        if not stuck:
+            limit = self._total_limit
+            return f"The nodes computed for {limit:g} s in all, and were stopped in {where}{line}."
+        if self._computing >= COMPUTING_LIMIT:
+            return f"{where} computed for {COMPUTING_LIMIT:g} s without coming to an end{line}."
+        return f"{where} waited for {WAITING_LIMIT:g} s in a call that simulated time can't shorten{line}."

@@ -1,0 +1,143 @@
+"""What of the whole process a run needs for itself while it works, and hands back whenever it rests.
+
+Each of these keeps the run's own state meanwhile, so that the run carries on where it was, and the user's.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import gc
+import random
+import sys
+from collections.abc import Iterator
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import greenlet
+import numpy as np
+import rclpy
+import rclpy.context
+import rclpy.utilities
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+
+
+class OwnChance:
+    """`random` and numpy's old generator, seeded by the run."""
+
+    def __init__(self, seed: int) -> None:
+        self._own = random.Random(seed).getstate(), np.random.RandomState(seed % 2**32).get_state()
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Let them be the run's for a while."""
+        users = random.getstate(), np.random.get_state()
+        self._set(self._own)
+        try:
+            yield
+        finally:
+            self._own = random.getstate(), np.random.get_state()
+            self._set(users)
+
+    def _set(self, states: tuple) -> None:
+        random.setstate(states[0])
+        np.random.set_state(states[1])
+
+
+class ChanceBytes:
+    """What the system's source of chance gives in a run; the students' use of `random` doesn't shift it."""
+
+    def __init__(self, seed: int) -> None:
+        self._random = random.Random(f"chance of run {seed}")
+
+    def bytes(self, size: int) -> bytes:
+        """The next `size` of them."""
+        return self._random.randbytes(size)
+
+
+class FiberEventLoops(asyncio.DefaultEventLoopPolicy):
+    """Keeps for each fiber what asyncio keeps for each thread: the event loop that was set."""
+
+    def __init__(self) -> None:
+        self._kept: WeakKeyDictionary[greenlet.greenlet, Any] = WeakKeyDictionary()
+        super().__init__()
+
+    @property
+    def _local(self) -> Any:
+        return self._kept.setdefault(greenlet.getcurrent(), self._Local())
+
+    @_local.setter
+    def _local(self, shared: Any) -> None:
+        """The one that all fibers would share, as they are one thread, is not kept."""
+
+
+class OwnProcess:
+    """Hides from the nodes what a program of their own would not find.
+
+    A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line words and a
+    stdin of its own. And its heap is large: one full look of the garbage collector takes 0.2 s. So the
+    collector looks only at what the run makes.
+    """
+
+    def __init__(self) -> None:
+        self._policy = FiberEventLoops()
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Hide it for a while."""
+        loop, policy = asyncio._get_running_loop(), asyncio.get_event_loop_policy()
+        argv, stdin = sys.argv, sys.stdin
+        asyncio._set_running_loop(None)
+        asyncio.set_event_loop_policy(self._policy)
+        gc.freeze()
+        try:
+            yield
+        finally:
+            gc.unfreeze()
+            asyncio.set_event_loop_policy(policy)
+            asyncio._set_running_loop(loop)
+            sys.argv, sys.stdin = argv, stdin
+
+
+class OwnRclpy:
+    """rclpy's default context, global executor and levels of loggers."""
+
+    def __init__(self) -> None:
+        # The other side's levels: the user's while rclpy is lent, the run's while it isn't.
+        self.log_levels: dict[str, int] = {}
+        self._users_default = self._default = _rclpy.rclpy_logging_get_logger_level("")
+        self._own_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
+
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Let rclpy's state be the run's for a while; each program of it then has its own."""
+        users = rclpy.utilities.g_default_context, rclpy.__dict__["__executor"]
+        self._users_contexts = rclpy.context.g_logging_ref_count - self._own_contexts
+        self._swap_log_levels()
+        try:
+            yield
+        finally:
+            self._swap_log_levels()
+            self._own_contexts = rclpy.context.g_logging_ref_count - self._users_contexts
+            rclpy.utilities.g_default_context, rclpy.__dict__["__executor"] = users
+
+    def level_is_set(self, logger: str) -> None:
+        """Remember the user's level of a logger that gets another one now."""
+        self.log_levels.setdefault(logger, _rclpy.rclpy_logging_get_logger_level(logger))
+
+    def set_default_level(self, level: int | None) -> None:
+        """Let loggers without a level of their own have this one; None: the user's."""
+        level = self._users_default if level is None else level
+        if level != self._default:
+            self.level_is_set("")
+            _rclpy.rclpy_logging_set_logger_level("", level)
+            self._default = level
+
+    def forget_contexts(self, but: int) -> None:
+        """Let rclpy count only so many of the run's contexts, whatever its programs left open."""
+        rclpy.context.g_logging_ref_count = self._users_contexts + but
+
+    def _swap_log_levels(self) -> None:
+        for logger, level in self.log_levels.items():
+            self.log_levels[logger] = _rclpy.rclpy_logging_get_logger_level(logger)
+            _rclpy.rclpy_logging_set_logger_level(logger, level)

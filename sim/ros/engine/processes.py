@@ -1,0 +1,203 @@
+"""Student processes: on a robot each `main()` is a program of its own, with its own rclpy.init() and ok().
+
+In a run they share one thread and one real rcl context, because two contexts of one process don't hear each
+other.
+What each of them must have for itself is its default context and its global executor: those are swapped in
+whenever one of its fibers runs, so that rclpy's own functions need no change.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import inspect
+import sys
+from collections.abc import Callable, Sequence
+from itertools import count, pairwise
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+import rclpy.utilities
+from rclpy.action import ActionClient, ActionServer
+from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.node import Node
+
+from sim.ros.engine.keyboard import keyboard
+from sim.ros.engine.program import Process, as_process, program_name
+from sim.ros.fibers.fiber import Fiber
+
+if TYPE_CHECKING:
+    from sim.ros.engine.engine import Engine
+
+
+class SharedContext:
+    """Stands where rclpy keeps its handle to a context; one per init(), over the run's one real context."""
+
+    def __init__(self, process: StudentProcess, arguments: Sequence[str]) -> None:
+        self.process, self.alive = process, True
+        if process.borrowed_init is None:
+            process.borrowed_init = False
+        words = list(arguments)
+        _rclpy.rclpy_remove_ros_args(words)  # refuses what ROS can't read
+        process.global_arguments = words[words.index("--ros-args") :] if "--ros-args" in words else []
+        process.set_log_levels()
+
+    def ok(self) -> bool:
+        """As rcl's context."""
+        return self.alive
+
+    def shutdown(self) -> None:
+        """As rcl's context, for this process alone."""
+        if not self.alive:
+            raise _rclpy.RCLError("failed to shutdown: rcl_shutdown already called on the given context")
+        self.alive = False
+        self.process.engine.activity += 1
+
+    def get_domain_id(self) -> int:
+        """As rcl's context."""
+        return self.process.engine.context.get_domain_id()
+
+    def destroy_when_not_in_use(self) -> None:
+        """As rcl's context, for this process alone."""
+        self.alive = False
+
+    def __enter__(self) -> SharedContext:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        return None
+
+
+def shared_context(context: Context) -> SharedContext:
+    """What a context that was initialised in a run holds in place of rcl's handle."""
+    return context._Context__context
+
+
+class StudentProcess:
+    """The state of one program in a run."""
+
+    loaded: StudentProcess | None = None  # whose default context rclpy sees at the moment
+
+    def __init__(self, engine: Engine, spec: Process, ours: bool) -> None:
+        self.engine, self.ours = engine, ours
+        self._become(spec)
+        self.context: Context | None = None
+        self.executor: Any = None
+        self.nodes: list[Node] = []
+        # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
+        self.borrowed_init: bool | None = False
+        self.main: Fiber | None = None
+        self.log_level: int | None = None
+        self.thread_numbers, self.pool_numbers = count(1), count()  # for names, as Python counts them
+
+    def _become(self, spec: Process) -> None:
+        self.spec, self.target, self.name = spec, spec.target, program_name(spec.target)
+        self.global_arguments: list[str] = []  # those of init() that are ROS's
+        self.argv, self.stdin = [self.name], keyboard(self.spec.stdin)
+
+    def _read_settings(self) -> None:
+        """Done as the program starts, so that what is wrong in them is the program's error."""
+        sys.argv, sys.stdin = [self.name, *self.spec.command_line()], self.stdin
+
+    def set_log_levels(self) -> None:
+        """Follow each `--log-level LEVEL` or `--log-level LOGGER:=LEVEL` of the arguments."""
+        for word, value in pairwise(self.global_arguments):
+            if word == "--log-level":
+                logger, _, level = value.rpartition(":=")
+                severity = LoggingSeverity[level.upper()]
+                if logger:
+                    set_logger_level(logger, severity)
+                else:
+                    self.log_level = severity
+        self.engine.rclpy.set_default_level(self.log_level)
+
+    def load(self) -> None:
+        """Let the module-level state of rclpy and `sys` be this process's."""
+        if StudentProcess.loaded is self:
+            return
+        if StudentProcess.loaded is not None:
+            StudentProcess.loaded.unload()
+        rclpy.utilities.g_default_context = self.context
+        rclpy.__dict__["__executor"] = self.executor
+        self.engine.rclpy.set_default_level(self.log_level)
+        sys.argv, sys.stdin = self.argv, self.stdin
+        StudentProcess.loaded = self
+
+    def unload(self) -> None:
+        """Keep what that state is now."""
+        self.context = rclpy.utilities.g_default_context
+        self.executor = rclpy.__dict__["__executor"]
+        self.argv, self.stdin = sys.argv, sys.stdin
+        StudentProcess.loaded = None
+
+    def run(self) -> None:
+        """The body of the process's first fiber: what `python3 node.py` would do."""
+        self._read_settings()
+        target = self.target
+        if isinstance(target, type):
+            rclpy.init()
+            self._spin(target())
+            return
+        # A function may be a main() or make a node: init() is lent until that is known.
+        self.borrowed_init = None
+        try:
+            result = target(**self._main_arguments(target))
+        except RuntimeError:
+            self.check_init()
+            raise
+        if inspect.iscoroutine(result):
+            result.close()
+            raise TypeError(
+                f"{self.name} is an `async def`, which nothing here awaits: write `def {self.name}(...):`."
+            )
+        if isinstance(result, Process):
+            self._become(as_process(result))
+            self.run()
+        elif isinstance(result, Node):
+            self.borrowed_init = False
+            self._spin(result)
+        self.check_init()
+
+    def _main_arguments(self, target: Callable[..., Any]) -> dict[str, Any]:
+        try:
+            parameters = inspect.signature(target).parameters
+        except (TypeError, ValueError):
+            return {}
+        return {"args": None} if "args" in parameters else {}
+
+    def _spin(self, node: Node) -> None:
+        rclpy.spin(node)
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+    def lend_init(self) -> None:
+        """Let a function that only makes a node do so without calling rclpy.init() itself."""
+        if self.borrowed_init is None:
+            self.borrowed_init = True
+            rclpy.init()
+
+    def check_init(self) -> None:
+        """Give a main() that forgot rclpy.init() what it would get on a robot, NotInitializedException."""
+        if self.borrowed_init:
+            raise NotInitializedException("cannot create node")
+
+
+def destroy(node: Any) -> None:
+    """Free a node with all it holds; destroy_node() forgets action servers and clients.
+
+    For that time it is a plain Node: what a student's class has made of rclpy's methods must not run here.
+    """
+    students_class = type(node)
+    with contextlib.suppress(TypeError):  # a class with __slots__ has another layout, and stays what it is
+        object.__setattr__(node, "__class__", Node)
+    try:
+        for waitable in list(node.waitables):
+            if isinstance(waitable, ActionServer | ActionClient):
+                waitable.destroy()
+        node.destroy_node()
+    except Exception:
+        pass  # destroyed already, its __init__ never came to an end, or a method is a student's after all
+    finally:
+        object.__setattr__(node, "__class__", students_class)

@@ -1,0 +1,81 @@
+"""What the settings of two ends of a topic mean for the messages between them."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.event_handler import UnsupportedEventTypeError
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSCompatibility,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
+
+# All others leave the choice to the middleware.
+RELIABILITIES = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+DURABILITIES = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+# How rclpy says "without limit", and how the middleware, in nanoseconds.
+NO_LIMIT, FOREVER = Duration(), 2**63 - 1
+
+
+def suit(offered: QoSProfile, wanted: QoSProfile) -> bool:
+    """Whether a subscription hears a publisher."""
+    compatibility, _ = qos_check_compatible(offered, wanted)
+    return compatibility != QoSCompatibility.ERROR
+
+
+def latches(profile: QoSProfile) -> bool:
+    """Whether a late joiner gets earlier messages: both ends must."""
+    return (
+        profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        and profile.reliability is ReliabilityPolicy.RELIABLE
+    )
+
+
+def queue_length(profile: QoSProfile) -> int | None:
+    """How many messages wait at most; None: without limit."""
+    return None if profile.history is HistoryPolicy.KEEP_ALL else max(profile.depth, 1)
+
+
+def settled(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
+    """The profile, with what the middleware has made of what was left to it.
+
+    found: gives rclpy's information on such ends of this topic, the newest last.
+    """
+    chosen = copy.copy(profile)
+    if chosen.liveliness is LivelinessPolicy.SYSTEM_DEFAULT:
+        chosen.liveliness = LivelinessPolicy.AUTOMATIC
+    if profile.reliability in RELIABILITIES and profile.durability in DURABILITIES:
+        return chosen
+    made = QoSProfile(**found()[-1]["qos_profile"])
+    chosen.reliability, chosen.durability = made.reliability, made.durability
+    chosen.liveliness = made.liveliness
+    for name in ("deadline", "liveliness_lease_duration"):
+        limit = getattr(made, name)
+        setattr(chosen, name, limit if limit.nanoseconds < FOREVER else NO_LIMIT)
+    return chosen
+
+
+def refuse_unsimulated(topic: str, events: Any, arguments: Iterable[Any]) -> None:
+    """Raise what rclpy does for event callbacks that its middleware never calls.
+
+    events: an end's callbacks, or None. arguments: those that it is made with, its QoS among them.
+    """
+    leases = [a.liveliness_lease_duration.nanoseconds for a in arguments if isinstance(a, QoSProfile)]
+    if getattr(events, "deadline", None):
+        raise UnsupportedEventTypeError(
+            f"Deadlines aren't simulated, so the deadline callback of {topic} would never be called:"
+            " in a timer, look at the time since the last message."
+        )
+    if getattr(events, "liveliness", None) and any(0 < lease < FOREVER for lease in leases):
+        raise UnsupportedEventTypeError(
+            f"Liveliness leases aren't simulated, so the liveliness callback of {topic} would never be"
+            " called: the callback `matched` tells who comes and goes."
+        )

@@ -1,0 +1,1 @@
+"""Messages as bytes: encoded, decoded, and brought into one canonical form."""

@@ -1,0 +1,1 @@
+"""A run to watch and to drive: paced to the clock on the wall, with a picture."""

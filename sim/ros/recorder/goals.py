@@ -1,0 +1,155 @@
+"""Writes down the goals of actions: asked, accepted, executed, canceled; feedback and results."""
+
+from __future__ import annotations
+
+import weakref
+from collections import defaultdict
+from typing import TYPE_CHECKING, Any
+
+from action_msgs.msg import GoalStatus
+
+from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal, Heard
+from sim.ros.messages.cdr import canonical
+from sim.ros.messages.codec import encode, type_name
+from sim.ros.recorder.calls import alive
+from sim.ros.recorder.kept import ActionRecord
+
+if TYPE_CHECKING:
+    from sim.ros.recorder.recorder import Recorder
+
+WORDS = {
+    value: name.removeprefix("STATUS_").lower()
+    for name, value in vars(GoalStatus).items()
+    if name.startswith("STATUS_")
+}
+
+BEYOND_CANCEL = ("canceling", *ENDINGS)  # statuses in which rclpy refuses to cancel, and asks nobody
+
+
+def key(goal_id: Any) -> bytes:
+    """The bytes of a goal's UUID message."""
+    return bytes(goal_id.uuid)
+
+
+class Goals:
+    """The goals of one run, found again by their ids; the ends of an action carry its name and type."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
+        self._servers: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
+
+    def end_made(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
+        """A node made an action server or an action client; `name` is the action's resolved name."""
+        if serves:
+            self._servers[name].append(weakref.ref(end))
+        end._sim = ActionRecord(name, type_name(type_), self._recorder.name_of(node))
+
+    def known(self, action: str, goal_id: Any) -> list[Goal]:
+        """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
+        return self._by_id.setdefault((action, key(goal_id)), [])
+
+    def _known(self, end: Any, goal_id: Any) -> list[Goal]:
+        return self.known(end._sim.action, goal_id)
+
+    def _event(self, goal: Goal | None, word: str) -> None:
+        if goal is not None and self._recorder.open:
+            goal.events.append((self._recorder.now, word))
+
+    def new(self, end: Any, client: str, goal_id: Any, raw: bytes, asked: float | None) -> Goal:
+        """Begin the record of a goal; `end` is its client, or a server that took what no client here sent."""
+        kept: ActionRecord = end._sim
+        self._recorder.count(kept.node, len(raw))
+        raw = canonical(f"{kept.type}_Goal", raw)
+        goal = Goal(kept.action, kept.type, client, key(goal_id).hex(), raw, asked)
+        self._recorder.recording.goals.append(goal)
+        self._known(end, goal_id).append(goal)
+        return goal
+
+    # -- what clients do ---------------------------------------------------------------------------
+
+    def asked(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
+        """A client sent a goal."""
+        if self._recorder.open:
+            goal = self.new(client, client._sim.node, goal_id, raw, self._recorder.now)
+            client._sim.goals[number] = goal
+            goal.lost = not self.served(goal.action)
+
+    def served(self, action: str) -> bool:
+        """Whether a server takes goals of this action."""
+        servers = self._servers[action]
+        return any((server := known()) and alive(server._handle) for known in servers)
+
+    def cancel_asked(self, client: Any, goal_id: Any) -> None:
+        """A client asked for a goal to be canceled."""
+        for goal in self._known(client, goal_id):
+            if goal.status != REJECTED:
+                self._event(goal, CANCEL_REQUESTED)
+
+    def client_took(self, client: Any, data: dict[str, Any]) -> None:
+        """A client took from its queues what it waited for, as rclpy's take_data() gives it."""
+        if not self._recorder.open:
+            return
+        goal = client._sim.goals.pop(data["goal"][0], None) if "goal" in data else None
+        if goal is not None:
+            goal.answered = self._recorder.now
+        number = data["result"][0] if "result" in data else None
+        goal_id = client._result_sequence_number_to_goal_id.get(number)
+        waiting = self._known(client, goal_id) if goal_id is not None else []
+        goal = next((goal for goal in waiting if goal.raw_result is not None), None)
+        if goal is not None and goal.received is None:
+            goal.received = self._recorder.now
+
+    # -- what servers do ---------------------------------------------------------------------------
+
+    def taken(self, server: Any, goal_id: Any, request: Any) -> Goal | None:
+        """A server took the request for a goal; gives the goal, or None after the end of the run."""
+        if not self._recorder.open:
+            return None
+        known = self._known(server, goal_id)
+        goal = next((goal for goal in known if not goal.server and not goal.lost), None)
+        if goal is None:  # another server has it too, or it was sent past rclpy's clients
+            client, asked = (known[0].client, known[0].asked) if known else ("", None)
+            goal = self.new(server, client, goal_id, encode(request), asked)
+        goal.server = server._sim.node
+        if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
+            server._sim.goals[key(goal_id)] = goal
+        return goal
+
+    def decided(self, goal: Goal | None) -> None:
+        """A server is done with the request for a goal; what it accepted is written down already."""
+        if goal is not None and not goal.status:
+            self._event(goal, REJECTED)
+
+    def accepted(self, server: Any, goal_id: Any) -> None:
+        """A server accepted a goal."""
+        self._event(server._sim.goals.get(key(goal_id)), "accepted")
+
+    def changed(self, server: Any, goal_id: Any, status: int) -> None:
+        """A goal has another status: a number of action_msgs/msg/GoalStatus."""
+        self._event(server._sim.goals.get(key(goal_id)), WORDS[status])
+
+    def to_cancel(self, server: Any, goal_id: Any) -> tuple[Goal | None, str]:
+        """A server took the request to cancel a goal; gives the goal and its status."""
+        goal = server._sim.goals.get(key(goal_id))
+        return goal, goal.status if goal is not None else ""
+
+    def cancel_decided(self, goal: Goal | None, before: str) -> None:
+        """A server is done with the request to cancel a goal that had this status before."""
+        if goal is not None and (before in BEYOND_CANCEL or goal.at("canceling") is None):
+            self._event(goal, CANCEL_REJECTED)
+
+    def feedback(self, server: Any, goal_id: Any, message: Any) -> None:
+        """A server published feedback on a goal."""
+        goal, recorder = server._sim.goals.get(key(goal_id)), self._recorder
+        if goal is not None and recorder.open:
+            raw, type_ = encode(message), f"{goal.type}_Feedback"
+            recorder.count(goal.server, len(raw))
+            topic = f"{goal.action}/_action/feedback"
+            goal.feedback.append(Heard(recorder.now, topic, type_, goal.server, canonical(type_, raw)))
+
+    def result(self, server: Any, goal_id: Any, message: Any) -> None:
+        """A server has the result of a goal, which it gives to those who ask."""
+        goal = server._sim.goals.get(key(goal_id))
+        if goal is not None and self._recorder.open:
+            goal.raw_result = canonical(f"{goal.type}_Result", encode(message))

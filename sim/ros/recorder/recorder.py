@@ -1,0 +1,214 @@
+"""Fills the recording while the run goes on: the hooks report here what student code does."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import greenlet
+from rclpy.executors import ExternalShutdownException
+
+from sim.evidence import (
+    INFRASTRUCTURE_TOPICS,
+    CallbackError,
+    CallbackRun,
+    Endpoint,
+    Heard,
+    LogLine,
+    Recording,
+    TimerInfo,
+    is_node_service,
+)
+from sim.nanoseconds import SECOND
+from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
+from sim.ros.fibers.scheduler import Scheduler
+from sim.ros.messages.codec import type_name
+from sim.ros.recorder.calls import Calls
+from sim.ros.recorder.goals import Goals
+from sim.ros.recorder.running import Running, callback_name
+from sim.ros.recorder.tracebacks import student_traceback, text_of
+
+MAX_MESSAGES_PER_INSTANT = 20_000
+MAX_MESSAGES = 1_000_000  # of a run
+MAX_MESSAGE_BYTES = 500_000_000  # of a run
+MAX_LOG_LINES = 100_000
+MAX_PRINTED = 1_000_000  # characters
+LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+NO_FAULT = (
+    RunOver,
+    KeyboardInterrupt,
+    SystemExit,
+    GeneratorExit,
+    greenlet.GreenletExit,
+    ExternalShutdownException,
+    Livelock,
+    Hang,
+)
+
+
+class OwnEnd(NamedTuple):
+    """One end of a topic, service or action that a node of this process has, with rclpy's own handles."""
+
+    kind: str
+    node: Any
+    node_name: str
+    name: str
+    type: type
+    qos: Any
+    handle: Any
+
+
+class Recorder:
+    """Writes into one recording, until it is closed."""
+
+    def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
+        self.scheduler, self.recording = scheduler, recording
+        self.open = True
+        self.calls, self.goals = Calls(self), Goals(self)
+        self.ends: list[OwnEnd] = []  # all that were made, ROS's own included
+        self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
+        self._ours: set[str] = set()  # names of nodes that are not the student's
+        self._theirs: set[str] = set()  # and of those that are
+        self._printed = self._bytes = self._all = 0
+        self._known: list[BaseException] = []
+        self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds since the start of the run."""
+        return self.scheduler.now / SECOND
+
+    def name_of(self, node: Any) -> str:
+        """Fully qualified name of a node, or of the current process for None."""
+        if node is not None:
+            return self._names.get(id(node)) or node.get_fully_qualified_name()
+        fiber = self.scheduler.current
+        nodes = fiber.process.nodes if fiber is not None else []
+        return self.name_of(nodes[0]) if nodes else f"/{fiber.process.name}" if fiber is not None else ""
+
+    def node(self, node: Any) -> None:
+        """A node was made."""
+        name = self._names[id(node)] = node.get_fully_qualified_name()
+        if not self.open:
+            return
+        self.recording.graph.nodes.append(name)
+        (self._ours if self._is_ours() else self._theirs).add(name)
+        self.recording.ours = self._ours - self._theirs
+        self.recording.shared = self._ours & self._theirs
+
+    def _is_ours(self) -> bool:
+        """Whether a program that is not the student's is at work."""
+        fiber = self.scheduler.current
+        return fiber is not None and fiber.process.ours
+
+    def endpoint(
+        self, kind: str, node: Any, name: str, type_: type, qos: Any = None, *, handle: Any = None
+    ) -> None:
+        """A node declared one end of a topic, service or action. handle: rclpy's, if it has one."""
+        if not self.open:
+            return
+        of = self.name_of(node)
+        if handle is not None:
+            self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
+        if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
+            end = Endpoint(kind, of, name, type_name(type_), _qos(qos))
+            self.recording.graph.endpoints.append(end)
+
+    def timer(self, node: Any, timer: Any) -> None:
+        """A node made a timer."""
+        if self.open:
+            info = TimerInfo(
+                self.name_of(node), timer.timer_period_ns / SECOND, callback_name(timer.callback)
+            )
+            self.recording.graph.timers.append(info)
+
+    def count(self, sender: str, size: int) -> None:
+        """A node sent a message, request or the like, of so many bytes. Raises Livelock for too many."""
+        now = self.scheduler.now
+        if now != self._instant:
+            self._instant, self._messages = now, 0
+        self._messages += 1
+        if self._messages > MAX_MESSAGES_PER_INSTANT:
+            self.scheduler.refuse_to_go_on(
+                f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
+                " without letting time move on"
+            )
+        self._all += 1
+        if self._all > MAX_MESSAGES:
+            self.scheduler.refuse_to_go_on(
+                f"the nodes sent more than {MAX_MESSAGES} messages by t = {self.now:g} s"
+            )
+        self._bytes += size
+        if self._bytes > MAX_MESSAGE_BYTES:
+            self.scheduler.refuse_to_go_on(
+                f"the nodes sent more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
+            )
+
+    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+        """A message was published; its bytes are canonical. Raises Livelock for too many."""
+        if not self.open:
+            return
+        self.count(sender, len(raw))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw))
+
+    def log(self, severity: int, logger: str, text: str) -> LogLine | None:
+        """A node wrote a log line; None if it isn't kept."""
+        if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
+            return None
+        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text)
+        self.recording.logs.append(line)
+        return line
+
+    def printed(self, text: str) -> None:
+        """Student code wrote to stdout."""
+        self._printed += len(text)
+        if self.open and self._printed < MAX_PRINTED:
+            self.recording.prints.append((self.now, text))
+
+    def complained(self, text: str) -> None:
+        """Student code, or a library that it called, wrote to stderr."""
+        if len(self.recording.stderr) < MAX_PRINTED:
+            self.recording.stderr += text
+
+    def callback(self, running: Running) -> None:
+        """A callback has returned."""
+        if self.open:
+            began = running.began / SECOND
+            duration = (self.scheduler.now - running.began) / SECOND
+            self.recording.callbacks.append(
+                CallbackRun(began, duration, running.node, running.name, running.kind)
+            )
+
+    def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
+        """An exception left a callback, a thread or a main(). The same one is kept once."""
+        if not isinstance(error, NO_FAULT):
+            self._keep(error, callback, node)
+
+    def exited(self, exit_: SystemExit, program: str) -> None:
+        """A program ended itself; as for a shell, every status but 0 says that it failed."""
+        if exit_.code:
+            self._keep(exit_, program, None)
+
+    def _keep(self, error: BaseException, callback: str, node: str | None) -> None:
+        if not self.open or any(known is error for known in self._known):
+            return
+        self._known.append(error)
+        name = node if node is not None else self.name_of(None)
+        kept = CallbackError(
+            self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
+        )
+        self.recording.errors.append(kept)
+        if self._is_ours():
+            self.recording.failures.append(kept)
+
+    def close(self) -> None:
+        """The run is over: what student code does while it is taken down is not evidence."""
+        self.open = False
+        self._known.clear()
+        self.ends.clear()
+
+
+def _qos(profile: Any) -> dict[str, Any]:
+    if profile is None:
+        return {}
+    names = ("reliability", "durability", "history")
+    return {name: getattr(profile, name).name.lower() for name in names} | {"depth": profile.depth}

@@ -1,0 +1,83 @@
+"""What the nodes of all machines have in common: time, joint states, and a clear word about bad commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+
+from sim.nanoseconds import SECOND
+from sim.ros.messages.template import STAMP, Template
+from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
+from sim.world import CommandError
+
+
+class MachineNode(Node):
+    """A machine as an ordinary node. Publishes /joint_states, and /clock at 20 Hz, both reliable.
+
+    Whoever runs it moves the machine: `scene` is where it should be at the node's time.
+
+    rate: of /joint_states, in Hz; a multiple of 20.
+    """
+
+    def __init__(
+        self,
+        scene: Any,
+        name: str,
+        joints: Sequence[str],
+        rate: int = SENSOR_RATE,
+    ) -> None:
+        super().__init__(name, start_parameter_services=False)
+        self.scene = scene
+        zeros = [0.0] * len(joints)
+        self.clock_message = Template(Clock(), ["clock.sec", "clock.nanosec"])
+        message = JointState(name=joints, position=zeros, velocity=zeros)
+        self.joint_message = Template(message, [*STAMP, "position", "velocity"])
+        self.clock_pub = self.create_publisher(Clock, "/clock", 1)
+        self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
+        self._ticks, self._ticks_per_sense = 0, rate // SENSOR_RATE
+        self._period = 1 / rate
+        self._commands = 0  # in the last 0.05 s
+
+    def begin(self) -> None:
+        """Begin to publish; the last that a machine does when it is made."""
+        self._tick()
+        self.create_timer(self._period, self._tick)
+
+    def joints(self) -> tuple[float, ...]:
+        """Positions and then velocities of all joints, as they are measured."""
+        raise NotImplementedError
+
+    def sense(self, stamp: tuple[int, int]) -> None:
+        """What else a machine publishes, 20 times a second; the stamp is (s, ns)."""
+
+    def obey(self, command: Callable[..., None], *values: Any) -> bool:
+        """Take a command; whether it could be taken."""
+        self._commands += 1
+        try:
+            command(*values)
+        except CommandError as error:
+            self.get_logger().error(str(error), throttle_duration_sec=1.0)
+            return False
+        return True
+
+    def _tick(self) -> None:
+        stamp = divmod(self.get_clock().now().nanoseconds, SECOND)
+        self.joint_pub.publish(self.joint_message.fill(*stamp, *self.joints()))
+        if self._ticks % self._ticks_per_sense == 0:
+            self._count_commands()
+            self.clock_pub.publish(self.clock_message.fill(*stamp))
+            self.sense(stamp)
+        self._ticks += 1
+
+    def _count_commands(self) -> None:
+        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+            self.get_logger().warning(
+                f"More than {MOST_COMMANDS} commands came in a second; 100 are enough: "
+                "check the period of the timer that sends them.",
+                throttle_duration_sec=1.0,
+            )
+        self._commands = 0

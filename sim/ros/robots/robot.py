@@ -1,0 +1,124 @@
+"""A simulated robot as an ordinary ROS 2 node: commands in, sensors out."""
+
+from __future__ import annotations
+
+import array
+import math
+
+from geometry_msgs.msg import TransformStamped, Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState, LaserScan
+from std_msgs.msg import Bool, Header
+from tf2_msgs.msg import TFMessage
+
+from sim.nanoseconds import SECOND
+from sim.ros.messages.codec import encode
+from sim.ros.messages.template import STAMP, Template
+from sim.ros.robots.imu import ImuTopic
+from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
+from sim.world import CommandError, MobileRobot, World
+
+WHEELS = ["wheel_left_joint", "wheel_right_joint"]
+POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
+TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
+
+
+class Robot(Node):
+    """A differential-drive robot with a lidar, a bumper and, where the world says so, an IMU.
+
+    Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
+    Publishes at 20 Hz odom, scan, joint_states, bumper (std_msgs/Bool) and /tf (odom -> base_link), and
+    imu/data at the IMU's rate; all reliable, which best-effort subscriptions can hear too. odom starts at
+    zero where the robot starts; lidar and IMU sit at base_link's origin.
+
+    The world's first robot is in the root namespace, and publishes /clock. Any other one has its name as
+    namespace, and before the names of its frames.
+
+    Whoever runs it moves the world: `robot` is where it should be at the node's time.
+    """
+
+    def __init__(self, world: World, robot: MobileRobot) -> None:
+        self.first = robot.name == "robot"
+        super().__init__(
+            "robot", namespace=None if self.first else robot.name, start_parameter_services=False
+        )
+        self.world, self.robot = world, robot
+        frames = "" if self.first else f"{robot.name}/"
+        self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
+        self._commands = 0  # since the last sense
+        self._make_templates()
+        self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
+        self.clock_pub = self.create_publisher(Clock, "/clock", 1) if self.first else None
+        self.odom_pub = self.create_publisher(Odometry, "odom", 10)
+        self.tf_pub = self.create_publisher(TFMessage, "/tf", 100)
+        self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
+        self.scan_pub = self.create_publisher(LaserScan, "scan", 10)
+        self.bumper_pub = self.create_publisher(Bool, "bumper", 10)
+        self.sense()
+        self.create_timer(1.0 / SENSOR_RATE, self.sense)
+        imu = world.imu
+        if imu is not None:
+            self.imu = ImuTopic(self, robot, imu, self.base_frame)
+            self.feel()
+            self.create_timer(1.0 / imu.rate, self.feel)
+
+    def _make_templates(self) -> None:
+        self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
+        odom = Odometry(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
+        pose = [f"pose.pose.{name}" for name in POSE]
+        self.odom = Template(odom, [*STAMP, *pose, "twist.twist.linear.x", "twist.twist.angular.z"])
+        transform = TransformStamped(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
+        fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
+        self.tf = Template(TFMessage(transforms=[transform]), [f"transforms.0.{field}" for field in fields])
+        joints = JointState(name=WHEELS, position=[0.0, 0.0], velocity=[0.0, 0.0])
+        self.joints = Template(joints, [*STAMP, "position", "velocity"])
+        lidar = self.world.lidar
+        scan = LaserScan(
+            header=Header(frame_id=self.base_frame),
+            angle_max=math.tau - lidar.angle_increment,
+            angle_increment=lidar.angle_increment,
+            scan_time=1 / SENSOR_RATE,
+            range_min=lidar.range_min,
+            range_max=lidar.range_max,
+            ranges=array.array("f", [0.0] * lidar.rays),
+        )
+        self.scan = Template(scan, [*STAMP, "ranges"])
+        self.bumper = [encode(Bool(data=pressed)) for pressed in (False, True)]
+
+    def on_cmd_vel(self, command: Twist) -> None:
+        """Drive like this from now on."""
+        self._commands += 1
+        try:
+            self.robot.command(command.linear.x, command.angular.z)
+        except CommandError as error:
+            self.get_logger().error(str(error), throttle_duration_sec=1.0)
+
+    def feel(self) -> None:
+        """Publish what the IMU measures."""
+        self.imu.publish(self.get_clock().now().nanoseconds)
+
+    def sense(self) -> None:
+        """Publish what the other sensors see."""
+        robot, now = self.robot, self.get_clock().now().nanoseconds
+        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+            self._warn_of_flood()
+        self._commands = 0
+        stamp = divmod(now, SECOND)
+        x, y, yaw, v, w = robot.odometry
+        pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
+        if self.clock_pub is not None:
+            self.clock_pub.publish(self.clock.fill(*stamp))
+        self.odom_pub.publish(self.odom.fill(*stamp, *pose, v, w))
+        self.tf_pub.publish(self.tf.fill(*stamp, *pose))
+        self.joint_pub.publish(self.joints.fill(*stamp, *robot.wheels))
+        self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
+        self.bumper_pub.publish(self.bumper[bool(robot.bumper)])
+
+    def _warn_of_flood(self) -> None:
+        self.get_logger().warning(
+            f"More than {MOST_COMMANDS} velocity commands came in a second; 10 to 20 are enough: "
+            "check the period of the timer that sends them.",
+            throttle_duration_sec=1.0,
+        )

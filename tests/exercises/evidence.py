@@ -1,0 +1,88 @@
+"""What was run once is not run again: recordings and notebooks are kept, verdicts are always given afresh.
+
+A thing is kept under a digest of all that it depends on. For a recording that is not what reads it: checks,
+diagnosis, pages. A new clone has nothing, and makes it all.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+import pickle
+import shutil
+import sys
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import sim
+from sim import Recording
+
+ROOT = Path(__file__).parents[2]
+KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
+LEAST = 0.2  # s of computing: a run that takes less is not worth a file
+ENGINE = ("sim", "interfaces", "requirements.lock")
+OURS = (*ENGINE, "grader/cast.py", "grader/exercise.py", "grader/seeds.py")
+
+
+@functools.cache
+def digest_of(*sources: str) -> str:
+    """Digest of files and folders of this repository, and of what else decides what a program does."""
+    digest = hashlib.sha256(f"{sys.version} {os.environ.get('PYTHONHASHSEED')}".encode())
+    for source in sources:
+        for path in sorted([ROOT / source, *(ROOT / source).rglob("*")]):
+            if path.is_file() and "__pycache__" not in path.parts:
+                digest.update(f"\n{path.relative_to(ROOT)} {path.stat().st_size}\n".encode())
+                digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+class Evidence:
+    """A folder of what depends on the same sources, for all workers; what came of older sources goes."""
+
+    def __init__(self, name: str, *sources: str) -> None:
+        self._folder = KEPT / f"{name}-{digest_of(*sources)}"
+        for old in set(KEPT.glob(f"{name}-*")) - {self._folder}:
+            shutil.rmtree(old, ignore_errors=True)  # another worker may be at it, too
+        self._folder.mkdir(parents=True, exist_ok=True)
+
+    @classmethod
+    def of_nodes(cls, topic: str) -> Evidence:
+        """The recordings of the students' nodes of an assignment."""
+        return cls(f"nodes-{topic}", *OURS, f"grader/exercises/{topic}", f"tests/students/{topic}")
+
+    @classmethod
+    def of_notebooks(cls, folder: str, assignment: str) -> Evidence:
+        """A notebook that was run, of the folder solutions, exercises or course."""
+        return cls(f"{folder}-{assignment}", *ENGINE, "grader", f"{folder}/{assignment}")
+
+    def get(self, name: str, make: Callable[[], Any]) -> Any:
+        """What is kept under a name; else it is made, and kept if that took some computing."""
+        path = self._folder / name
+        if path.exists():
+            return pickle.loads(zlib.decompress(path.read_bytes()))
+        begin = _computed()
+        made = make()
+        if _computed() - begin > LEAST:
+            beside = path.with_suffix(f".{os.getpid()}")
+            beside.write_bytes(zlib.compress(pickle.dumps(made), 1))
+            beside.replace(path)  # at once: another worker reads the whole of it
+        return made
+
+    def keeping(self, program: str, run: Callable[..., Recording] = sim.run) -> Callable[..., Recording]:
+        """`sim.run` for a student's program of this name, which makes what is not kept."""
+
+        def kept_or_made(*programs: Any, **scenario: Any) -> Recording:
+            plain = repr([scenario[name] for name in ("world", "seconds", "seed")])
+            name = f"{program}-{hashlib.sha256(plain.encode()).hexdigest()[:16]}"
+            return self.get(name, lambda: run(*programs, **scenario))
+
+        return kept_or_made
+
+
+def _computed() -> float:
+    """Seconds that this process and those it has waited for have computed."""
+    spent = os.times()
+    return spent.user + spent.system + spent.children_user + spent.children_system

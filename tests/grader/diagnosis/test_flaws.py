@@ -1,0 +1,83 @@
+"""What is wrong in a run without an error, by real nodes, and the sentence for each."""
+
+import pytest
+
+from grader.diagnosis import DIAGNOSES, FLAWS, GUESSES, explain, find_fault, find_flaw
+from sim import run
+from tests.students import flaws, misfits, service_misfits
+from tests.students.engine import services
+
+STOP = (
+    "This robot stops by itself when no command comes; others drive on. Publish a Twist() with all zeros at the end."
+)
+SENTENCES = {
+    (flaws.Driver, flaws.SecondDriver): "/driver and /second_driver both publish on /cmd_vel, and the robot obeys the "
+    "last one: at 0.1 s 0.2 m/s and 0 rad/s, at 0.1 s 0 m/s and 0 rad/s. Let one node command the robot, and tell it "
+    "what the other wants.",
+    (flaws.CommandsOnceASecond,): "/driver lets up to 1 s pass between two commands on /cmd_vel, and the robot stops "
+    "by itself 0.5 s after each: repeat the command at 10 Hz, from a timer.",
+    (flaws.FallsSilent,): f"The last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s. {STOP}",
+    (flaws.DividesByTheDistance,): "/driver sent inf m/s and 0 rad/s on /cmd_vel at 0.1 s, and the robot refuses what "
+    "is no finite number. In the scan of 0.1 s ray 0 says inf (nothing is there).",
+    (flaws.Chatter, flaws.SleepsOverMessages): "/sleeper took 9 of 50 messages: SleepsOverMessages.hear held it for "
+    "up to 0.5 s each time, and the next ones came meanwhile. A callback should keep what it hears, and return.",
+    (misfits.SleepyTalker,): "The timer of /talker fired once in 5 s; 5 were due. Most likely SleepyTalker.tick "
+    "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
+    "Let the timer do the waiting.",
+    (misfits.main_without_spin,): "/talker has a timer, but none of its callbacks ever ran. Callbacks run while the "
+    "node spins: call rclpy.spin(node) in main().",
+}
+
+
+def record(students):
+    return run(*students, world="yard", seconds=5, quiet=True)
+
+
+def names(students):
+    return "+".join(student.__name__ for student in students)
+
+
+@pytest.mark.parametrize("students, sentence", SENTENCES.items(), ids=map(names, SENTENCES))
+def test_a_flaw_is_told(students, sentence):
+    recording = record(students)
+    assert find_fault(recording) is None
+    assert find_flaw(recording) == sentence
+
+
+@pytest.mark.parametrize(
+    "students",
+    [
+        (flaws.Driver,),
+        (flaws.DrivesToTheEnd,),
+        (flaws.SecondDriver,),
+        (flaws.Chatter,),
+        (flaws.Once,),
+        (flaws.Greeter,),
+        (flaws.main_that_comes_to_its_end,),
+        (misfits.Talker, misfits.Listener),
+    ],
+    ids=names,
+)
+def test_a_right_program_has_no_flaw(students):
+    assert find_flaw(record(students)) == ""
+
+
+def test_a_robot_without_a_driver_has_no_flaw():
+    assert find_flaw(record([])) == ""
+
+
+@pytest.mark.parametrize(
+    "students",
+    [(misfits.main_that_spins_three_seconds,), (services.SlowAdder, service_misfits.NobodyHears)],
+    ids=names,
+)
+def test_what_may_also_be_right_explains_a_missed_check_and_is_no_flaw(students):
+    recording = run(*students, seconds=10, quiet=True)
+    assert [explain(recording)] == [said for guess in GUESSES if (said := guess(recording))]
+    assert find_flaw(recording) == ""
+
+
+def test_every_flaw_is_earned_by_some_students():
+    recordings = [record(students) for students in SENTENCES]
+    assert [flaw.__name__ for flaw in FLAWS if not any(map(flaw, recordings))] == []
+    assert set(GUESSES) <= set(DIAGNOSES)

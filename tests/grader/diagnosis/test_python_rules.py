@@ -1,0 +1,70 @@
+"""Mistakes of Python's own kind, made by real nodes: each gets its own advice, and the line of the fault."""
+
+import re
+
+import pytest
+
+from grader.diagnosis import find_fault
+from grader.diagnosis.python_rules import PYTHON_RULES
+from sim import run
+from tests.students import python_mistakes as mistakes
+
+BLOCK = "Lines of one block begin in the same column: four spaces for each step, and no tabs."
+ADVICE = {
+    "AddsOtherShapes": "Arrays of the shapes (3,) and (2,) don't fit together: for `+`, `-`, `*` and comparisons they must be equal, or one of them a single number. `.shape` says what an array has.",
+    "FillsTooSmallAPlace": "Values of the shape (3,) don't fit into a place of the shape (2,): both sides of `=` need the same.",
+    "MultipliesOtherShapes": "In `a @ b` the number of a's columns must be that of b's rows; here they are 3 and 2.",
+    "DotsOtherShapes": "Arrays of the shapes (2,3) and (2,) can't be multiplied: a needs as many columns as b has rows.",
+    "ChoosesByAnotherLength": "What chooses from an array must be as long as the array: this has 2 values, and True or False came for 4.",
+    "AsksAnArray": "An array is not True or False as a whole: `(...).any()` asks whether one of them is, `(...).all()` whether each is.",
+    "ForgetsToIndent": "What belongs to the function definition on line 1 stands further right, by four spaces.",
+    "IndentsTooFar": BLOCK,
+    "MixesTabs": BLOCK,
+    "ForgetsTheColon": "A colon is missing at the end of that line: `if`, `else`, `for`, `while`, `def` and `class` need one.",
+    "ForgetsABracket": "The `(` on that line has no partner that closes it.",
+    "WritesNonsense": "Python can't read that line: look at its brackets, quotes, commas and colons.",
+    "SleepsWithAsyncio": "A coroutine of a node is run by rclpy, and not by asyncio: what asyncio has can't be awaited there. For a pause, await a future that a timer completes, or let a timer call the next step.",
+    "OpensNoFile": "There is no file `map.yaml`. A name without a slash in front is looked for in the folder that the program was started in, here the notebook's: `os.getcwd()` names it, `os.listdir()` what is in it.",
+    "StartsNoProgram": "There is no program `ros2` on this machine. What it would do can often be done in Python: a node has methods for what `ros2 topic`, `ros2 service` and `ros2 param` do.",
+    "MakesAnIntOfInf": "inf and -inf have no whole number: ask `math.isfinite(number)` first.",
+    "MakesAnIntOfNan": "nan has no whole number: ask `math.isfinite(number)` first.",
+}
+
+
+def record(name, *others):
+    return run(*others, getattr(mistakes, name), seconds=2, quiet=True)
+
+
+@pytest.mark.parametrize("name", ADVICE)
+def test_a_mistake_gets_its_advice(name):
+    assert find_fault(record(name)).hint == ADVICE[name]
+
+
+@pytest.mark.parametrize("name", ["Worker", "Imports", "Scanner"])
+def test_what_they_are_built_on_has_no_fault(name):
+    assert find_fault(record(name)) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "saw"),
+    {
+        "ForgetsToIndent": "IndentationError: expected an indented block after function definition on line 1 "
+        "(in not_indented.py, line 2, at 1 s)",
+        "ForgetsABracket": "SyntaxError: '(' was never closed (in open_bracket.py, line 2, at 1 s)",
+    }.items(),
+)
+def test_code_that_cannot_be_read_is_shown_at_the_line_of_the_fault_not_at_its_import(name, saw):
+    assert find_fault(record(name)).saw == saw
+
+
+def test_a_ray_without_a_distance_is_named_with_what_it_means():
+    assert find_fault(record("MapsEveryRay", mistakes.Scanner)).hint == (
+        "In the scan of 0.5 s ray 1 says inf (nothing is there), ray 3 says -inf (something is too near to be "
+        "measured), ray 5 says nan (the ray got lost). Ask `math.isfinite(distance)` before you reckon with it."
+    )
+
+
+def test_no_rule_stands_there_without_a_student_who_earns_it():
+    errors = [record(name).errors[0] for name in ADVICE]
+    earned = [any(r.type == e.type and re.search(r.pattern, e.text) for e in errors) for r in PYTHON_RULES]
+    assert earned == [True] * len(PYTHON_RULES)

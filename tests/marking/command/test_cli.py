@@ -1,0 +1,171 @@
+import json
+import os
+import resource
+import subprocess
+import sys
+from dataclasses import replace
+
+import pytest
+
+from grader.marking.command.cli import main
+from grader.marking.command.mark_class import Settings
+from grader.marking.errors import SandboxMissing
+from tests.marking.classroom import ASSIGNMENT, gradebook, result
+from tests.marking.fake_pool import ReadyPool
+from tests.marking.tiny import ROOT
+
+AGAIN = f"go on with `python -m grader mark {ASSIGNMENT} --resume`"
+
+
+@pytest.fixture
+def pool(course):
+    return ReadyPool(course)
+
+
+@pytest.fixture
+def command(pool):
+    return lambda *options: main([ASSIGNMENT, *options], pool.open)
+
+
+def test_a_class_is_marked_and_summed_up(course, command, capsys):
+    assert command("--csv", "points/all.csv", "--html", "all.html") == 0
+    said = capsys.readouterr()
+    assert said.out.startswith("student  counter  line  essay  total  verdict  flags\n")
+    assert "\n3 marked now, 3 of 3 in all, in " in said.out
+    assert said.err.count(" of 3  ") == 3
+    assert (course.root / "points" / "all.csv").read_text().startswith("student,assignment,")
+    assert (course.root / "all.html").read_text().startswith("<!DOCTYPE html>")
+    assert command("--no-feedback") == 0
+    said = capsys.readouterr()
+    assert "\n0 marked now, 3 of 3 in all, in " in said.out
+    assert said.err == ""
+
+
+def test_options_reach_the_run(command, pool):
+    assert command("--student", "eve", "--student", "anna", "--jobs", "3", "--unsafe", "--no-feedback") == 0
+    (settings,) = pool.settings
+    assert settings == Settings(["anna", "eve"], jobs=3, unsafe=True, feedback=False)
+    assert command("--force", "--student", "anna") == 0
+    assert (pool.settings[1].force, pool.settings[1].jobs) == (True, os.cpu_count() + 1)
+
+
+def test_resume_goes_on_with_the_options_of_the_last_run(course, command, pool, capsys):
+    def interrupt(here, task):
+        if task.student == "eve":
+            raise KeyboardInterrupt
+        return result(here, task)
+
+    pool.change = interrupt
+    assert command("--student", "anna", "--student", "eve", "--force", "--jobs", "3", "--csv", "a.csv") == 130
+    assert capsys.readouterr().err.endswith(f"Stopped. 1 of 2 submissions are marked and kept: {AGAIN}.\n")
+    pool.change = result
+    pool.again()
+    assert command("--resume") == 0
+    assert pool.again() == ["eve"]
+    assert pool.settings[-1] == replace(pool.settings[0], force=False)
+    assert (course.root / "a.csv").read_text().count("\n") == 5
+    assert list(gradebook(course)) == ["anna", "eve"]
+    assert command("--resume", "--jobs", "1") == 0
+    assert json.loads((course.journal(ASSIGNMENT) / ".settings.json").read_text())["jobs"] == 1
+
+
+def refused(command, capsys, *options):
+    assert command(*options) == 1
+    said = capsys.readouterr()
+    assert said.out == ""
+    return said.err
+
+
+def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
+    nothing = f"Not marked: there is no run of {ASSIGNMENT} to go on with: leave --resume out.\n"
+    assert refused(command, capsys, "--resume") == nothing
+    none = "give none beside it but --jobs and --dask"
+    beside = f"Not marked: --resume takes the options of the last run: {none}.\n"
+    assert refused(command, capsys, "--resume", "--force") == beside
+
+
+def test_what_cannot_be_marked_is_said_in_one_line(command, capsys):
+    said = refused(command, capsys, "--student", "ana")
+    assert said.startswith(f"Not marked: ana has not handed in {ASSIGNMENT}, ")
+    assert said.endswith(": did you mean anna?\n")
+
+
+def test_without_a_sandbox_it_says_what_to_install(course, capsys):
+    words = "There is no bubblewrap here: run `sudo apt install bubblewrap`, or add `--unsafe`."
+
+    def missing(settings, secret):
+        raise SandboxMissing(words)
+
+    assert main([ASSIGNMENT], missing) == 1
+    assert capsys.readouterr().err == f"Not marked: {words}\n"
+
+
+def test_a_problem_is_told_and_gives_an_exit_status(command, pool, course, capsys):
+    pool.mark = lambda tasks: (result(course, next(tasks)) for _ in range(2))
+    assert command() == 1
+    assert capsys.readouterr().err.endswith(
+        f"eve was not marked: mark again\nStopped. 2 of 3 submissions are marked and kept: {AGAIN}.\n"
+    )
+
+
+def test_a_file_that_cannot_be_written_stops_it_and_what_is_marked_is_kept(course, command, pool, capsys):
+    (course.root / "points.csv").mkdir()
+    assert command("--csv", "points.csv") == 1
+    kept = f"What is marked is kept: repair this, then {AGAIN}.\n"
+    assert capsys.readouterr().err.endswith(
+        f"Stopped: points.csv could not be written (Is a directory). {kept}"
+    )
+    pool.again()
+    assert command() == 0
+    assert pool.again() == []
+
+
+@pytest.mark.parametrize("jobs", ["0", "-1", "many", "513"])
+def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
+    with pytest.raises(SystemExit):
+        command(f"--jobs={jobs}")
+    expected = f"error: argument --jobs: expected a number from 1 to 512, saw '{jobs}'\n"
+    assert capsys.readouterr().err.endswith(expected)
+
+
+def grader(folder, *arguments, **options):
+    command = [sys.executable, "-m", "grader", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    return subprocess.run(command, cwd=folder, env=environment, text=True, capture_output=True, **options)
+
+
+def test_the_command_says_how_it_is_used(tmp_path):
+    usage = "usage: python -m grader mark ASSIGNMENT [--help]\n"
+    asked, wrong = grader(tmp_path, "--help"), grader(tmp_path, "grade")
+    assert (asked.returncode, asked.stdout) == (0, usage)
+    assert (wrong.returncode, wrong.stderr) == (2, usage)
+    outside = grader(tmp_path, "mark", "01_nodes")
+    expected = f"expected nbgrader_config.py in {tmp_path}, saw none: go to the course's folder"
+    assert (outside.returncode, outside.stderr) == (1, f"Not marked: {expected}.\n")
+
+
+def test_a_full_disk_loses_nothing_that_is_marked(course, command, pool, capsys):
+    """The limit of a file's size stands for the disk: it makes writing fail in the same way."""
+
+    def fill(here, task):
+        if task.student == "bob":
+            resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+        return result(here, task)
+
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    pool.change = fill
+    try:
+        status = command("--no-feedback")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert status == 1
+    file = course.journal(ASSIGNMENT) / "bob.json"
+    assert capsys.readouterr().err.endswith(
+        f"Stopped: {file} could not be written (File too large). "
+        f"What is marked is kept: repair this, then {AGAIN}.\n"
+    )
+    assert list(gradebook(course)) == ["anna"]
+    pool.change = result
+    pool.again()
+    assert command("--no-feedback") == 0
+    assert pool.again() == ["bob", "eve"]

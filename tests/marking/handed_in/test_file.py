@@ -1,0 +1,238 @@
+"""What happens to a notebook's file on its way, and what becomes of it."""
+
+import io
+import zipfile
+
+import pytest
+
+from grader.marking.errors import Unusable
+from grader.marking.handed_in.cells import LONGEST_SUM, LONGEST_TEXT, MOST_CELLS, read_notebook
+from grader.marking.handed_in.rebuild import rebuild
+from grader.marking.handed_in.salvage import MOST_PARTS
+from tests.marking.handed_in.damage import SOLVED, STARTER, cell, data, own, same, solved
+
+WHOLE = data(SOLVED)
+GREEK = WHOLE.decode().replace("import rclpy", "# Grüße, Ω\\nimport rclpy", 1)
+LATIN = GREEK.replace("Ω", "")
+AGAIN = "Download the notebook again in JupyterLab (File, Download) and hand that in."
+
+
+def old(version):
+    """The notebook as the formats 2 and 3 had it: cells in worksheets, code as `input`, headings."""
+    notebook = solved()
+    cells = notebook.pop("cells")
+    for each in cells:
+        del each["id"]
+        if each["cell_type"] == "code":
+            each["input"] = each.pop("source")
+    cells[0]["cell_type"] = "heading"
+    return {**notebook, "nbformat": version, "worksheets": [{"cells": cells}]}
+
+
+def twice_a_key():
+    return WHOLE.replace(b'"source": "nodes.hello.grade', b'"source": "x", "source": "nodes.hello.grade')
+
+
+def zipped():
+    with zipfile.ZipFile(file := io.BytesIO(), "w") as archive:
+        archive.writestr("nodes.ipynb", WHOLE)
+    return file.getvalue()
+
+
+MENDED = {
+    "byte order mark": (
+        b"\xef\xbb\xbf" + WHOLE,
+        "The notebook's file began with a byte order mark; it was read without.",
+    ),
+    "UTF-16": (
+        WHOLE.decode().encode("utf-16"),
+        "The notebook's file was saved as UTF-16; it was read so.",
+    ),
+    "UTF-16 without mark": (
+        WHOLE.decode().encode("utf-16-le"),
+        "The notebook's file was saved as UTF-16; it was read so.",
+    ),
+    "UTF-32": (
+        WHOLE.decode().encode("utf-32"),
+        "The notebook's file was saved as UTF-32; it was read so.",
+    ),
+    "zeros behind": (
+        WHOLE + b"\0" * 5000,
+        "There were zero bytes in the notebook's file; they were left out.",
+    ),
+    "zeros within": (
+        WHOLE.replace(b"rclpy", b"rcl\0py", 3),
+        "There were zero bytes in the notebook's file; they were left out.",
+    ),
+    "garbage behind": (
+        WHOLE + b"}\n <html>",
+        "After its end, the notebook's file went on with something else; that was left out.",
+    ),
+    "two notebooks in a file": (
+        WHOLE + b"\n" + WHOLE,
+        "After its end, the notebook's file went on with something else; that was left out.",
+    ),
+    "a key twice": (
+        twice_a_key(),
+        "The notebook's file had `source` twice in one place; the last was read.",
+    ),
+    "format 3": (
+        data(old(3)),
+        "The notebook's format is `3`; it was read as well as possible. Expected was `4`.",
+    ),
+    "format 2": (
+        data(old(2)),
+        "The notebook's format is `2`; it was read as well as possible. Expected was `4`.",
+    ),
+    "format of tomorrow": (
+        data({**solved(), "nbformat": 5}),
+        "The notebook's format is `5`; it was read as well as possible. Expected was `4`.",
+    ),
+    "format unknown": (
+        data({**solved(), "nbformat": None}),
+        "The notebook's format is unknown; it was read as well as possible. Expected was `4`.",
+    ),
+    "cut off in its metadata": (
+        WHOLE[: WHOLE.rindex(b'"language_info"')],
+        "The notebook's file is damaged behind cell 37; what stands before was marked.",
+    ),
+}
+
+REFUSED = {
+    "empty": (b"", f"`nodes.ipynb` is empty; expected a notebook. {AGAIN}"),
+    "zeros": (
+        b"\0" * 4096,
+        f"`nodes.ipynb` holds nothing but zeros and blanks; expected a notebook. {AGAIN}",
+    ),
+    "Python": (
+        b"import rclpy\n\n\nclass Hello:\n    pass\n",
+        f"`nodes.ipynb` is no notebook: expected JSON, which begins with `{{`, saw something else. {AGAIN}",
+    ),
+    "a picture": (
+        b"\x89PNG\r\n\x1a\n\xff\xd8",
+        f"`nodes.ipynb` is no notebook: expected JSON, which begins with `{{`, saw something else. {AGAIN}",
+    ),
+    "web page": (
+        b"<!DOCTYPE html>\n<html><title>Please log in</title></html>",
+        f"`nodes.ipynb` holds a web page, maybe one that asks for a password; expected a notebook. {AGAIN}",
+    ),
+    "zip archive": (
+        zipped(),
+        "`nodes.ipynb` is a zip archive; expected a notebook. "
+        "Unpack it and hand in the notebook that lies in it.",
+    ),
+    "merge marks": (
+        WHOLE.replace(b'   "source"', b'<<<<<<< HEAD\n   "source"\n=======\n   "source"\n>>>>>>> mine\n', 1),
+        "`nodes.ipynb` holds git's merge marks (`<<<<<<<`), so two versions of it. "
+        "Choose one, open it in JupyterLab, save it and hand it in again.",
+    ),
+    "JSON, but a list": (b"[1, 2]", f"`nodes.ipynb` holds JSON, but no notebook. {AGAIN}"),
+    "JSON, but other data": (
+        b'{"name": "Alice", "worksheets": 5}',
+        "`nodes.ipynb` holds no cells; expected a notebook. "
+        "Hand in the notebook's own file, as it lies in JupyterLab.",
+    ),
+    "cut off in its first cell": (
+        WHOLE[:60],
+        f"`nodes.ipynb` is damaged from its beginning on; expected a notebook. {AGAIN}",
+    ),
+    "number without end": (
+        b'{"nbformat": ' + b"4" * 10_000 + b"}",
+        f"`nodes.ipynb` is damaged from its beginning on; expected a notebook. {AGAIN}",
+    ),
+    "tables without end": (
+        b'{"cells": ' + b"[" * 200_000,
+        f"`nodes.ipynb` holds tables in tables without end; expected a notebook. {AGAIN}",
+    ),
+    "too many cells": (
+        data({**solved(), "cells": [own("x")] * 50_000}),
+        f"`nodes.ipynb` has 50000 cells; at most {MOST_CELLS} can be marked. "
+        "Delete those that nobody needs and hand it in again.",
+    ),
+    "too much text": (
+        data({**solved(), "cells": [own("#" * LONGEST_TEXT)] * 6}),
+        "The cells of `nodes.ipynb` hold 6.0 million characters of text; at most 5 million can be marked. "
+        "Make them shorter.",
+    ),
+    "too many parts": (
+        b'{"cells": [' + b"{}," * MOST_PARTS,
+        "`nodes.ipynb` is made of 20 million parts; at most 10 million can be read. "
+        "Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again.",
+    ),
+    "no cells of ours": (
+        data({**solved(), "cells": [own("print('hello')")]}),
+        "Expected a notebook with this assignment's cells (`battery`, `battery-points`, `counter`, "
+        "`counter-points`, `heart` and 8 more), saw none of them. Hand in the notebook of this assignment.",
+    ),
+    "no cells at all": (
+        data({**solved(), "cells": []}),
+        "Expected a notebook with this assignment's cells (`battery`, `battery-points`, `counter`, "
+        "`counter-points`, `heart` and 8 more), saw none of them. Hand in the notebook of this assignment.",
+    ),
+}
+
+
+@pytest.mark.parametrize(("content", "words"), MENDED.values(), ids=MENDED)
+def test_a_damaged_file_is_read_as_well_as_possible_and_that_is_said(content, words):
+    result = rebuild(STARTER, read_notebook(content, "nodes.ipynb"))
+    assert (result.repairs, result.flags) == ([words], [])
+    assert same(result.notebook)
+
+
+@pytest.mark.parametrize(("content", "words"), REFUSED.values(), ids=REFUSED)
+def test_a_file_that_holds_no_notebook_gets_a_verdict(content, words):
+    with pytest.raises(Unusable) as caught:
+        rebuild(STARTER, read_notebook(content, "nodes.ipynb"))
+    assert str(caught.value) == words
+
+
+def test_a_file_that_breaks_off_is_marked_as_far_as_it_goes():
+    cut = WHOLE[: WHOLE.index(b"nodes.counter.grade")]
+    result = rebuild(STARTER, read_notebook(cut, "nodes.ipynb"))
+    assert [name for name, state in result.answers.items() if state == "answered"] == ["hello", "counter"]
+    assert result.repairs == [
+        "The notebook's file is damaged behind cell 12; what stands before was marked.",
+        "The answers `battery`, `heart`, `main`, `weather-module` and `weather-node` were missing; "
+        "empty cells took their places.",
+        "The test cells `counter-points`, `battery-points`, `heart-points`, `main-points` and "
+        "`weather-points` were missing; the instructor's own were run.",
+        "The cells `battery-see`, `heart-see`, `main-given`, `main-see` and `weather-see` were missing; "
+        "those that were handed out were run.",
+    ]
+
+
+def test_a_file_that_is_not_utf_8_is_read_as_latin_1():
+    notebook = read_notebook(LATIN.encode("latin-1"), "nodes.ipynb")
+    assert notebook.repairs == ["The notebook's file was not saved as UTF-8; it was read as Latin 1."]
+    assert any("# Grüße, \n" in cell.text for cell in notebook.cells)
+
+
+def test_a_few_damaged_characters_are_told_from_another_encoding():
+    notebook = read_notebook(GREEK.encode().replace("Ω".encode(), b"\xce"), "nodes.ipynb")
+    assert notebook.repairs == ["In the notebook's file 1 character was damaged; it was read as �."]
+    notebook = read_notebook(GREEK.encode().replace("Ω".encode(), b"\xce \xcf"), "nodes.ipynb")
+    assert notebook.repairs == ["In the notebook's file 2 characters were damaged; they were read as �."]
+    assert any("# Grüße, � �\n" in cell.text for cell in notebook.cells)
+
+
+def test_outputs_of_a_hundred_megabytes_are_no_matter():
+    notebook = solved()
+    cell(notebook, "hello")["outputs"] = [{"output_type": "stream", "name": "stdout", "text": "x" * 10**8}]
+    result = rebuild(STARTER, read_notebook(data(notebook), "nodes.ipynb"))
+    assert (result.repairs, result.flags) == ([], [])
+    assert same(result.notebook)
+
+
+def test_an_answer_of_a_megabyte_is_run():
+    assert LONGEST_SUM > LONGEST_TEXT == 10**6
+    notebook = solved()
+    cell(notebook, "hello")["source"] = "#" * LONGEST_TEXT
+    result = rebuild(STARTER, read_notebook(data(notebook), "nodes.ipynb"))
+    assert result.repairs == []
+    assert next(c.source for c in result.notebook.cells if c.id == "hello") == "#" * LONGEST_TEXT
+
+
+def test_merge_marks_in_a_students_text_are_text():
+    notebook = solved()
+    cell(notebook, "title")["source"] = "<<<<<<< HEAD\n=======\n>>>>>>> mine"
+    assert read_notebook(data(notebook), "nodes.ipynb").repairs == []

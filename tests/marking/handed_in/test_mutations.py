@@ -1,0 +1,11 @@
+import random
+
+import pytest
+
+from tests.marking.handed_in.mutations import VERDICTS, mutated, real, verdict
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_whatever_happens_to_a_submission_it_is_rebuilt_or_refused_in_words(seed):
+    release, honest = real(seed)
+    assert verdict(release, mutated(honest, random.Random(seed))) in VERDICTS

@@ -1,0 +1,35 @@
+"""What is as it should be stays as it is, and nothing is said about it."""
+
+import nbformat
+import pytest
+
+from grader.marking.handed_in.submission import load_release
+from grader.marking.release.samples import submission
+from tests.marking.handed_in.damage import ASSIGNMENTS, ROOT, rebuilt_folder, same
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_an_honest_submission_is_run_as_it_is_and_nothing_is_said(assignment, share, tmp_path):
+    release = load_release(ROOT / "exercises" / assignment)
+    for name, starter in release.notebooks.items():
+        solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
+        nbformat.write(honest := submission(solution, starter, share), tmp_path / f"{name}.ipynb")
+        rebuilt = rebuilt_folder(tmp_path, release)
+        assert (rebuilt.repairs, rebuilt.flags, rebuilt.missing) == ([], [], {})
+        assert same(rebuilt.notebooks[name].notebook, honest)
+        expected = {0.0: {"untouched"}, 0.5: {"untouched", "answered"}, 1.0: {"answered"}}
+        assert set(rebuilt.notebooks[name].answers.values()) == expected[share]
+
+
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assignment):
+    release = load_release(ROOT / "exercises" / assignment)
+    rebuilt = rebuilt_folder(ROOT / "solutions" / assignment, release)
+    # A cell of 01_nodes writes it, so it lies there where the solution was run.
+    beside = ["Handed in beside the notebook and not used: `my_weather.py`."]
+    written = (ROOT / "solutions" / assignment / "my_weather.py").exists()
+    assert (rebuilt.repairs, rebuilt.flags) == (beside if written else [], [])
+    for name, starter in release.notebooks.items():
+        solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
+        assert same(rebuilt.notebooks[name].notebook, submission(solution, starter, 1.0))

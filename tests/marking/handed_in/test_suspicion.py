@@ -1,0 +1,129 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from grader.marking.handed_in.suspicion import suspicions
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.mark.parametrize(
+    ("source", "what"),
+    [
+        ("import ctypes", "imports `ctypes`, which reaches into Python's memory"),
+        ("from socket import socket", "imports `socket`, which opens connections"),
+        ("import grader.checks", "imports `grader.checks`, which is inside the course's own machinery"),
+        (
+            "from sim.ros.engine.engine import Engine",
+            "imports `sim.ros.engine.engine`, which is inside the course's own machinery",
+        ),
+        ("import IPython", "imports `IPython`, which changes how cells are run and shown"),
+        ("import sys\nsys.modules['grader'] = 1", "uses `sys.modules`, which replaces modules"),
+        ("x = f.__globals__", "uses `f.__globals__`, which reaches into another function's module"),
+        (
+            "get_ipython().ast_transformers.append(x)",
+            "uses `get_ipython().ast_transformers`, which rewrites cells before they run",
+        ),
+        (
+            "get_ipython().events.register('pre_run_cell', f)",
+            "uses `get_ipython().events`, which runs code around every cell",
+        ),
+        ("import os\nos._exit(0)", "uses `os._exit`, which ends the process"),
+        ("import rclpy\nrclpy.spin = print", "replaces `rclpy.spin`, which is part of rclpy"),
+        (
+            "from grader.exercises import topics\ntopics.square.checks = ()",
+            "replaces `topics.square.checks`, which is part of grader",
+        ),
+        (
+            "from rclpy.node import Node\nsetattr(Node, 'x', 1)",
+            "replaces attributes of `Node`, which is part of rclpy",
+        ),
+        ("eval('1')", "calls `eval(...)`, which runs text as code"),
+        ("!ls", "runs a command of the system's shell, which starts processes"),
+        ("if x:\n    files = !ls\n%time x", "runs a command of the system's shell, which starts processes"),
+        ("%%bash\ncat .secret", "speaks of `.secret`"),
+        ("%pylab\nhelp?\n?gc\nx = %who\nimport pty", "imports `pty`, which starts processes"),
+        ("a" + ".b" * 400 + ".run_cell", "uses `....run_cell`, which changes how cells are run"),
+        ("from sim import run\nrun = 1", "takes the name `run`, which is part of sim"),
+        ("def __eq__(a, b):\n    return 1", "defines `__eq__`, which decides what it is equal to"),
+        ("open('/x/gradebook.db')", "speaks of `gradebook`"),
+        ("1" * 20_001, "has more than 20000 characters: nobody has looked through it"),
+    ],
+)
+def test_a_trick_is_named(source, what):
+    assert suspicions([("square", source)]) == [f"The cell `square` {what}."]
+
+
+@pytest.mark.parametrize("module", ["IPython.display", "IPython.core.display"])
+def test_to_show_something_is_no_trick(module):
+    assert suspicions([("a", f"from {module} import HTML\nHTML('<b>here</b>')")]) == []
+
+
+def test_a_trick_is_named_once_for_each_cell():
+    cells = [("a", "import gc\nimport gc"), ("b", "import gc")]
+    reason = "imports `gc`, which finds objects that it was not given"
+    assert suspicions(cells) == [f"The cell `a` {reason}.", f"The cell `b` {reason}."]
+
+
+@pytest.mark.parametrize("source", ["def broken(:", "\0", "(" * 5000, "-" * 19_000 + "1"])
+def test_what_is_no_python_is_nothing_suspicious(source):
+    assert suspicions([("a", source)]) == []
+
+
+def test_a_notebook_without_end_is_looked_through_from_its_beginning():
+    cells = [(f"a{number}", "import pty\n" + "a;" * 9_000) for number in range(1000)]
+    *found, last = suspicions(cells)
+    assert found == [f"The cell `a{n}` imports `pty`, which starts processes." for n in range(22)]
+    said = "and those before it have more than 400000 characters: nobody has looked further."
+    assert last == f"The cell `a22` {said}"
+
+
+@pytest.mark.parametrize("line", ["    %a", "a, b = !ls", "what?", " " * 9_000 + "what?"])
+def test_lines_of_ipython_take_no_more_time_than_others(line):
+    assert len(suspicions([("a", f"if 0:\n{line}\n" * (19_000 // len(line)))])) <= 1
+
+
+@pytest.mark.parametrize("folder", ["course", "solutions", "exercises"])
+def test_nothing_in_the_course_is_suspicious(folder):
+    for notebook in (ROOT / folder).glob("*/*.ipynb"):
+        cells = json.loads(notebook.read_text())["cells"]
+        assert suspicions((c["id"], "".join(c["source"])) for c in cells if c["cell_type"] == "code") == []
+
+
+def test_no_answer_of_the_score_tables_is_suspicious():
+    for folder in ("nodes", "topics", "services", "actions", "sensing", "navigator"):
+        for file in (ROOT / "tests" / "students" / folder).glob("*.py"):
+            assert suspicions([(file.stem, file.read_text())]) == []
+
+
+def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
+    setup = ("setup", "from grader.exercises import topics\nfrom sim import run")
+    silent = {
+        file.stem
+        for file in (ROOT / "tests" / "students" / "hostile").glob("*.py")
+        if not suspicions([setup, (file.stem, file.read_text())])
+    }
+    # They are honest mistakes as well, or what they do shows in another way.
+    assert silent == {
+        "asks_for_input",
+        "deep_page",
+        "deep_recursion",
+        "gets_stuck",
+        "outputs_without_end",
+        "disk_bomb",
+        "endless_loop",
+        "forgets_everything",
+        "hanging_node",
+        "huge_output",
+        "leftover_thread",
+        "memory_bomb",
+        "message_flood",
+        "nasty_class",
+        "nodes_without_end",
+        "print_flood",
+        "printed_score",
+        "shuts_rclpy_down",
+        "speaks_as_the_robot",
+        "thread_bomb",
+    }

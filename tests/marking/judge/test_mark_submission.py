@@ -1,0 +1,279 @@
+from dataclasses import replace
+
+import nbformat
+import pytest
+
+from grader import Exercise, check
+from grader.exercises import topics
+from grader.marking.errors import UnknownTest
+from grader.marking.judge.mark_submission import mark_submission, result_text
+from grader.marking.result import Result
+from tests.marking.assignment import GREETER, RIGHT, hand_in, release, task
+from tests.marking.student_processes import QUICK
+
+
+@pytest.fixture
+def marked(tmp_path, start_student, monkeypatch):
+    """Marks a submission with these answers."""
+    released = release(tmp_path / "02_two")
+
+    def do(secret: str = "", time_limits=QUICK, **answers: str) -> Result:
+        texts = {name.replace("_", "-"): text for name, text in answers.items()}
+        task = hand_in(tmp_path / "ann", released, texts)
+        result = mark_submission(task, secret, lambda: start_student(time_limits, begun=False).student)
+        return Result.from_json(result_text(result))
+
+    return do
+
+
+def points(result: Result) -> dict[str, float]:
+    return {cell.cell: cell.points for notebook in result.notebooks for cell in notebook.cells}
+
+
+def cell(result: Result, name: str) -> dict:
+    return next(cell for cell in result.notebooks[0].notebook["cells"] if cell["id"] == name)
+
+
+def text(result: Result, name: str) -> str:
+    return "".join(output.get("text", "") for output in cell(result, name)["outputs"])
+
+
+def test_right_answers_earn_everything(marked):
+    result = marked()
+    assert (result.reason, result.verdict, result.repairs, result.flags) == ("", "marked", [], [])
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert (result.student, result.assignment, result.key) == ("ann", "02_two", "0" * 64)
+
+
+def test_the_secret_gives_other_seeds_and_the_same_points(marked):
+    public, private = marked(), marked("a secret")
+    assert points(private) == points(public)
+    digests = [[cell.digests for cell in result.notebooks[0].cells] for result in (public, private)]
+    assert digests[0][1] != digests[1][1]
+
+
+def test_marking_again_gives_the_same_result(marked):
+    assert marked("a secret").grade_json() == marked("a secret").grade_json()
+
+
+def test_the_notebook_is_a_valid_one_with_counts_and_outputs(marked):
+    result = marked()
+    nbformat.validate(nbformat.from_dict(result.notebooks[0].notebook))
+    cells = result.notebooks[0].notebook["cells"]
+    assert [cell["execution_count"] for cell in cells] == [1, 2, 3, 4, 5, 6]
+    shown = cell(result, "greeting-points")["outputs"][-1]
+    assert shown["output_type"] == "execute_result"
+    assert shown["data"]["text/plain"] == "8"
+    assert "8 of 8 points" in shown["data"]["text/html"]
+
+
+def test_wrong_answers_earn_what_the_score_says(marked):
+    result = marked(greeting=GREETER.replace("0.5", "1.0"))
+    earned = points(result)
+    assert 0 < earned["greeting-points"] < 8
+    assert earned["temperature-points"] == 15
+    assert result.verdict == "marked"
+
+
+def test_what_an_unanswered_cell_earns_and_says(marked):
+    result = marked(greeting="Greeter = None")
+    assert points(result)["greeting-points"] == 0
+    shown = cell(result, "greeting-points")["outputs"][-1]["data"]["text/html"]
+    assert "This exercise is not started yet" in shown
+
+
+def test_a_name_that_is_missing_costs_its_own_exercise_only(marked):
+    result = marked(greeting="x = 1", greeting_see="print('seen')")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    outputs = cell(result, "greeting-points")["outputs"]
+    assert outputs[0]["traceback"][-1] == "NameError: name 'Greeter' is not defined"
+    assert outputs[1]["text"] == "No points: this cell ended before the nodes could be run.\n"
+    assert result.verdict == "marked"
+
+
+def test_an_error_in_another_cell_stops_nothing(marked):
+    result = marked(greeting_see="1 / 0")
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert cell(result, "greeting-see")["outputs"][0]["ename"] == "ZeroDivisionError"
+
+
+def test_an_endless_cell_is_interrupted_and_the_rest_is_marked(marked):
+    result = marked(greeting_see="while True: pass")
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert text(result, "greeting-see") == "This cell was interrupted: it took more than 1 s.\n"
+    assert result.verdict == "marked"
+
+
+def test_a_process_that_ends_keeps_what_was_earned_before(marked):
+    result = marked(temperature="import os\nprint('bye')\nos._exit(0)")
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
+    assert result.verdict == "stopped"
+    reason = "The notebook `two` stopped in its cell `temperature`. The process ended by itself."
+    assert result.reason == reason
+    assert text(result, "temperature") == (
+        "bye\nThe notebook stopped here. The process ended by itself. The cells below were not run.\n"
+    )
+    assert cell(result, "temperature-points")["outputs"] == []
+
+
+def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
+    dying = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "ctypes.string_at(0)")
+    dying = f"import ctypes\n{dying}"
+    result = marked(temperature=dying)
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
+    assert result.reason == (
+        "The notebook `two` stopped in its cell `temperature-points`. "
+        "The process crashed: Segmentation fault."
+    )
+
+
+def test_nodes_that_take_too_long_are_named_and_keep_what_was_earned_before(marked):
+    slow = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "float(sum(range(10**8)))")
+    result = marked(temperature=slow, time_limits=replace(QUICK, test=0.5))
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
+    assert result.reason == (
+        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 0.5 s."
+    )
+
+
+def test_a_cell_that_says_quit_stops_the_notebook(marked):
+    result = marked(greeting_see="quit()")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
+    assert result.reason.startswith("The notebook `two` stopped in its cell `greeting-points`.")
+
+
+TRICK = """
+import grader.exercise
+honest = grader.exercise.Exercise.grade
+def grade(self, *nodes):
+    {body}
+grader.exercise.Exercise.grade = grade
+"""
+
+
+@pytest.mark.parametrize(
+    ("body", "flags"),
+    [
+        ("return 8.0", []),
+        ("print('8.0')", []),
+        (
+            "return honest(topics.temperature, *nodes)",
+            ["handed its nodes to the exercise 'temperature' instead of 'greeting'"],
+        ),
+    ],
+)
+def test_who_replaces_grade_earns_nothing(marked, body, flags):
+    result = marked(greeting_see=TRICK.format(body=body))
+    assert points(result)["greeting-points"] == 0
+    found = [f"The test cell `greeting-points`: {flag}." for flag in flags]
+    assert [flag for flag in result.flags if flag in found] == found
+
+
+def test_who_grades_twice_in_a_cell_is_judged_by_the_first_time(marked):
+    bad = "type('Bad', (Node,), {'__init__': lambda self: Node.__init__(self, 'bad')})"
+    result = marked(greeting_see=TRICK.format(body=f"honest(self, {bad})\n    return honest(self, *nodes)"))
+    assert points(result)["greeting-points"] < 8
+    assert result.flags[-2] == (
+        "The test cell `greeting-points`: graded more than once in one cell; the first time was judged."
+    )
+
+
+def test_who_hands_over_nodes_without_end_is_flagged_a_few_times(marked):
+    body = "[honest(topics.temperature if n % 2 else self, *nodes) for n in range(1000)]"
+    result = marked(greeting_see=TRICK.format(body=body))
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert len(result.flags) < 10
+
+
+def test_a_thread_that_is_left_over_costs_nothing_and_is_flagged(marked):
+    thread = "import threading\ndef haunt():\n    while True: print('boo' * 1000)\n"
+    result = marked(greeting_see=f"{thread}threading.Thread(target=haunt, daemon=True).start()")
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert result.verdict == "marked"
+    assert result.flags == ["A thread of the notebook `two` still ran when its last cell was over."]
+
+
+def test_a_check_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch):
+    @check(points=8)
+    def greets(recording):
+        """The node greets."""
+        raise IndexError("list index out of range")
+
+    broken = replace(topics.greeting, checks=[greets])
+    monkeypatch.setattr("grader.exercises.topics.greeting", broken)
+    result = marked()
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    [first, second] = result.notebooks[0].cells
+    assert (first.needs_look, second.needs_look) == (True, False)
+    assert result.flags == [
+        "The test cell `greeting-points`: the check 'greets' broke: IndexError: list index out of range."
+    ]
+    shown = cell(result, "greeting-points")["outputs"][-1]["data"]["text/html"]
+    assert "Your instructor decides about its points." in shown
+    assert "IndexError" not in shown
+
+
+def test_a_judge_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch):
+    def judge(self, cast, secret):
+        raise IndexError("list index out of range")
+
+    monkeypatch.setattr(Exercise, "judge", judge)
+    result = marked()
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
+    assert all(cell.needs_look for cell in result.notebooks[0].cells)
+    assert result.flags[0] == (
+        "The test cell `greeting-points`: could not be judged, by a mistake of the course: "
+        "IndexError: list index out of range."
+    )
+    assert text(result, "greeting-points") == (
+        "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"
+    )
+
+
+def test_points_of_the_notebook_and_the_exercise_that_differ_are_flagged(marked, monkeypatch):
+    worth_more = replace(topics.greeting, checks=[*topics.greeting.checks, *topics.remapping.checks])
+    monkeypatch.setattr("grader.exercises.topics.greeting", worth_more)
+    result = marked()
+    [first, _] = result.notebooks[0].cells
+    assert (first.points, first.max, first.needs_look) == (8.0, 8.0, True)
+    assert result.flags[0] == (
+        "The test cell `greeting-points`: worth 8 points in the notebook and 20 in its exercise."
+    )
+
+
+def test_what_cant_be_read_is_refused(tmp_path, start_student, monkeypatch):
+    hand_in(tmp_path / "ann", release(tmp_path / "02_two"))
+    (tmp_path / "ann" / "two.ipynb").write_text("This is no notebook.")
+    result = mark_submission(task(tmp_path / "ann", tmp_path / "02_two"), "", start_student)
+    assert (result.verdict, result.notebooks) == ("refused", [])
+    assert "`two.ipynb`" in result.reason
+
+
+def test_an_assignment_with_other_tests_is_not_ours(tmp_path, start_student, monkeypatch):
+    released = release(tmp_path / "02_two")
+    notebook = nbformat.read(released / "two.ipynb", 4)
+    notebook.cells[3].source = "assert Greeter"
+    nbformat.write(notebook, released / "two.ipynb")
+    with pytest.raises(UnknownTest, match=r"^The test cell `greeting-points` can't be marked here"):
+        mark_submission(hand_in(tmp_path / "ann", released), "", start_student)
+
+
+def test_what_only_a_trick_needs_is_flagged_where_it_stands(marked):
+    result = marked(greeting_see="import os, gc\nrun(Greeter, seconds=1)")
+    assert result.flags == [
+        "The cell `greeting-see` imports `gc`, which finds objects that it was not given."
+    ]
+    assert result.points == 23
+
+
+def test_half_characters_of_a_student_reach_nobody(marked):
+    result = marked(greeting_see="print(chr(0xd83d))")
+    assert text(result, "greeting-see") == "?\n"
+    result.to_json().encode()
+
+
+def test_of_very_many_tricks_the_first_are_told(marked):
+    result = marked(greeting="".join(f"import grader.a{number}\n" for number in range(30)))
+    assert len(result.flags) == 21
+    assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
+    assert result.flags[-1] == "There are 10 more such things in it."

@@ -1,0 +1,110 @@
+import re
+from pathlib import Path
+
+import pytest
+from nbgrader.apps import NbGrader
+from nbgrader.validator import Validator
+from traitlets.config import Config
+
+from grader.marking.release.demo import Marked, main, mark_samples, table
+from grader.marking.release.make_exercises import copy_of_course
+from grader.marking.release.nbgrader_command import assignments
+from grader.marking.release.samples import SHARES
+from tests.marking.tiny import ROOT, course, grade, tiny
+
+
+@pytest.fixture(scope="module")
+def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
+    folder = tiny(tmp_path_factory.mktemp("class"))
+    return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny")}
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def configuration(monkeypatch, folder: Path) -> Config:
+    """The configuration as JupyterLab's Validate button reads it, in the folder where the server runs."""
+    monkeypatch.chdir(folder)
+    app = NbGrader()
+    app.load_config_file()
+    return app.config
+
+
+def earned(marked: Marked) -> list[float]:
+    return [points for points, _ in marked.points.values()]
+
+
+def text(page: Path) -> str:
+    return re.sub(r"<[^>]+>", "", page.read_text())
+
+
+def test_marks_are_full_for_right_part_for_half_right_and_none_for_the_starter(marked_course):
+    assert {student: earned(marked) for student, marked in marked_course[1].items()} == {
+        "right": [2, 3, 1], "half_right": [2, 3, 0], "wrong": [0, 0, 0],
+    }
+
+
+def test_what_a_test_cell_writes_to_stderr_costs_nothing_and_shows_in_the_feedback(marked_course):
+    right = marked_course[1]["right"]
+    assert right.points["test_warn"] == (1, 1)
+    assert "WARNING:root:from Python" in text(right.feedback)
+    assert "from C" in text(right.feedback)
+
+
+def test_everything_about_a_class_lies_in_the_ignored_folder(marked_course):
+    folder, _ = marked_course
+    assert names(folder) == {"class", "exercises", "nbgrader_config.py", "solutions"}
+    assert names(folder / "class") == {"autograded", "feedback", "gradebook.db", "submitted"}
+    assert "/class/\n" in (ROOT / ".gitignore").read_text()
+
+
+@pytest.mark.parametrize(("student", "failing"), [("right", 0), ("half_right", 1), ("wrong", 3)])
+def test_validate_agrees_with_the_marks(marked_course, monkeypatch, student, failing):
+    folder, _ = marked_course
+    notebook = folder / "class" / "submitted" / student / "01_tiny" / "tiny.ipynb"
+    result = Validator(config=configuration(monkeypatch, folder)).validate(str(notebook))
+    assert len(result.get("failed", [])) == failing
+
+
+def test_validate_waits_less_than_marking(tmp_path, monkeypatch):
+    folder = course(tmp_path, grade("test_loop", 1, "while True:\n    pass"))
+    config = configuration(monkeypatch, folder)
+    assert (config.Execute.timeout, config.Validator.Execute.timeout) == (60, 30)
+    config.Validator.Execute.timeout = 2
+    result = Validator(config=config).validate(str(folder / "solutions" / "01_tiny" / "tiny.ipynb"))
+    assert "No reply from kernel before timeout" in result["failed"][0]["raw_error"]
+
+
+def test_the_table_shows_points_per_exercise_and_the_pages():
+    marks = [
+        Marked("right", {"a": (2, 2), "long": (1.5, 1.5)}, Path("r.html")),
+        Marked("wrong", {"a": (0, 2), "long": (0.5, 1.5)}, Path("w.html")),
+    ]
+    assert table(marks) == (
+        "            right       wrong          of\n"
+        "a               2           0           2\n"
+        "long          1.5         0.5         1.5\n"
+        "total         3.5         0.5         3.5\n"
+        "\n"
+        "feedback for right: r.html\n"
+        "feedback for wrong: w.html"
+    )
+
+
+def test_the_demo_outside_a_course_says_where_to_go(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit):
+        main([])
+    expected = f"expected solutions/*/*.ipynb in {tmp_path}, saw none: go to the course's folder\n"
+    assert capsys.readouterr().err.endswith(expected)
+
+
+@pytest.mark.parametrize("assignment", assignments(ROOT)[:1])  # tests/exercises runs the others' notebooks
+def test_the_courses_own_solutions_earn_everything_and_its_starters_nothing(assignment, tmp_path):
+    marks = {marked.student: marked for marked in mark_samples(copy_of_course(ROOT, tmp_path), assignment)}
+    assert list(marks) == list(SHARES)
+    right, half, wrong = (earned(marked) for marked in marks.values())
+    assert right == [possible for _, possible in marks["right"].points.values()]
+    assert wrong == [0] * len(right)
+    assert 0 < sum(half) < sum(right)

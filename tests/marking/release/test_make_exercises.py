@@ -1,0 +1,106 @@
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from grader.marking.errors import CommandFailed
+from grader.marking.release.make_exercises import differences, main, release
+from grader.marking.release.nbgrader_command import assignments, nbgrader
+from grader.notebooks import normalise
+from tests.marking.tiny import ROOT
+
+HIDDEN = re.compile(r"^\s*### BEGIN (SOLUTION|HIDDEN TESTS)$(.*?)^\s*### END \1$", re.M | re.S)
+
+
+def lines(text: str) -> set[str]:
+    return {line.strip() for line in text.splitlines() if line.strip()}
+
+
+def code(notebook: Path) -> str:
+    return "\n".join(cell.source for cell in nbformat.read(notebook, 4).cells)
+
+
+def leaks(solution: Path, released: Path) -> set[str]:
+    """Lines that a student can read although they stand only between the marks of a solution."""
+    source = code(solution)
+    hidden = lines("\n".join(text for _, text in HIDDEN.findall(source)))
+    return (hidden - lines(HIDDEN.sub("", source))) & lines(code(released))
+
+
+def test_a_release_holds_the_questions_without_the_answers(tiny_course):
+    release(tiny_course)
+    solution, released = (tiny_course / top / "01_tiny" / "tiny.ipynb" for top in ("solutions", "exercises"))
+    assert "def double(x):\n    # YOUR CODE HERE\n    raise NotImplementedError()" in code(released)
+    assert leaks(solution, released) == set()
+    assert leaks(solution, solution) >= {"return x + x", "return x * 3"}
+
+
+def test_plain_nbgrader_releases_notebooks_in_the_one_form(tiny_course):
+    nbgrader(tiny_course, "generate_assignment", "01_tiny")
+    assert normalise([tiny_course / "exercises"], check=True) == []
+
+
+def test_a_release_made_twice_is_the_same(tiny_course):
+    release(tiny_course)
+    assert differences(tiny_course) == []
+
+
+def test_answer_files_stay_and_data_files_go_along(tiny_course):
+    solutions = tiny_course / "solutions" / "01_tiny"
+    for name in ("double_answer.py", "solution.txt", "answers.json", "my_module.py", ".secret", "map.toml"):
+        (solutions / name).write_text("x")
+    release(tiny_course)
+    files = {path.name for path in (tiny_course / "exercises").rglob("*") if path.is_file()}
+    assert files == {"tiny.ipynb", "map.toml"}
+
+
+def test_every_kind_of_difference_is_named(tiny_course, monkeypatch, capsys):
+    (tiny_course / "solutions" / "01_tiny" / "map.toml").write_text("x")
+    release(tiny_course)
+    exercises = tiny_course / "exercises" / "01_tiny"
+    (exercises / "tiny.ipynb").write_text("changed")
+    (exercises / "map.toml").unlink()
+    (exercises / "notes.txt").write_text("new")
+    monkeypatch.chdir(tiny_course)
+    assert main(["--check"]) == 1
+    assert capsys.readouterr().out == (
+        "exercises/01_tiny/map.toml is missing\n"
+        "exercises/01_tiny/notes.txt has no source in solutions/\n"
+        "exercises/01_tiny/tiny.ipynb is not what solutions/ gives now\n"
+        "Run `make exercises` and commit what it changes.\n"
+    )
+
+
+def test_an_assignment_without_a_source_goes(tiny_course):
+    stale = tiny_course / "exercises" / "00_old"
+    stale.mkdir(parents=True)
+    release(tiny_course)
+    assert not stale.exists()
+
+
+def test_a_failed_command_says_which_and_what_it_printed(tiny_course):
+    with pytest.raises(CommandFailed) as failed:
+        nbgrader(tiny_course, "autograde", "09_unknown")
+    first, *last = str(failed.value).splitlines()
+    assert first == f"`nbgrader autograde 09_unknown` failed in {tiny_course}:"
+    assert "No notebooks were matched" in last[-1]
+
+
+def test_a_release_that_fails_stops_with_what_nbgrader_said(tiny_course, monkeypatch, capsys):
+    (tiny_course / "solutions" / "01_tiny" / "tiny.ipynb").write_text("no notebook")
+    monkeypatch.chdir(tiny_course)
+    assert main([]) == 1
+    command = "nbgrader generate_assignment 01_tiny --force"
+    assert capsys.readouterr().err.startswith(f"`{command}` failed in {tiny_course}:\n    ")
+
+
+def test_the_exercises_of_the_course_are_what_its_solutions_give():
+    assert differences(ROOT) == []
+
+
+@pytest.mark.parametrize("assignment", assignments(ROOT))
+def test_no_answer_can_be_read_in_the_exercises(assignment):
+    for solution in (ROOT / "solutions" / assignment).glob("*.ipynb"):
+        assert leaks(solution, solution), f"{solution} marks no solution"
+        assert leaks(solution, ROOT / "exercises" / assignment / solution.name) == set()

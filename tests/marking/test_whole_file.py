@@ -1,0 +1,32 @@
+import os
+
+import pytest
+
+from grader.marking.whole_file import write_whole
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_file_takes_the_place_of_another(tmp_path):
+    target = tmp_path / "new" / "file.json"
+    write_whole(target, "first")
+    write_whole(target, b"second", mode=0o600)
+    assert target.read_bytes() == b"second"
+    assert os.stat(target).st_mode & 0o777 == 0o600
+    assert names(target.parent) == ["file.json"]
+
+
+def test_what_a_killed_writer_left_is_taken_over(tmp_path):
+    (tmp_path / ".file.json.part").write_text("torn")
+    write_whole(tmp_path / "file.json", "whole")
+    assert names(tmp_path) == ["file.json"]
+    assert (tmp_path / "file.json").read_text() == "whole"
+
+
+def test_where_it_fails_the_old_file_stays(tmp_path):
+    (tmp_path / "file.json").mkdir()
+    with pytest.raises(OSError, match="Is a directory"):
+        write_whole(tmp_path / "file.json", "new")
+    assert names(tmp_path) == ["file.json"]

@@ -1,0 +1,18 @@
+"""Tasks run in the order in which rclpy's executors run them."""
+
+import pytest
+
+from sim import run
+from tests.sim.ros.evidence import said
+from tests.students.engine import tasks
+
+pytestmark = pytest.mark.pythons
+
+
+def test_the_newest_task_runs_first():
+    recording = run(tasks.in_which_order, seconds=3, quiet=True)
+    order = ("third", "second", "first")
+    assert said(recording) == [
+        *((0.0, f"{name} begins") for name in order),
+        *((0.5, f"{name} goes on") for name in order),
+    ]

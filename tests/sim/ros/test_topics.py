@@ -1,0 +1,71 @@
+"""Messages are handed over inside a run as the middleware would carry them."""
+
+import pytest
+
+from sim import Recording, run
+from sim.ros.engine.topics import MIDDLEWARE
+from tests.sim.ros import all_worlds
+from tests.sim.ros.remote import observers
+from tests.sim.ros.remote.test_equal import ALONE, LOOKING, TOGETHER, evidence, found
+from tests.students.engine import topics
+
+PROGRAMS = [
+    *([found(module, name)] for module, names in ALONE.items() for name in names),
+    *([found(*one), found(*other)] for one, other in TOGETHER),
+    *([getattr(observers, one), getattr(observers, other)] for one, other in LOOKING),
+    [topics.EveryProfile],
+    [topics.ForgetsEnds],
+    [topics.SpeaksAfterItsEnd],
+]
+
+
+def said(recording: Recording) -> list[str]:
+    return [line.text for line in recording.logs]
+
+
+def late(lines: list[str], topic: str) -> list[str]:
+    """The words that a late listener got."""
+    begin = f"late on {topic}: "
+    return [line.removeprefix(begin).split(",")[0] for line in lines if line.startswith(begin)]
+
+
+@pytest.mark.parametrize("programs", PROGRAMS, ids=lambda them: "+".join(one.__name__ for one in them))
+def test_a_run_is_the_same_with_the_middleware_in_between(monkeypatch, programs):
+    inside = run(*programs, seconds=6, quiet=True)
+    monkeypatch.setenv(MIDDLEWARE, "1")
+    assert evidence(run(*programs, seconds=6, quiet=True)) == evidence(inside)
+
+
+def test_a_robot_is_the_same_with_the_middleware_in_between(monkeypatch):
+    world = all_worlds.World.load("room")
+    inside = all_worlds.in_use(world)
+    monkeypatch.setenv(MIDDLEWARE, "1")
+    assert evidence(all_worlds.in_use(world)) == evidence(inside)
+
+
+def test_late_listeners_get_what_is_latched_and_nobody_else_does():
+    lines = said(run(topics.EveryProfile, seconds=2, quiet=True))
+    assert late(lines, "chat_0") == ["word 2", "last word"]  # both latch, and two fit into the queue
+    assert late(lines, "chat_1") == ["last word"]
+    assert late(lines, "chat_8") == []  # they don't suit each other
+
+
+def test_what_a_publisher_has_latched_goes_with_it():
+    assert said(run(topics.ForgetsEnds, seconds=3, quiet=True)) == [
+        "of the one that goes",
+        "of the one that stays",
+        "of the one that stays",
+        "to nobody",
+    ]
+
+
+def test_bytes_that_are_no_message_reach_nobody():
+    recording = run(topics.Garbage, seconds=2.5, quiet=True)
+    assert said(recording) == ["a message", "a message"]
+    assert not recording.errors
+
+
+def test_a_destroyed_publisher_refuses_to_publish():
+    (error,) = run(topics.SpeaksAfterItsEnd, seconds=1, quiet=True).errors
+    assert error.type == "RCLError"
+    assert "Failed to publish: publisher pointer is invalid" in error.text

@@ -1,0 +1,110 @@
+"""Publishers and subscriptions of all kinds that do or don't hear each other."""
+
+from itertools import product
+
+from rclpy.node import Node
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_profile_best_available,
+    qos_profile_sensor_data,
+    qos_profile_system_default,
+)
+from std_msgs.msg import String
+
+KINDS = [
+    *(
+        QoSProfile(depth=2, reliability=reliability, durability=durability)
+        for reliability in (ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT)
+        for durability in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE)
+    ),
+    QoSProfile(history=HistoryPolicy.KEEP_ALL, durability=DurabilityPolicy.TRANSIENT_LOCAL),
+    qos_profile_system_default,
+    qos_profile_best_available,
+    qos_profile_sensor_data,
+]
+
+
+class EveryProfile(Node):
+    """Speaks with every QoS profile, and listens with every other one: from the start, and late."""
+
+    def __init__(self):
+        super().__init__("every_profile")
+        self.pairs = [(f"chat_{number}", *pair) for number, pair in enumerate(product(KINDS, KINDS))]
+        for topic, _, profile in self.pairs:
+            self.listen(topic, "early", profile)
+        self.outs = [self.create_publisher(String, topic, profile) for topic, profile, _ in self.pairs]
+        self.timer = self.create_timer(1.0, self.speak)
+
+    def listen(self, topic, who, profile):
+        def hear(message, information):
+            self.get_logger().info(f"{who} on {topic}: {message.data}, {information}")
+
+        self.create_subscription(String, topic, hear, profile)
+
+    def speak(self):
+        for out in self.outs:
+            for number in range(3):
+                out.publish(String(data=f"word {number}"))
+        for topic, _, profile in self.pairs:
+            self.listen(topic, "late", profile)
+        self.timer.cancel()
+        for out in self.outs:
+            out.publish(String(data="last word"))
+
+
+class ForgetsEnds(Node):
+    """Destroys a latched publisher before somebody comes who would hear it, and a subscription."""
+
+    def __init__(self):
+        super().__init__("forgets_ends")
+        self.latched = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.out = self.create_publisher(String, "chat", self.latched)
+        self.other = self.create_publisher(String, "chat", self.latched)
+        self.listener = self.create_subscription(String, "chat", self.hear, 10)
+        self.create_timer(0.5, self.step)
+        self.steps = 0
+
+    def hear(self, message):
+        self.get_logger().info(message.data)
+
+    def step(self):
+        self.steps += 1
+        if self.steps == 1:
+            self.out.publish(String(data="of the one that goes"))
+            self.other.publish(String(data="of the one that stays"))
+        elif self.steps == 2:
+            self.other.publish(String(data="to nobody"))
+            self.destroy_subscription(self.listener)
+            self.destroy_publisher(self.out)
+        elif self.steps == 3:
+            self.create_subscription(String, "chat", self.hear, self.latched)
+
+
+class Garbage(Node):
+    """Sends bytes that are no message, and then one that is."""
+
+    def __init__(self):
+        super().__init__("garbage")
+        self.out = self.create_publisher(String, "chat", 10)
+        self.create_subscription(String, "chat", self.hear, 10)
+        self.create_timer(1.0, self.speak)
+
+    def hear(self, message):
+        self.get_logger().info(message.data)
+
+    def speak(self):
+        self.out.publish(b"no message")
+        self.out.publish(String(data="a message"))
+
+
+class SpeaksAfterItsEnd(Node):
+    """Publishes with a publisher that it has destroyed."""
+
+    def __init__(self):
+        super().__init__("speaks_after_its_end")
+        out = self.create_publisher(String, "chat", 10)
+        self.destroy_publisher(out)
+        out.publish(String(data="too late"))
