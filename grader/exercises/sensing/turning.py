@@ -136,7 +136,7 @@ def does_not_drift(run: Recording, headings: Said) -> None:
         raise Missed(
             f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot stands",
             f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second",
-            _wrong_scale(run, headings) or _wrong_bias(run, headings) or BIAS,
+            _wrong_sum(run, headings),
             picture="topics",
         )
 
@@ -182,6 +182,14 @@ def _why_not_turned(run: Recording, headings: Said) -> str:
         return "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01."
     if abs(headings[-1][1]) < 2.0 and largest > 30.0:
         return "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up."
+    return _wrong_sum(run, headings)
+
+
+def _wrong_sum(run: Recording, headings: Said) -> str:
+    """Where something is added up, but not the turn: what is wrong with it, most likely."""
+    strange = next((said for _, said in headings if not math.isfinite(said)), None)
+    if strange is not None:
+        return f"{strange} is no heading: something was divided by zero, or a sum began with no number."
     return _wrong_scale(run, headings) or _wrong_bias(run, headings) or BIAS
 
 

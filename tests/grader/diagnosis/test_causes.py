@@ -112,7 +112,19 @@ def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):
     assert explain(run(*students, world=world, seconds=10, quiet=True)) == ""
 
 
+def namesakes():
+    return run(misfits.Listener, companions=[misfits.Talker, misfits.Listener], seconds=10, quiet=True)
+
+
+def test_a_name_that_one_of_ours_has_is_told():
+    assert explain(namesakes()) == (
+        "Two nodes are called /listener, yours and one that takes part in this exercise, and nobody can tell "
+        "them apart: give yours a name of its own, in super().__init__('...')."
+    )
+
+
 def test_every_diagnosis_is_earned_by_some_students():
     recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
+    recordings.append(namesakes())
     unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]
     assert unearned == []
