@@ -14,6 +14,7 @@ class Endpoint(NamedTuple):
     name: str  # resolved name, e.g. "/robot1/cmd_vel"
     type: str
     qos: dict[str, Any]  # reliability, durability, history, depth; {} for actions
+    ours: bool = False  # the program that made it is not the student's
 
 
 class TimerInfo(NamedTuple):

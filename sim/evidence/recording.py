@@ -153,7 +153,8 @@ class Recording:
         digest = hashlib.blake2b(digest_size=16)
         for heard in self.heard:
             digest.update(
-                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {len(heard.raw)} ".encode()
+                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
+                f"{len(heard.raw)} ".encode()
             )
             digest.update(heard.raw)
         for exchange in (*self.calls, *self.goals):

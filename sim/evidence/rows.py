@@ -18,6 +18,7 @@ class Heard(NamedTuple):
     type: str  # e.g. "std_msgs/msg/String"
     sender: str  # fully qualified name of the node, e.g. "/talker"
     raw: bytes
+    ours: bool = False  # the program that made the publisher is not the student's, whatever its node's name
 
     @property
     def message(self) -> Any:
@@ -32,6 +33,7 @@ class LogLine(NamedTuple):
     level: str  # DEBUG, INFO, WARN, ERROR or FATAL
     node: str  # logger name, e.g. "talker" or "robot1.talker"
     text: str
+    ours: bool = False  # the program that wrote it is not the student's
 
 
 class CallbackError(NamedTuple):

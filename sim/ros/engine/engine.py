@@ -172,7 +172,7 @@ class Engine(Scheduler):
         """Send a message to the subscriptions of its topic, and write it down."""
         raw = canonical(writer.type, raw)
         writer.send(raw)
-        self.recorder.message(writer.topic, writer.type, writer.sender, raw)
+        self.recorder.message(writer.topic, writer.type, writer.sender, raw, writer.ours)
 
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""

@@ -50,6 +50,7 @@ class Writer:
     """The end of a topic that a publisher is.
 
     node and handle: what rclpy has below its classes for the node and the publisher. sender: the node's name.
+    ours: the program that made it is not the student's.
     context: of the program that has it.
     """
 
@@ -64,8 +65,10 @@ class Writer:
         topic: str,
         profile: QoSProfile,
         sender: str,
+        ours: bool = False,
     ) -> None:
-        self.engine, self.handle, self.topic, self.sender = engine, handle, topic, sender
+        self.engine, self.handle, self.topic = engine, handle, topic
+        self.sender, self.ours = sender, ours
         self.type = type_name(type_)
         found = _rclpy.rclpy_get_publishers_info_by_topic
         self.profile = settled(profile, lambda: found(node, topic, False))

@@ -90,12 +90,16 @@ class Recorder:
         name = self._names[id(node)] = node.get_fully_qualified_name()
         if not self.open:
             return
+        self.named(name, ours=self.is_ours())
+
+    def named(self, name: str, *, ours: bool) -> None:
+        """There is a node of this full name, of a program that is ours or the student's."""
         self.recording.graph.nodes.append(name)
-        (self._ours if self._is_ours() else self._theirs).add(name)
+        (self._ours if ours else self._theirs).add(name)
         self.recording.ours = self._ours - self._theirs
         self.recording.shared = self._ours & self._theirs
 
-    def _is_ours(self) -> bool:
+    def is_ours(self) -> bool:
         """Whether a program that is not the student's is at work."""
         fiber = self.scheduler.current
         return fiber is not None and fiber.process.ours
@@ -110,7 +114,7 @@ class Recorder:
         if handle is not None:
             self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
         if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
-            end = Endpoint(kind, of, name, type_name(type_), _qos(qos))
+            end = Endpoint(kind, of, name, type_name(type_), _qos(qos), self.is_ours())
             self.recording.graph.endpoints.append(end)
 
     def timer(self, node: Any, timer: Any) -> None:
@@ -143,18 +147,18 @@ class Recorder:
                 f"the nodes sent more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
 
-    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+    def message(self, topic: str, type_: str, sender: str, raw: bytes, ours: bool) -> None:
         """A message was published; its bytes are canonical. Raises Livelock for too many."""
         if not self.open:
             return
         self.count(sender, len(raw))
-        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""
         if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
             return None
-        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text)
+        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_ours())
         self.recording.logs.append(line)
         return line
 
@@ -197,7 +201,7 @@ class Recorder:
             self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
         )
         self.recording.errors.append(kept)
-        if self._is_ours():
+        if self.is_ours():
             self.recording.failures.append(kept)
 
     def close(self) -> None:

@@ -31,7 +31,7 @@ class Claims:
     def believe(self, claims: dict[str, Any]) -> None:
         """Write down what came in one message, by kind. Raises Nonsense for what can't be."""
         for (name,) in self._claimed(claims, "nodes", 0):
-            self._recording.graph.nodes.append(self._node(name))
+            self._engine.recorder.named(self._node(name), ours=False)
         for node, period, callback in self._claimed(claims, "timers", 3):
             seconds = number(period, "a timer's period", 0, MOST_PERIOD)
             timer = TimerInfo(self._node(node), seconds, self._name(callback))

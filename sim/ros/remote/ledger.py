@@ -98,8 +98,9 @@ class Ledger(Link):
         service, type_ = text(event.service, "a service", MOST_NAME), type_name(cls)
         self.engine.recorder.count(text(event.client, "a node's name", MOST_NAME), len(raw))
         raw = canonical(f"{type_}_Request", raw)
-        client, stamp = self._caller(event.client, service, type_, raw)
-        call = Call(service, type_, client, raw, stamp if event.asked else None, lost=bool(event.lost))
+        client, stamp, ours = self._caller(event.client, service, type_, raw)
+        asked = stamp if event.asked else None
+        call = Call(service, type_, client, raw, asked, lost=bool(event.lost), asked_by_us=ours)
         self._calls[self._fresh(event.key, self._calls)] = call
         self.recording.calls.append(call)
 
@@ -193,18 +194,18 @@ class Ledger(Link):
             raise Nonsense(f"news of the node {name!r}, which it does not have")
         return name
 
-    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None]:
-        """Who made a call, and when: a node of the other side, nobody that is known, or one of ours.
+    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None, bool]:
+        """Who made a call, when, and whether it was one of ours: else a node of the other side, or nobody.
 
         One of ours has to have made it: where two servers took that, there are two calls.
         """
         name = self._node(name)
         if not name or name in self.puppets.names:
-            return name, self._now
+            return name, self._now, False
         for it in reversed(self.recording.calls):
             if (it.client, it.service, it.type, it.raw_request) == (name, service, type_, raw):
-                return name, it.asked
-        return self._theirs(name), self._now
+                return name, it.asked, it.asked_by_us
+        return self._theirs(name), self._now, False
 
     def _fresh(self, key: Any, known: dict[int, Any]) -> int:
         if whole(key, "a key") % 2 == 0 or key in known:
