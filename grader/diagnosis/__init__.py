@@ -33,6 +33,7 @@ GUESSES = (services.answer_dropped, activity.ended_early)
 # What no check need ask for.
 FLAWS = (
     activity.busy_listener,
+    activity.busy_loop,
     driving.refused_command,
     driving.two_drivers,
     driving.rare_commands,

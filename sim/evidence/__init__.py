@@ -21,6 +21,7 @@ from sim.evidence.graph import Endpoint, Graph, TimerInfo
 from sim.evidence.recording import Recording
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
@@ -39,6 +40,7 @@ __all__ = [
     "INFRASTRUCTURE_TOPICS",
     "REJECTED",
     "STATUSES",
+    "BusyLoop",
     "Call",
     "CallbackError",
     "CallbackRun",

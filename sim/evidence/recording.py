@@ -17,6 +17,7 @@ from sim.evidence.graph import Graph
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
     STILL_RUNNING,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
@@ -49,6 +50,7 @@ class Recording:
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)
+    busy_loops: list[BusyLoop] = field(default_factory=list)
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
@@ -85,6 +87,7 @@ class Recording:
             logs=stamped(self.logs),
             errors=stamped(self.errors),
             callbacks=stamped(self.callbacks),
+            busy_loops=stamped(self.busy_loops),
             prints=stamped(self.prints),
         )
 

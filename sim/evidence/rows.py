@@ -62,6 +62,14 @@ class CallbackRun(NamedTuple):
     kind: str  # timer, subscription, service, client, action or task
 
 
+class BusyLoop(NamedTuple):
+    """A loop of a student's that goes on without a pause: it works, and keeps a processor's core busy."""
+
+    stamp: Seconds  # when it was first noticed
+    node: str
+    place: str  # the callback, thread or main(), and its line
+
+
 class Pose(NamedTuple):
     """Where the robot really was (ground truth, map frame)."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any, Protocol
@@ -26,6 +27,7 @@ from sim.ros.fibers.scheduler import Scheduler, activate
 from sim.ros.messages.cdr import canonical
 from sim.ros.recorder.recorder import Recorder
 from sim.ros.recorder.running import Running
+from sim.ros.recorder.tracebacks import student_line
 
 INTERRUPTED = "The user interrupted the run."
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
@@ -179,18 +181,30 @@ class Engine(Scheduler):
         if not self._unheard:
             self.echo(text)
             self.recorder.printed(text)
+            self._said(text)
 
     def complained(self, text: str) -> None:
         """Student code wrote to stderr."""
         if not self._unheard:
             self.echo(text)
             self.recorder.complained(text)
+            self._said(text)
 
     def logged(self, severity: Any, logger: str, text: str) -> None:
         """A node wrote a log line."""
         line = self.recorder.log(severity, logger, text)
         if line is not None:
             self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
+        self._said("\n")
+
+    def _said(self, text: str) -> None:
+        lines = text.count("\n")
+        if lines:
+            self.called("lines", lines)
+
+    def loops_busily(self) -> None:
+        """As `Scheduler`; it is written down."""
+        self.recorder.busy_loop(self.current, student_line(sys._getframe()))
 
     def describe(self, fiber: Fiber) -> str:
         """Which callback of which node a fiber is in, for a message."""

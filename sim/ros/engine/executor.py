@@ -87,7 +87,11 @@ class Plan:
             while not self._over(done, parallel):
                 if self.running:
                     self._collect()
-                if self._run_one(parallel) or (until is not None and engine.now >= until):
+                if self._run_one(parallel):
+                    return
+                if until is not None and engine.now >= until:
+                    if timeout == 0:
+                        engine.called("empty spins")
                     return
                 ready = None if done is never else done
                 engine.wait("spin()", ready=ready, until=until, spinning=self)

@@ -86,6 +86,7 @@ class StudentProcess:
         self.context: Context | None = None
         self.executor: Any = None
         self.nodes: list[Node] = []
+        self.steps = 0  # as in `Program`
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None

@@ -92,6 +92,7 @@ def publish(original: Callable) -> Callable:
         if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
         run.publish(writer, raw)
+        run.called("messages")
         return None
 
     return publish

@@ -9,6 +9,7 @@ from rclpy.executors import ExternalShutdownException
 
 from sim.evidence import (
     INFRASTRUCTURE_TOPICS,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Endpoint,
@@ -20,6 +21,7 @@ from sim.evidence import (
 )
 from sim.nanoseconds import SECOND
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
+from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import Calls
@@ -70,6 +72,7 @@ class Recorder:
         self._theirs: set[str] = set()  # and of those that are
         self._printed = self._bytes = self._all = 0
         self._known: list[BaseException] = []
+        self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
         self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
     @property
@@ -186,6 +189,16 @@ class Recorder:
         """An exception left a callback, a thread or a main(). The same one is kept once."""
         if not isinstance(error, NO_FAULT):
             self._keep(error, callback, node)
+
+    def busy_loop(self, fiber: Fiber, line: str) -> None:
+        """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""
+        if not self.open or fiber.process.ours:
+            return
+        running = fiber.callbacks[-1] if fiber.callbacks else None
+        node, what = (running.node, running.name) if running else (self.name_of(None), f"{fiber.name}()")
+        if (node, what) not in self._busy:
+            self._busy.add((node, what))
+            self.recording.busy_loops.append(BusyLoop(self.now, node, f"{what}{line}"))
 
     def exited(self, exit_: SystemExit, program: str) -> None:
         """A program ended itself; as for a shell, every status but 0 says that it failed."""

@@ -119,6 +119,7 @@ class Reports(Link):
             "timers": News(graph.timers),
             "logs": News(recording.logs),
             "prints": News(recording.prints),
+            "busy_loops": News(recording.busy_loops),
             "errors": News(recording.errors),
             "callbacks": News(recording.callbacks),
         }
@@ -195,7 +196,7 @@ class Reports(Link):
     def claims(self) -> dict[str, list[Any]]:
         """What the nodes say of themselves, since the last time; no word where there is nothing."""
         new = {kind: news.take() for kind, news in self._claims.items()}
-        for kind in ("logs", "prints", "errors"):
+        for kind in ("logs", "prints", "errors", "busy_loops"):
             new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
         new["prints"] = [piece for (piece,) in new["prints"]]
         if len(new["prints"]) > MOST_PIECES:  # a loop that prints without end

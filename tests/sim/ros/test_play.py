@@ -197,7 +197,7 @@ def test_it_ends_as_run_does(program, monkeypatch):
     assert (played.ended, played.digest) == (usual.ended, usual.digest)
 
 
-@pytest.mark.parametrize("program", [hangs.Loop, hangs.LoopInThread, hangs.LoopThatSwallows, hangs.Sleep])
+@pytest.mark.parametrize("program", [hangs.Loop, hangs.LoopThatSwallows, hangs.Sleep])
 def test_a_hang_ends_it(program, monkeypatch):
     from sim.ros.engine import guard
 

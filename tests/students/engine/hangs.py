@@ -57,15 +57,6 @@ class LoopInMain:
             pass
 
 
-class LoopInThread(Hanging):
-    def tick(self):
-        threading.Thread(target=self.work).start()
-
-    def work(self):
-        while True:
-            pass
-
-
 class LoopInInit(Node):
     def __init__(self):
         super().__init__("hanging")
@@ -83,12 +74,6 @@ class LoopWithLog(Hanging):
     def tick(self):
         while True:
             self.get_logger().info("still here")
-
-
-class LoopWithPublish(Hanging):
-    def tick(self):
-        while True:
-            self.publisher.publish(Int32())
 
 
 class Recursion(Hanging):
@@ -197,17 +182,6 @@ class ZeroTimer(Hanging):
 
     def tick(self):
         self.create_timer(0.0, lambda: None)
-
-
-class SpinsWithoutWaiting:
-    """A spin_once() loop that never lets time go on."""
-
-    @staticmethod
-    def main():
-        rclpy.init()
-        node = Node("hanging")
-        while True:
-            rclpy.spin_once(node, timeout_sec=0)
 
 
 class Allocates(Hanging):
