@@ -57,7 +57,7 @@ class RemoteCast:
         if answer is None:
             return None
         if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
-            raise RemoteLost("The process with the nodes did not say whether they can be run.")
+            raise RemoteLost("The process with the nodes did not say whether they can be run.", lives=True)
         return unusable(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:

@@ -81,6 +81,8 @@ class NotebookRun:
         self._flag(cell, tested.flags)
         if tested.error is not None:
             return self._course_mistake(cell, tested.error)
+        if tested.problem:
+            return self._not_judged(cell, tested.problem, shown)
         if tested.score is None:
             self._results.append(no_points(cell, exercise))
             shown.say("No points: this cell ended before the nodes could be run.")
@@ -102,6 +104,13 @@ class NotebookRun:
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
         words = "This cell could not be judged, by a mistake of the course. Your instructor will look at it."
         return [{"output_type": "stream", "name": "stdout", "text": words + "\n"}]
+
+    def _not_judged(self, cell: NotebookNode, problem: str, shown: CellOutputs) -> list[dict[str, Any]]:
+        """The student's process could not serve the nodes, and goes on: the cells below are run."""
+        self._flag(cell, [f"not judged, and worth a look. {problem.rstrip('.')}"])
+        self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
+        shown.say(f"No points: this could not be judged. {problem} Your instructor will look at it.")
+        return shown.list
 
     def _flag(self, cell: NotebookNode, problems: Sequence[str]) -> None:
         name = f"The test cell {quote(cell_name(cell))}"

@@ -8,6 +8,8 @@ from grader.exercises import topics
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.result import Result
+from sim.ros.remote.events import Message
+from sim.ros.remote.ledger import Ledger
 from tests.marking.assignment import GREETER, RIGHT, hand_in, release, task
 from tests.marking.student_processes import QUICK
 
@@ -277,3 +279,96 @@ def test_of_very_many_tricks_the_first_are_told(marked):
     assert len(result.flags) == 21
     assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
     assert result.flags[-1] == "There are 10 more such things in it."
+
+
+# -- the process lives, and could not serve its nodes ---------------------------------------------------
+
+NO_DESCRIPTORS = """
+import os, resource
+resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))
+kept = []
+try:
+    while True:
+        kept.append(open(os.devnull))
+except OSError:
+    pass
+"""
+
+
+def test_a_notebook_without_file_descriptors_goes_on(marked):
+    freed = f"[file.close() for file in kept]\n{RIGHT['temperature']}"
+    result = marked(greeting=GREETER + NO_DESCRIPTORS, temperature=freed)
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, False]
+    why = "The nodes could not be run: OSError: Too many open files"
+    assert (result.verdict, result.reason) == ("marked", "")
+    assert result.flags == [
+        f"The test cell `greeting-points`: not judged, and worth a look. {why}.",
+    ]
+    assert text(result, "greeting-points") == (
+        f"No points: this could not be judged. {why}. Your instructor will look at it.\n"
+    )
+
+
+def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked, monkeypatch):
+    def fails(*_):
+        raise RuntimeError("an end that is gone")
+
+    monkeypatch.setattr(Ledger, "_message", fails)
+    monkeypatch.setitem(Ledger.HANDLERS, Message, fails)
+    result = marked()
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
+    assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
+    said = "could not be judged, by a mistake of the course: RuntimeError: an end that is gone."
+    assert result.flags == [f"The test cell `{name}`: {said}" for name in points(result)]
+    assert result.verdict == "marked"
+    assert text(result, "greeting-points") == (
+        "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"
+    )
+
+
+def test_who_sends_nonsense_loses_that_exercise(marked):
+    forging = f"""
+from sim.ros.remote.reports import Reports
+honest = Reports.take_news
+Reports.take_news = lambda self: [["dance"]]
+{GREETER}"""
+    honest = f"Reports.take_news = honest\n{RIGHT['temperature']}"
+    result = marked(greeting=forging, temperature=honest, greeting_see="")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert result.flags[-1] == (
+        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The process with the nodes sent an event of no known kind."
+    )
+
+
+def test_a_run_that_ends_over_there_before_its_time_is_named(marked):
+    leaving = f"""
+from sim.ros.remote.serving import Follower
+honest = Follower._rounds
+def _rounds(self, link):
+    raise KeyboardInterrupt("past the node")
+Follower._rounds = _rounds
+{GREETER}"""
+    honest = f"Follower._rounds = honest\n{RIGHT['temperature']}"
+    result = marked(greeting=leaving, temperature=honest, greeting_see="")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert result.flags[-1] == (
+        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The nodes could not be run: KeyboardInterrupt: past the node."
+    )
+
+
+def test_a_side_thread_that_crashes_at_once_is_named_and_costs_nothing_that_went_out(marked):
+    crashing = f"""
+import threading
+{GREETER}
+        threading.Thread(target=self.watch).start()
+
+    def watch(self):
+        raise ValueError("nobody listens")
+"""
+    result = marked(greeting=crashing)
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    named = result.notebooks[0].cells[0].verdicts[0]
+    assert named["saw"] == "ValueError: nobody listens (in thread Greeter.watch, line 11, at 0 s)"

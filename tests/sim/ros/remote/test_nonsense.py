@@ -216,7 +216,7 @@ def test_a_claim_that_can_t_be_ends_the_run(claimed, words):
 @pytest.mark.parametrize(
     ("answer", "words"),
     [
-        ({}, "events that are no list"),
+        (QUIET | {"news": None}, "events that are no list"),
         (QUIET | {"next": 0}, "a next moment that is no whole number from 1 to 1000000000"),
         (QUIET | {"next": END + 1}, "a next moment that is no whole number from 1 to 1000000000"),
         (QUIET | {"next": None}, "a next moment that is no whole number from 1 to 1000000000"),
@@ -228,6 +228,13 @@ def test_a_claim_that_can_t_be_ends_the_run(claimed, words):
 )
 def test_an_answer_that_can_t_be_ends_the_run(answer, words):
     assert loses(answer) == sent(words)
+
+
+def test_a_run_that_is_left_over_there_is_named_as_that():
+    assert loses(QUIET | {"next": END // 2}, {"done": True, "threads": False}) == (
+        "The process with the nodes left the run at 0.5 s, before its end: "
+        "something in them ended what was to serve them."
+    )
 
 
 def test_a_moment_that_has_passed_can_t_come_again():
