@@ -94,18 +94,15 @@ class RealTimeRun:
 
     def teleop(self) -> Callable[[float, float], None]:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
-        from geometry_msgs.msg import Twist
-
         from sim.ros.play.teleop import SPEED, TURN
+        from sim.ros.robots.velocity import VelocityPublisher
 
         node = Node("teleop")
-        publisher = node.create_publisher(Twist, "cmd_vel", 10)
+        velocity = VelocityPublisher(node, self.scene.world.robot.stamped)
         self.add(node)
 
         def drive(forward: float, left: float) -> None:
-            command = Twist()
-            command.linear.x, command.angular.z = forward * SPEED, left * TURN
-            publisher.publish(command)
+            velocity.send(forward * SPEED, left * TURN)
 
         return drive
 

@@ -241,10 +241,10 @@ class Player:
         engine = self._session.engine
         self._held_at, engine.held = self._pace.clock(), (forward, left)
         begun = engine.switches > 0  # before, nobody's Teleop is there yet
-        nodes = [node for process in engine.processes for node in process.nodes]
+        nodes = (node for process in engine.processes for node in process.nodes)
         there = self._drives or any(isinstance(node, Teleop) for node in nodes)
-        bodies = self.recording.world.bodies if self.recording.world is not None else ()
-        robot = any(body.name == "robot" for body in bodies)
+        world = self.recording.world
+        robot = world is not None and any(body.name == "robot" for body in world.bodies)
         if (forward or left) and begun and robot and not there:
-            self._drives = True
-            self._context.run(self._session.start, Process(Teleop))
+            self._drives, stamped = True, world.robot.stamped
+            self._context.run(self._session.start, Process(Teleop, parameters={"stamped": stamped}))

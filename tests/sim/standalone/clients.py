@@ -6,7 +6,7 @@ import sys
 import time
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
@@ -45,17 +45,18 @@ def listen(seconds):
     }))  # fmt: skip
 
 
-def command(seconds, v, w, period):
+def command(seconds, v, w, period, kind=Twist):
     node = node_of("commander")
-    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+    publisher = node.create_publisher(kind, "cmd_vel", 10)
     twist = Twist()
     twist.linear.x, twist.angular.z = v, w
+    message = twist if kind is Twist else TwistStamped(twist=twist)
     end = time.time() + 30
     while not publisher.get_subscription_count() and time.time() < end:  # until they have found each other
         time.sleep(0.1)
     sent, end = 0, time.time() + seconds
     while time.time() < end:
-        publisher.publish(twist)
+        publisher.publish(message)
         sent += 1
         time.sleep(period)
     print(json.dumps({"sent": sent}))
@@ -63,6 +64,10 @@ def command(seconds, v, w, period):
 
 def drive(seconds):
     command(seconds, 0.5, 0.0, 0.1)
+
+
+def drive_stamped(seconds):
+    command(seconds, 0.5, 0.0, 0.1, TwistStamped)
 
 
 def flood(seconds):

@@ -118,6 +118,17 @@ def test_other_robots_and_machines_stand_alone_too():
         assert running.stop() == (0, "")
 
 
+def test_where_the_world_says_so_it_takes_stamped_commands(tmp_path):
+    world = tmp_path / "stamped.toml"
+    text = (REPOSITORY / "sim/world/worlds/yard.toml").read_text(encoding="utf-8")
+    world.write_text(text.replace("[card]", "[robot]\nstamped = true\n[card]"), encoding="utf-8")
+    with robot("--headless", "--world", str(world)) as running:
+        assert "  takes /cmd_vel  [geometry_msgs/msg/TwistStamped]\n" in running.offer
+        finish(running.client("drive_stamped", 2))
+        assert running.listen()["x"] > 0.3
+        assert running.stop() == (0, "")
+
+
 def test_a_world_may_be_made_from_a_seed():
     with robot("--world", "maze", "--world-seed", "7", "--headless") as running:
         assert running.offer.startswith("World 'maze_7' in real time, ROS domain ")
