@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from grader.admission import refusal, unusable
+from grader.admission import not_run, refusal, unusable
 from grader.diagnosis.fault import Fault
 from sim.ros.remote import Remote, RemoteLost
 
@@ -33,7 +33,7 @@ class LocalCast:
 
     def refusal(self) -> Fault | None:
         """As Cast."""
-        return refusal(self._nodes)
+        return not_run(self._nodes) or refusal(self._nodes)
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""

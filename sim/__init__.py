@@ -4,6 +4,7 @@ from sim import environment
 
 environment.prepare()
 
+from sim import notebook  # noqa: E402
 from sim.evidence import Recording  # noqa: E402
 from sim.play import play, replay  # noqa: E402
 from sim.ros.engine.program import Process  # noqa: E402
@@ -13,6 +14,7 @@ from sim.ros.run import run  # noqa: E402
 from sim.world import World  # noqa: E402
 
 Recording.player = replay
+notebook.watch()
 install()  # last: what the engine itself has bound are the real clocks
 
 __all__ = ["Process", "Recording", "Teleop", "World", "play", "run"]
