@@ -2,9 +2,14 @@
 import os
 from pathlib import Path
 
+from grader import workplace
+
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
-c.ServerApp.root_dir = str(Path(__file__).parents[1])
+COURSE = Path(__file__).parents[1]
+for sentence in workplace.lay_out(COURSE):
+    print(sentence)
+c.ServerApp.root_dir = str(COURSE / workplace.FOLDER)
 c.LabApp.default_url = "/lab/tree/course/00_robot/lesson.ipynb"
 # In a container root is the ordinary user; elsewhere nobody starts Jupyter as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0

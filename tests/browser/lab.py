@@ -93,7 +93,9 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     address = f"http://127.0.0.1:{port}"
-    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token=", *more]
+    # Tests write notebooks beside the course's; students see copies, in work/.
+    root = f"--ServerApp.root_dir={folder}"
+    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token=", root, *more]
     options.append("--LabApp.expose_app_in_browser=True")  # for Lab.run_all and Lab.has_command
     home = folder / "home"  # Lab keeps a student's layout and settings there
     home.mkdir(exist_ok=True)

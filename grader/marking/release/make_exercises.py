@@ -7,6 +7,7 @@ import argparse
 import shutil
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from grader.marking.errors import CommandFailed
@@ -22,12 +23,20 @@ def tidy(assignment: str, **_: object) -> None:
     normalise([Path("exercises", assignment)])
 
 
-def release(course: Path) -> None:
+def say(line: str) -> None:
+    """Print a line at once, wherever it goes."""
+    print(line, flush=True)
+
+
+def release(course: Path, told: Callable[[str], None] = lambda line: None) -> None:
     """Make course/exercises from course/solutions, and enter the assignments into the gradebook.
 
-    Whatever lies in exercises/ is replaced. Raises CommandFailed.
+    Whatever lies in exercises/ is replaced. told: called with a line at the begin of each assignment.
+    Raises CommandFailed.
     """
-    for assignment in assignments(course):
+    names = assignments(course)
+    for number, assignment in enumerate(names, 1):
+        told(f"{number} of {len(names)}: exercises/{assignment}")
         nbgrader(course, "generate_assignment", assignment, "--force")
     for folder in (course / "exercises").glob("*"):
         if folder.name not in assignments(course):
@@ -77,7 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 on a difference")
     check = parser.parse_args(arguments).check
     try:
-        found = differences(Path.cwd()) if check else release(Path.cwd())
+        found = differences(Path.cwd()) if check else release(Path.cwd(), say)
     except CommandFailed as error:
         print(error, file=sys.stderr)
         return 1

@@ -12,11 +12,13 @@ from grader.marking.release.nbgrader_command import assignments
 from grader.marking.release.samples import SHARES
 from tests.marking.tiny import ROOT, course, grade, tiny
 
+STEPS: list[str] = []
+
 
 @pytest.fixture(scope="module")
 def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
     folder = tiny(tmp_path_factory.mktemp("class"))
-    return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny")}
+    return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny", STEPS.append)}
 
 
 def names(folder: Path) -> set[str]:
@@ -43,6 +45,14 @@ def test_marks_are_full_for_right_part_for_half_right_and_none_for_the_starter(m
     assert {student: earned(marked) for student, marked in marked_course[1].items()} == {
         "right": [2, 3, 1], "half_right": [2, 3, 0], "wrong": [0, 0, 0],
     }
+
+
+def test_each_step_is_told(marked_course):
+    assert STEPS == [
+        "1 of 1: exercises/01_tiny",
+        "Running the notebooks of right, half_right, wrong ...",
+        "Writing their pages of feedback ...",
+    ]
 
 
 def test_what_a_test_cell_writes_to_stderr_costs_nothing_and_shows_in_the_feedback(marked_course):
