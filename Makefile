@@ -55,13 +55,13 @@ setup: $(VENV)/.interfaces  ## make .venv and nothing more
 
 tools: setup $(VENV)/.tools  ## and what tests, lint and several machines need on top
 $(VENV)/.tools: .ci/tools.lock $(VENV)/.requirements
-	@.ci/setup $(VENV) .ci/tools.lock
+	@sh .ci/setup $(VENV) .ci/tools.lock
 	@touch $@
 
 SOURCES = pyproject.toml .ci/setup $(wildcard $(addprefix sim/world/rays/,*.py *.c *.toml))
 
 $(VENV)/.requirements: requirements.lock $(SOURCES)
-	@.ci/setup $(VENV)
+	@sh .ci/setup $(VENV)
 	@touch $@
 
 $(VENV)/.interfaces: $(VENV)/.requirements $(INTERFACES)

@@ -8,8 +8,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from traitlets.config import PyFileConfigLoader
 
 from grader.marking.release.handout import NAME, PARTS, contents, main, makefile, write_folder, write_zip
+from grader.workplace import given_files
 from tests.marking.tiny import ROOT
 
 GRADE = """
@@ -113,6 +115,16 @@ def test_make_lab_there_is_what_it_is_here(folder):
 
     assert "JUPYTER_CONFIG_PATH=COURSE/jupyter COURSE/.venv/bin/jupyter-lab" in planned(folder)
     assert planned(folder) == planned(ROOT)
+
+
+def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
+    opened = PyFileConfigLoader("jupyter_server_config.py", path=str(folder / "jupyter")).load_config()
+    work = folder / "work"
+    assert opened.ServerApp.root_dir == str(work)
+    here = {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in given_files(ROOT)}
+    there = {path.relative_to(work).as_posix(): path.read_bytes() for path in work.rglob("[!.]*.*")}
+    assert there == {name: content for name, content in here.items() if name != "course/README.md"}
+    assert opened.LabApp.default_url.removeprefix("/lab/tree/") in there
 
 
 def test_make_there_lists_what_students_can_do(folder):
