@@ -4,6 +4,7 @@ Nothing happens when this very content is installed. Else the wheel comes from t
 """
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from importlib import metadata
 from pathlib import Path
 
 from build_tools.content import ROOT, version
-from build_tools.toolchain import BuildError, require_compilers, ros_prefix
+from build_tools.toolchain import BuildError, require_compilers
 
 NAME = "ros2-course-interfaces"
 
@@ -84,8 +85,8 @@ def install(wheel: Path) -> None:
 def main() -> None:
     """Install what is not installed yet, or stop with one sentence that says what to do."""
     try:
-        if installed() == version() or not ros_prefix().is_relative_to(sys.prefix):
-            return  # ROS's own packages, outside of the environment, bring theirs
+        if platform.machine() != "x86_64" or installed() == version():
+            return  # elsewhere rclpy is ROS's own, and so are all interfaces
         wheel = cached_wheel()
         if not wheel.exists():
             print("Building the ROS interfaces, once; this takes about a minute ...", flush=True)

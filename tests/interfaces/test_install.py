@@ -88,6 +88,14 @@ def test_without_an_installed_wheel_there_is_no_version(monkeypatch):
     assert install.installed() is None
 
 
+def test_where_ross_own_packages_are_used_nothing_is_built(monkeypatch):
+    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
+    monkeypatch.setattr(install, "build", lambda wheel: pytest.fail("it was built"))
+    monkeypatch.setattr(install, "cached_wheel", lambda: pytest.fail("it was looked for"))
+    monkeypatch.setattr("platform.machine", lambda: "aarch64")
+    assert install.main() is None
+
+
 def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
     for name in ("a_msgs", "b_msgs", "c_msgs"):
         (tmp_path / "definitions" / name).mkdir(parents=True)
