@@ -37,11 +37,16 @@ def refusal(offered: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str,
     None where the two fit. What isn't known of one of them fits.
     """
     for policy, strengths in _STRENGTHS.items():
-        offer, wish = offered.get(policy), wanted.get(policy)
-        if offer in strengths and wish in strengths and strengths.index(offer) < strengths.index(wish):
-            return policy, offer, wish
+        given, wish = offered.get(policy), wanted.get(policy)
+        if given in strengths and wish in strengths and strengths.index(given) < strengths.index(wish):
+            return policy, given, wish
     for limit, name in _LENGTHS.items():
-        offer, wish = offered.get(limit), wanted.get(limit)
-        if wish is not None and limit in offered and (offer is None or offer > wish):
-            return name, "none" if offer is None else f"{offer:g} s", f"{wish:g} s"
+        given, wish = offered.get(limit), wanted.get(limit)
+        if wish is not None and limit in offered and (given is None or given > wish):
+            return name, "" if given is None else f"{given:g} s", f"{wish:g} s"
     return None
+
+
+def offer(policy: str, offered: str) -> str:
+    """How a publisher publishes, for a sentence; of what `refusal` gives."""
+    return f"with {policy} {offered}" if offered else f"without a {policy}"

@@ -11,13 +11,12 @@ from itertools import product
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from sim.evidence import Endpoint
-from sim.evidence.qos import refusal
+from sim.evidence.qos import offer, refusal
 from sim.ros2.group import Group, flag
 from sim.ros2.system import System, is_hidden
 
 doctor = Group("doctor", "Check ROS setup and other potential issues")
 LEFT_OUT = ("/parameter_events", "/rosout")
-POLICIES = {"liveliness lease": "liveliness lease duration"}
 
 
 @doctor.verb(
@@ -80,11 +79,7 @@ def _reason(publisher: Endpoint, subscription: Endpoint) -> str:
     if found is None:
         return ""
     policy, offered, wanted = found
-    named = POLICIES.get(policy, policy)
-    return (
-        f"{publisher.node} publishes with {named} {offered.replace('_', ' ')},"
-        f" and {subscription.node} asks for {wanted.replace('_', ' ')}"
-    )
+    return f"{publisher.node} publishes {offer(policy, offered)}, and {subscription.node} asks for {wanted}"
 
 
 def _show(system: System, title: str, rows: list[tuple[str, object]]) -> None:
