@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from argparse import Namespace
 
 from rclpy.duration import Duration
@@ -48,7 +49,7 @@ def asked_profile(asked: Namespace, default: str) -> QoSProfile | None:
     lease = asked.qos_liveliness_lease_duration_seconds
     if not any((asked.qos_profile, asked.qos_depth, lease, *chosen.values())):
         return None
-    profile = QoSPresetProfiles.get_from_short_key(asked.qos_profile or default)
+    profile = copy.copy(QoSPresetProfiles.get_from_short_key(asked.qos_profile or default))
     for name, word in chosen.items():
         if word:
             setattr(profile, name, POLICIES[name].get_from_short_key(word))

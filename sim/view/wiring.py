@@ -52,7 +52,7 @@ class Wiring:
 
 def wiring(recording: Recording) -> Wiring:
     """What is drawn of a recording's graph."""
-    made, gaps = Wiring(), [gap for gap in missing(recording.graph) if not _idle(recording, gap)]
+    made, gaps = Wiring(), [gap for gap in missing(recording.graph) if not _idle(gap)]
     made.reasons = list(dict.fromkeys(gap.reason for gap in gaps))
     for node in dict.fromkeys(recording.graph.nodes):
         if not node.rsplit("/", 1)[1].startswith("_"):
@@ -79,9 +79,9 @@ def wiring(recording: Recording) -> Wiring:
     return made
 
 
-def _idle(recording: Recording, gap: Missing) -> bool:
+def _idle(gap: Missing) -> bool:
     """Whether a node of the world, such as the robot, just isn't told anything: that is no mistake."""
-    return gap.given is None and recording.is_ours(gap.wanted.node)
+    return gap.given is None and gap.wanted.ours
 
 
 def _names(recording: Recording, *kinds: str) -> list[str]:

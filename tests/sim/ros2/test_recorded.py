@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from rclpy.qos import ReliabilityPolicy, qos_profile_sensor_data
 
 from sim import run
 from sim.ros.latest import latest
@@ -151,6 +152,12 @@ def test_words_that_make_no_sense_name_what_was_probably_meant(said, command, en
 def test_no_words_and_a_cry_for_help_give_the_words_that_there_are(said):
     assert said("").startswith("usage: ros2 [-h] COMMAND ...\n")
     assert "Print the average publishing rate to screen." in said("topic --help")
+
+
+def test_asking_for_other_settings_changes_none_of_the_presets(said):
+    said("topic echo --once --qos-reliability reliable --qos-depth 3 /place")
+    assert qos_profile_sensor_data.reliability is ReliabilityPolicy.BEST_EFFORT
+    assert qos_profile_sensor_data.depth == 5
 
 
 def test_a_cell_shows_no_more_messages_than_one_reads(said):
