@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks.check import Missed
-from grader.diagnosis.names import closest, difference
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
+from sim.nearest import closest, difference
 
 
 class _Words(NamedTuple):

@@ -6,8 +6,8 @@ import math
 
 from grader.checks.check import Missed
 from grader.diagnosis import find_fault
-from grader.diagnosis.names import closest, difference
 from sim.evidence import Recording, TimerInfo
+from sim.nearest import closest, difference
 
 
 def no_errors(recording: Recording) -> None:

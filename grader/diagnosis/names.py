@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
-
 from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
-from sim.nearest import nearest
-
-_LIKENESS = 0.75
+from sim.nearest import closest, difference
 
 
 def shared_name(recording: Recording) -> str:
@@ -54,40 +49,3 @@ def service_slip(recording: Recording) -> str:
                     f"{difference(near, name)}"
                 )
     return ""
-
-
-def closest(wanted: str, candidates: Iterable[str]) -> str:
-    """The candidate that was probably meant to be `wanted`, or ""."""
-    names = sorted(candidates)
-    for name in names:
-        if _leaf(name) == _leaf(wanted) or _folded(name) == _folded(wanted):
-            return name
-    return nearest(wanted, names, _LIKENESS)
-
-
-def difference(found: str, wanted: str) -> str:
-    """A sentence on what makes `found` another name than `wanted`."""
-    if found.lower() == wanted.lower():
-        return f"Capital letters count: write {wanted}."
-    if _leaf(found) == _leaf(wanted) and not _alike(_space(found), _space(wanted)):
-        return (
-            f"Only the namespace differs: write {wanted}. A name that starts with a slash is taken as it is; "
-            "without the slash the node's namespace is put before it."
-        )
-    return f"Is {found} a typing slip? Did you mean {wanted}?"
-
-
-def _leaf(name: str) -> str:
-    return name.rsplit("/", 1)[-1]
-
-
-def _space(name: str) -> str:
-    return name.rsplit("/", 1)[0]
-
-
-def _alike(one: str, other: str) -> bool:
-    return difflib.SequenceMatcher(None, one, other).ratio() >= _LIKENESS
-
-
-def _folded(name: str) -> str:
-    return name.lower().replace("_", "").replace("/", "")

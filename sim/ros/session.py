@@ -10,6 +10,8 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from rclpy.node import Node
+
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
@@ -20,6 +22,7 @@ from sim.ros.engine.program import Process, as_process
 from sim.ros.fibers.scheduler import active
 from sim.ros.ground_truth import GroundTruth
 from sim.ros.hooks.install import rebind
+from sim.ros.latest import latest
 from sim.ros.robots.programs import programs_of
 from sim.world import World
 
@@ -55,7 +58,7 @@ class Session:
         if not isinstance(seed, int) or seed < 0:
             raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
         world = World.load(world) if isinstance(world, str) else world
-        self.recording = Recording(world=world, seconds=float(seconds), seed=seed)
+        self.recording = latest.recording = Recording(world=world, seconds=float(seconds), seed=seed)
         self.truth: GroundTruth | None = None  # while the run works, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
@@ -80,6 +83,11 @@ class Session:
     def elsewhere(self) -> bool:
         """Whether it is at home in another thread than the one that asks."""
         return self._thread != threading.get_ident()
+
+    @property
+    def nodes(self) -> list[Node]:
+        """The nodes that are there now."""
+        return [node for process in self.engine.processes for node in process.nodes] if self.engine else []
 
     def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
         """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
@@ -109,10 +117,10 @@ class Session:
             self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
         return limit
 
-    def start(self, spec: Process) -> None:
-        """Add a program; it runs from the next moment on."""
+    def start(self, spec: Process, *, ours: bool = False) -> None:
+        """Add a program; it runs from the next moment on. ours: it is not the student's."""
         with self._stretch():
-            self.engine.start(spec)
+            self.engine.start(spec, ours=ours)
 
     def end(self, ended: Ended) -> None:
         """End the run before its time."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from typing import TypeVar
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -22,9 +23,12 @@ class Plot(Figure):
         return png(self)
 
 
-def plot(width: float, height: float) -> tuple[Plot, Axes]:
+P = TypeVar("P", bound=Plot)
+
+
+def plot(width: float, height: float, kind: type[P] = Plot) -> tuple[P, Axes]:
     """An empty figure with one pair of axes; sizes in inches, of 100 pixels each."""
-    figure = Plot(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
+    figure = kind(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     return figure, figure.add_subplot()
 

@@ -4,8 +4,9 @@ import time
 
 import rclpy
 from example_interfaces.srv import Trigger
+from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, String
 
 
@@ -58,6 +59,14 @@ class BestEffortTalker(Talker):
 
 class LatchedListener(Listener):
     qos = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class ImpatientListener(Listener):
+    qos = QoSProfile(depth=10, deadline=Duration(seconds=0.5))
+
+
+class ListenerForTheLiving(Listener):
+    qos = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC)
 
 
 class SleepyTalker(Talker):

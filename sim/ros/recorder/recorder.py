@@ -19,6 +19,7 @@ from sim.evidence import (
     TimerInfo,
     is_node_service,
 )
+from sim.evidence.qos import settings
 from sim.nanoseconds import SECOND
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
 from sim.ros.fibers.fiber import Fiber
@@ -117,7 +118,8 @@ class Recorder:
         if handle is not None:
             self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
         if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
-            end = Endpoint(kind, of, name, type_name(type_), _qos(qos), self.is_ours())
+            chosen = {} if qos is None else settings(qos)
+            end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_ours())
             self.recording.graph.endpoints.append(end)
 
     def timer(self, node: Any, timer: Any) -> None:
@@ -222,10 +224,3 @@ class Recorder:
         self.open = False
         self._known.clear()
         self.ends.clear()
-
-
-def _qos(profile: Any) -> dict[str, Any]:
-    if profile is None:
-        return {}
-    names = ("reliability", "durability", "history")
-    return {name: getattr(profile, name).name.lower() for name in names} | {"depth": profile.depth}

@@ -27,6 +27,16 @@ CAUSES = {
     ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
     "volatile, /listener asks for transient_local, so nothing arrives. Use the same durability at both ends.",
     (
+        misfits.Talker,
+        misfits.ImpatientListener,
+    ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener asks for 0.5 s, so nothing "
+    "arrives. Use the same deadline at both ends.",
+    (
+        misfits.Talker,
+        misfits.ListenerForTheLiving,
+    ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener asks for "
+    "manual_by_topic, so nothing arrives. Use the same liveliness at both ends.",
+    (
         misfits.SleepyTalker,
     ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "
     "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
