@@ -42,7 +42,13 @@ c.Autograde.post_convert_hook = "grader.marking.secret.hide"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
 SAFE = "grader.marking.gradebook.safe_html"
-# The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
-c.HTMLExporter.filters = {"clean_html": f"{SAFE}.clean_output", "strip_files_prefix": f"{SAFE}.clean"}
+# The pages' templates hand outputs to the first of these filters, and Markdown cells to the other two.
+c.HTMLExporter.filters = {
+    "clean_html": f"{SAFE}.clean_output",
+    "markdown2html": f"{SAFE}.markdown",
+    "strip_files_prefix": f"{SAFE}.clean",
+}
 # Nor may its size keep the instructor waiting.
 c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.gradebook.short_pages.shorten"]
+# A student's page, with the name, contents by exercise, and nothing from elsewhere.
+c.GenerateFeedback.exporter_class = "grader.marking.gradebook.student_page.StudentPage"

@@ -145,8 +145,9 @@ class _Turn:
             ledger.gather()
             answer = self._remote._exchange(do="go", now=run.now, news=ledger.take_news())
             if "news" not in answer:
-                left = f"The process with the nodes left the run at {run.recorder.now:.3g} s, before its end"
-                raise RemoteLost(f"{left}: something in them ended what was to serve them.")
+                when = f"The process with the nodes broke off at {run.recorder.now:.3g} s"
+                why = "something in it ended the run there, or wrote to its connections"
+                raise RemoteLost(f"{when}: {why}.")
             ledger.until = self._remote.until
             ledger.enter(answer["news"])
             ledger.entered()

@@ -78,8 +78,8 @@ class Orders:
         """The answer to the last one; to the next, if that has its answer already."""
         if not self._due:
             self.next()
-        self._due = False
         self._wire.send(**message)
+        self._due = False
 
 
 class Follower(Session):

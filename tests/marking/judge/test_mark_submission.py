@@ -19,9 +19,9 @@ def marked(tmp_path, start_student, monkeypatch):
     """Marks a submission with these answers."""
     released = release(tmp_path / "02_two")
 
-    def do(secret: str = "", time_limits=QUICK, **answers: str) -> Result:
+    def do(secret: str = "", time_limits=QUICK, student: str = "ann", **answers: str) -> Result:
         texts = {name.replace("_", "-"): text for name, text in answers.items()}
-        task = hand_in(tmp_path / "ann", released, texts)
+        task = hand_in(tmp_path / student, released, texts)
         result = mark_submission(task, secret, lambda: start_student(time_limits, begun=False).student)
         return Result.from_json(result_text(result))
 
@@ -51,6 +51,13 @@ def test_the_secret_gives_other_seeds_and_the_same_points(marked):
     public, private = marked(), marked("a secret")
     assert points(private) == points(public)
     digests = [[cell.digests for cell in result.notebooks[0].cells] for result in (public, private)]
+    assert digests[0][1] != digests[1][1]
+
+
+def test_two_students_have_other_seeds_and_the_same_points(marked):
+    ann, bob = marked("a secret"), marked("a secret", student="bob")
+    assert points(bob) == points(ann)
+    digests = [[cell.digests for cell in result.notebooks[0].cells] for result in (ann, bob)]
     assert digests[0][1] != digests[1][1]
 
 
@@ -279,6 +286,17 @@ def test_of_very_many_tricks_the_first_are_told(marked):
     assert len(result.flags) == 21
     assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
     assert result.flags[-1] == "There are 10 more such things in it."
+
+
+def test_what_is_written_in_private_worlds_is_for_the_instructor(marked):
+    writing = "import os\n" + GREETER.replace("lambda: ", "lambda: os.write(1, b'psst ') and ")
+    public, private = (marked(secret, greeting=writing, greeting_see="") for secret in ("", "a secret"))
+    assert text(public, "greeting-points").startswith("psst psst")
+    assert "psst" not in text(private, "greeting-points")
+    last = cell(private, "greeting-points")["outputs"][-1]
+    assert last["metadata"] == {"for_instructor": True}
+    opening = "Written in private worlds; not on the student's page:\npsst psst"
+    assert last["data"]["text/plain"].startswith(opening)
 
 
 # -- the process lives, and could not serve its nodes ---------------------------------------------------

@@ -176,7 +176,7 @@ def test_quit_ends_the_notebook_after_its_cell(student, end):
 def test_what_was_shown_before_a_process_ended_is_kept(student):
     with pytest.raises(StudentProcessGone, match=r"^The process ended by itself, with exit status 3.$"):
         student.run("import os\nprint('last words')\nos._exit(3)")
-    assert student.outputs.printed_text[0]["text"] == "last words\n"
+    assert student.outputs.printed_text == "last words\n"
 
 
 def test_a_crash_ends_the_notebook_and_is_named(student):

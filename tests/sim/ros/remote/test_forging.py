@@ -68,7 +68,12 @@ def test_the_secret_changes_what_the_nodes_draw(apart):
             "The nodes could not be run: WireBroken: a message of 80000243 bytes is too long: "
             "64000000 are allowed.",
         ),
-        ("Scribbler", 30.0, "The process with the nodes sent events that are no list."),
+        (
+            "Scribbler",
+            30.0,
+            "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
+            "or wrote to its connections.",
+        ),
     ],
 )
 def test_a_process_that_is_lost_midway_is_named(lost, name, patience, reason):

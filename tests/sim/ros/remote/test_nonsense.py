@@ -232,8 +232,8 @@ def test_an_answer_that_can_t_be_ends_the_run(answer, words):
 
 def test_a_run_that_is_left_over_there_is_named_as_that():
     assert loses(QUIET | {"next": END // 2}, {"done": True, "threads": False}) == (
-        "The process with the nodes left the run at 0.5 s, before its end: "
-        "something in them ended what was to serve them."
+        "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
+        "or wrote to its connections."
     )
 
 
