@@ -4,7 +4,8 @@ from pathlib import Path
 
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
-c.ServerApp.root_dir = str(Path(__file__).parents[1])
+HERE = Path(__file__).parent
+c.ServerApp.root_dir = str(HERE.parent)
 c.LabApp.default_url = "/lab/tree/course/00_robot/lesson.ipynb"
 # In a container root is the ordinary user; elsewhere nobody starts Jupyter as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0
@@ -15,3 +16,6 @@ c.ServerApp.jpserver_extensions = {
     "nbgrader.server_extensions.assignment_list": False,
     "nbgrader.server_extensions.course_list": False,
 }
+# The robot beside the code, Validate and more: written by hand, and loaded from here as it is.
+c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
+os.environ["PYTHONSTARTUP"] = str(HERE / "kernel_start.py")  # kernels run it, too
