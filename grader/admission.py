@@ -23,7 +23,7 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
 
 
 def not_run(nodes: Sequence[Any]) -> Fault | None:
-    """That the notebook has a newer version of these than the one that would be judged; None if it has not."""
+    """That the notebook shows a newer version of these than would be judged; None if it doesn't."""
     found = outdated(nodes)
     if found is None:
         return None

@@ -6,7 +6,8 @@ from grader import workplace
 
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
-COURSE = Path(__file__).parents[1]
+HERE = Path(__file__).parent
+COURSE = HERE.parent
 for sentence in workplace.lay_out(COURSE):
     print(sentence)
 c.ServerApp.root_dir = str(COURSE / workplace.FOLDER)
@@ -20,3 +21,6 @@ c.ServerApp.jpserver_extensions = {
     "nbgrader.server_extensions.assignment_list": False,
     "nbgrader.server_extensions.course_list": False,
 }
+# The robot beside the code, Validate and more: written by hand, and loaded from here as it is.
+c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
+os.environ["PYTHONSTARTUP"] = str(HERE / "kernel_start.py")  # kernels run it, too

@@ -49,4 +49,3 @@ def replay(recording: Recording, *, speed: float) -> Any:
     from sim.view.replay import replay  # here, for it takes a while
 
     return replay(recording, speed=speed)
-

@@ -85,19 +85,20 @@ def refuse_outdated(nodes: Iterable[Any]) -> None:
         raise LastVersionDidNotRun(f"Your last version did not run: {found.saw}. {found.hint}")
 
 
+def missing(name: str) -> str:
+    """What to do about a name that is not there but defined by a cell above; "" where none defines it."""
+    return _cells.missing(name, *_file()) if _cells is not None and name else ""
+
+
 def show_error(
     here: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
 ) -> None:
     """Show an error of a cell: in one sentence where that says all, else as always."""
-    words = _missing(error) if isinstance(error, NameError) else _interruption(error, trace)
+    watch()
+    words = missing(error.name) if isinstance(error, NameError) else _interruption(error, trace)
     if words:
         error._render_traceback_ = lambda: [f"{kind.__name__}: {words}"]
     here.showtraceback((kind, error, trace), tb_offset=tb_offset, running_compiled_code=True)
-
-
-def _missing(error: NameError) -> str:
-    watch()
-    return _cells.missing(error.name, *_file()) if _cells is not None and error.name else ""
 
 
 def _interruption(error: BaseException, trace: TracebackType | None) -> str:

@@ -1,4 +1,4 @@
-"""The line to the page that shows the notebook, if that is our JupyterLab: jupyter/labextensions has its other end.
+"""The line to the page that shows the notebook, if that is our JupyterLab; jupyter/ has its other end.
 
 The page tells the texts of the cells; the kernel tells what the panel beside the notebook is to show.
 """
@@ -43,5 +43,7 @@ class Page:
                 if self._shown:
                     self._send()
             case {"order": list(order), "texts": dict(texts)} if len(order) <= MOST_CELLS:
-                if all(isinstance(text, str) and len(text) <= MOST_TEXT for text in (*order, *texts.values())):
+                if all(
+                    isinstance(text, str) and len(text) <= MOST_TEXT for text in (*order, *texts.values())
+                ):
                     self._cells(order, texts)

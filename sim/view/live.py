@@ -14,12 +14,15 @@ import traitlets
 from IPython.display import HTML, DisplayHandle, display
 
 from sim.evidence import Recording
+from sim.notebook import notebook_page
 from sim.view.geometry import world_data
 from sim.view.replay import replay
 from sim.view.scripts import script
 from sim.world import Scan, World
 
 Command = dict[str, Any]
+WIDGET = "application/vnd.jupyter.widget-view+json"
+BESIDE = "application/vnd.ros2-course.robot+json"  # known to jupyter/labextensions
 SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
 
 
@@ -45,7 +48,11 @@ class LiveView(anywidget.AnyWidget):
 
     def show(self) -> None:
         """Display the view in the output of the cell that is running."""
-        self._place = display(self, display_id=True)
+        bundle = self._repr_mimebundle_()
+        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        # Our JupyterLab shows it beside the notebook, and a line here; others know only the rest.
+        self._place = display({BESIDE: {}, **data}, raw=True, display_id=True)
+        notebook_page().show({WIDGET: data[WIDGET]})
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
         """Show all bodies of the world at `stamp` (s); the picture keeps their trails."""
@@ -74,6 +81,7 @@ class LiveView(anywidget.AnyWidget):
         place, self._place = self._place, None
         if place is not None:
             place.update(instead)
+            notebook_page().show({"text/html": instead.data if isinstance(instead, HTML) else instead.html})
 
     def _heard(self, _: Any, content: Any, buffers: Any) -> None:
         command = checked(content)

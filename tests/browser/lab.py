@@ -20,15 +20,18 @@ ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
 START_SECONDS = CELL_SECONDS = 300  # only against hanging: a busy machine is slow
+# The notebook that shows: beside it may be the panel with its robot, which then is Lab's current widget.
+NOTEBOOK = """window.notebook = () => [...window.jupyterapp.shell.widgets('main')].find(
+    panel => panel.content?.model?.cells && panel.isVisible);"""
 KERNEL_READY = """async () => {
-    const panel = window.jupyterapp.shell.currentWidget;
+    const panel = window.notebook();
     await panel.context.ready;
     await panel.sessionContext.ready;
     await panel.sessionContext.session.kernel.info;
 }"""
 # In the order of the cells: each has a count, up to one whose output is an error.
 ALL_CELLS_DONE = """() => {
-    for (const cell of window.jupyterapp.shell.currentWidget.content.model.cells) {
+    for (const cell of window.notebook().content.model.cells) {
         if (cell.type !== 'code' || !cell.sharedModel.getSource().trim()) continue;
         if (cell.executionCount === null || cell.executionState === 'running') return false;
         if (cell.outputs.toJSON().some(output => output.output_type === 'error')) return true;
@@ -37,18 +40,18 @@ ALL_CELLS_DONE = """() => {
 }"""
 
 RUN_CELL = """index => {
-    const panel = window.jupyterapp.shell.currentWidget;
+    const panel = window.notebook();
     panel.content.activeCellIndex = index;
     panel.content.deselectAll();
     window.jupyterapp.commands.execute('notebook:run-cell');
 }"""
 CELL_DONE = """index => {
-    const cell = window.jupyterapp.shell.currentWidget.content.model.cells.get(index);
+    const cell = window.notebook().content.model.cells.get(index);
     return cell.executionCount !== null && cell.executionState === 'idle';
 }"""
 # Beside the notebook: it is no cell, so nothing of it shows.
 ASK = """async code => {
-    const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+    const kernel = window.notebook().sessionContext.session.kernel;
     let said = '';
     const future = kernel.requestExecute({code, store_history: false, stop_on_error: false});
     future.onIOPub = ({content}) => {
@@ -58,9 +61,9 @@ ASK = """async code => {
     return said;
 }"""
 BACKGROUND = "getComputedStyle(document.body).getPropertyValue('--jp-layout-color1').trim()"
-SOURCES = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].map(
+SOURCES = """() => [...window.notebook().content.model.cells].map(
     cell => cell.sharedModel.getSource())"""
-OUTPUTS = """index => window.jupyterapp.shell.currentWidget.content.model.cells.get(index).outputs.toJSON()"""
+OUTPUTS = """index => window.notebook().content.model.cells.get(index).outputs.toJSON()"""
 
 
 def write_notebook(path: Path, *sources: str) -> None:
@@ -127,6 +130,7 @@ class Lab:
 
     def __init__(self, page: Page, address: str):
         page.set_default_timeout(CELL_SECONDS * 1000)
+        page.add_init_script(NOTEBOOK)
         self.page = page
         self.address = address
 
@@ -185,7 +189,7 @@ class Lab:
     def save(self) -> None:
         """Save the notebook."""
         self.command("docmanager:save")
-        self.page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
+        self.page.wait_for_function("() => !window.notebook().context.model.dirty")
 
     def command(self, name: str) -> None:
         """Do one of JupyterLab's commands, such as `docmanager:save`."""

@@ -10,7 +10,7 @@ LESSONS = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("course/*/*.i
 ASSIGNMENTS = sorted(str(path.relative_to(ROOT / "exercises")) for path in ROOT.glob("exercises/*/*.ipynb"))
 ASSIGNMENTS = ASSIGNMENTS[::3]
 # Text of stderr, and of errors, that a reader would see as red.
-RED = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].flatMap(cell =>
+RED = """() => [...window.notebook().content.model.cells].flatMap(cell =>
     cell.type !== 'code' ? [] : cell.outputs.toJSON().filter(output =>
         output.output_type === 'error' || output.name === 'stderr').map(output =>
             output.evalue || output.text))"""
@@ -43,6 +43,6 @@ def test_validate_accepts_the_solution(lab, notebook):
 @pytest.mark.parametrize("notebook", ASSIGNMENTS[:1])
 def test_validate_names_every_cell_of_a_starter(lab, notebook):
     lab.open(f"exercises/{notebook}")
-    tests = lab.page.evaluate("""() => [...window.jupyterapp.shell.currentWidget.content.model.cells].filter(
+    tests = lab.page.evaluate("""() => [...window.notebook().content.model.cells].filter(
         cell => (cell.getMetadata('nbgrader') || {}).points).length""")
     assert lab.validate().count("The following cell failed:") == tests

@@ -112,7 +112,7 @@ def test_keys_drive_the_robot_and_leave_the_notebook_alone(playing):
     assert stands(playing)
     assert playing.ask("sent(player, '/cmd_vel')[0]") == count  # nothing held, nothing sent
     assert playing.sources() == cells
-    assert playing.page.evaluate("window.jupyterapp.shell.currentWidget.content.mode") == "command"
+    assert playing.page.evaluate("window.notebook().content.mode") == "command"
 
 
 @pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
@@ -200,7 +200,7 @@ def test_a_cell_run_again_plays_anew_and_alone(playing):
 
 @pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
 def test_a_restarted_kernel_plays_again(playing):
-    playing.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
+    playing.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
     playing.wait_for_kernel()
     playing.run_cell(0)
     playing.run_cell(1)
@@ -238,7 +238,7 @@ def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(playing):
     same = "player.recording.digest == run(Circle, world='room', seconds=3, quiet=True).digest"
     assert playing.ask(same)
     playing.save()
-    name = playing.page.evaluate("window.jupyterapp.shell.currentWidget.context.path")
+    name = playing.page.evaluate("window.notebook().context.path")
     playing.shut_down()
     playing.open(name)
     replay(playing).plays()

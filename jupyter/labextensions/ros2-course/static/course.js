@@ -1,0 +1,45 @@
+// What the course adds to JupyterLab. Each part is a module; this one hands out the parts of JupyterLab that they use.
+
+import { Dock, robotRenderer, ROBOT } from "./dock.js";
+import { Link } from "./link.js";
+import { imageRenderer } from "./images.js";
+import { nameTab } from "./tabs.js";
+import { keepFresh } from "./start.js";
+import { validateButton } from "./validate.js";
+
+export async function plugins(share) {
+  const [notebooks, apputils, rendermime, widgets] = await Promise.all(
+    ["@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets"].map(share));
+  const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets };
+  return [{
+    id: "ros2-course:notebooks",
+    description: "The robot beside the code, Validate, and the names of the tabs.",
+    autoStart: true,
+    requires: [lab.INotebookTracker, lab.IRenderMimeRegistry],
+    activate: (app, tracker, registry) => {
+      const links = new Map();
+      const linkOf = (node) => links.get(tracker.find((panel) => panel.node.contains(node)));
+      registry.addFactory({
+        safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node) => linkOf(node)?.dock),
+      }, -100); // before the widget, which the same output holds for other pages
+      registry.addFactory({
+        safe: true, mimeTypes: ["image/png"], createRenderer: (options) => imageRenderer(lab, options),
+      }, 80);
+      const adopt = (_, panel) => {
+        const dock = new Dock(lab, app, panel);
+        const link = new Link(panel, dock);
+        links.set(panel, link);
+        panel.disposed.connect(() => { links.delete(panel); link.close(); });
+        panel.toolbar.insertItem(10, "ros2-course-robot", dock.button());
+        panel.toolbar.insertItem(11, "ros2-course-validate", validateButton(lab, app, panel));
+        nameTab(panel);
+        keepFresh(lab, app, panel);
+      };
+      tracker.widgetAdded.connect(adopt);
+      tracker.forEach((panel) => adopt(null, panel));
+      lab.NotebookActions.executionScheduled.connect((_, { notebook }) => {
+        for (const [panel, link] of links) if (panel.content === notebook) link.tell();
+      });
+    },
+  }];
+}

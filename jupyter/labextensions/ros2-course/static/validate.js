@@ -1,0 +1,1 @@
+export function validateButton(lab) { return new lab.Widget(); }
