@@ -198,6 +198,7 @@ class Reports(Link):
         new = {kind: news.take() for kind, news in self._claims.items()}
         for kind in ("logs", "prints", "errors", "busy_loops"):
             new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
+        new["logs"] = [row[:3] for row in new["logs"]]  # and it knows whose they are
         new["prints"] = [piece for (piece,) in new["prints"]]
         if len(new["prints"]) > MOST_PIECES:  # a loop that prints without end
             new["prints"] = ["".join(new["prints"])]
