@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
@@ -10,7 +11,8 @@ from grader.diagnosis.fault import Fault
 from sim.ros.remote import Remote, RemoteLost
 
 Prepare = Callable[[Any], Any]
-"""Makes of one of the student's programs the one that runs in its place: a function of a module."""
+"""Makes of one of the student's programs the one that runs in its place: a function of a module, or
+functools.partial of one with further words."""
 
 MOST_TEXT = 2_000  # characters of what another process says
 
@@ -37,7 +39,9 @@ class LocalCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
+        if not isinstance(prepare, functools.partial):
+            return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
+        return [prepare.func(node, *prepare.args) for node in self._nodes]
 
 
 class RemoteCast:
@@ -62,7 +66,9 @@ class RemoteCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        self._remote.preparation = _name(prepare) if prepare is not None else ""
+        words = prepare.args if isinstance(prepare, functools.partial) else ()
+        function = prepare.func if isinstance(prepare, functools.partial) else prepare
+        self._remote.preparation = [_name(function), *words] if function is not None else []
         return [self._remote]
 
 

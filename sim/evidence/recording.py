@@ -55,6 +55,8 @@ class Recording:
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
     ended: Ended = STILL_RUNNING
+    # when the last of the student's programs had ended; None where one was there to the end
+    gone: Seconds | None = None
     begin: Seconds = 0.0  # later than 0 in what `during` gives
     # full names of the nodes that are not the student's: the robot's, the world's, companions of a scenario
     ours: set[str] = field(default_factory=set)

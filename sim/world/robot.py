@@ -48,6 +48,7 @@ class RobotModel(Model):
     max_torque: Annotated[float, positive("N m")] = 0.25
     friction: Annotated[float, within(0, 10)] = 0.3
     stamped: Annotated[bool, Wanted("true or false")] = False
+    odometry: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")] = (0.0, 0.0, 0.0)  # at time 0
 
     @property
     def inertia(self) -> float:

@@ -132,6 +132,7 @@ class Engine(Scheduler):
         between two moments: nothing in here depends on it.
         """
         watched, over = list(watched), None
+        theirs = [process for process in watched if not process.ours]
         try:
             self.settle()
             while self.fault is None and self.now < end:
@@ -140,6 +141,8 @@ class Engine(Scheduler):
                     return Ended("interrupted", now, INTERRUPTED)
                 if goal is not None and goal(self.recording):
                     return Ended("goal", now, f"The goal was reached at t = {now:g} s.")
+                if self.recording.gone is None and theirs and not any(map(self.lives, theirs)):
+                    self.recording.gone = now
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)

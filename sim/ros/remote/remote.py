@@ -28,13 +28,15 @@ class Remote:
     patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
     deadline: when all has to be over, by the clock `monotonic`: to enter what came can take long, too.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
-    preparation: "module:function" of what there makes of each node the one that runs; "" for none.
+    preparation: "module:function" of what there makes of each node the one that runs, and further words that
+    it is given; empty for none.
     """
 
     def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
         self.wire, self.patience, self.total = wire, patience, total
         self._waited, self.deadline = 0.0, math.inf
-        self.secret, self.preparation = b"", ""
+        self.secret = b""
+        self.preparation: list[str] = []
         self._open = False  # the other process is in a run, which nobody has ended
 
     def ask(self, question: str) -> Any:

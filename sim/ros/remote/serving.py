@@ -49,8 +49,9 @@ def _function(name: str) -> Callable[..., Any]:
 def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
     orders = Orders(wire)
     try:
-        prepare = order["preparation"] and _function(order["preparation"])
-        programs = tuple(prepare(node) if prepare else node for node in nodes)
+        name, *words = order["preparation"] or [""]
+        prepare = _function(name) if name else None
+        programs = tuple(prepare(node, *words) if prepare else node for node in nodes)
         session = Follower(orders, programs, order["seconds"], order["seed"])
         session.advance()
         orders.answer(stderr=session.recording.stderr[:MOST_WRITTEN])

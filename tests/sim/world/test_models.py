@@ -34,6 +34,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
      "command_timeout is 0; write a number from 0.01 to 1000 (seconds)."),
     (RobotModel, {"stamped": 1}, "stamped is 1; write true or false."),
     (RobotModel, {"friction": -0.1}, "friction is -0.1; write a number from 0 to 10."),
+    (RobotModel, {"odometry": (0, 1)}, "odometry is [0, 1]; write [x, y, yaw] (metres and radians)."),
     (RobotModel, {"max_v": 11},
      "max_v is 11.0; write 10 m/s or less, one radius in a physics step of 0.01 s."),
     (RobotModel, {"max_force": 2},
