@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
 from sim.nearest import closest, difference
 
@@ -21,14 +23,11 @@ def typing_slip(recording: Recording) -> str:
     """A topic with only publishers and one with only subscriptions, whose names are nearly the same."""
     published = {e.name: e.node for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
     heard = {e.name: e.node for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
-    lonely = [name for name in published if name not in heard]
-    for wanted in heard:
-        near = closest(wanted, lonely) if wanted not in published else ""
-        if near:
-            return (
-                f"{published[near]} publishes on {near}, {heard[wanted]} listens on {wanted}: "
-                f"two different topics. {difference(near, wanted)}"
-            )
+    for name, near in _nearly_met(heard, published):
+        return (
+            f"{published[near]} publishes on {near}, {heard[name]} listens on {name}: "
+            f"two different topics. {difference(near, name)}"
+        )
     return ""
 
 
@@ -40,12 +39,18 @@ def service_slip(recording: Recording) -> str:
     ):
         offered = {end.name: end.node for end in recording.graph.ends(kind)}
         wanted = {end.name: end.node for end in recording.graph.ends(client_kind)}
-        lonely = [name for name in offered if name not in wanted]
-        for name in wanted:
-            near = closest(name, lonely) if name not in offered else ""
-            if near:
-                return (
-                    f"{wanted[name]} calls {name}, {offered[near]} offers {near}: two different {what}. "
-                    f"{difference(near, name)}"
-                )
+        for name, near in _nearly_met(wanted, offered):
+            return (
+                f"{wanted[name]} calls {name}, {offered[near]} offers {near}: two different {what}. "
+                f"{difference(near, name)}"
+            )
     return ""
+
+
+def _nearly_met(wanted: Iterable[str], offered: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Names that are wanted and not offered, each with the like one that is offered and not wanted."""
+    lonely = [name for name in offered if name not in wanted]
+    for name in wanted:
+        near = closest(name, lonely) if name not in offered else ""
+        if near:
+            yield name, near

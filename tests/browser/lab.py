@@ -112,7 +112,7 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
             yield address
         finally:
             process.terminate()
-            process.wait(20)
+            process.wait(60)
 
 
 def _wait_until_up(url: str, process: subprocess.Popen, log: Path) -> None:

@@ -4,14 +4,19 @@
     python -m grader.marking.release.make_exercises --check    compare; exit 1 on a difference
 """
 import argparse
+import logging
 import shutil
 import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from grader.marking.errors import CommandFailed
-from grader.marking.release.nbgrader_command import assignments, nbgrader
+from nbgrader.converters import GenerateAssignment
+from nbgrader.utils import capture_log
+
+from grader.marking.errors import MarkingError
+from grader.marking.gradebook.course import Course
+from grader.marking.release.nbgrader_command import assignments, failure
 from grader.notebooks import normalise
 
 
@@ -31,13 +36,21 @@ def say(line: str) -> None:
 def release(course: Path, told: Callable[[str], None] = lambda line: None) -> None:
     """Make course/exercises from course/solutions, and enter the assignments into the gradebook.
 
-    Whatever lies in exercises/ is replaced. told: called with a line at the begin of each assignment.
-    Raises CommandFailed.
+    As `nbgrader generate_assignment ASSIGNMENT --force`, for all of them in this process. Whatever lies in
+    exercises/ is replaced. told: called with a line at the begin of each assignment.
+    Raises CommandFailed, or CourseError.
     """
+    here = Course(course)
+    for handler in here.app.log.handlers:
+        handler.setLevel(logging.CRITICAL)
+    here.app.log.setLevel(logging.ERROR)  # for the words of the failure
     names = assignments(course)
     for number, assignment in enumerate(names, 1):
         told(f"{number} of {len(names)}: exercises/{assignment}")
-        nbgrader(course, "generate_assignment", assignment, "--force")
+        here.directory.assignment_id = assignment
+        made = capture_log(GenerateAssignment(coursedir=here.directory, parent=here.app, force=True))
+        if not made["success"]:
+            raise failure(course, f"generate_assignment {assignment} --force", made.get("log", made["error"]))
     for folder in (course / "exercises").glob("*"):
         if folder.name not in assignments(course):
             shutil.rmtree(folder)
@@ -54,7 +67,7 @@ def copy_of_course(course: Path, target: Path) -> Path:
 def differences(course: Path) -> list[str]:
     """Return a sentence for every file of course/exercises that is not what course/solutions gives now.
 
-    Raises CommandFailed.
+    Raises as `release`.
     """
     with tempfile.TemporaryDirectory() as folder:
         fresh = copy_of_course(course, Path(folder))
@@ -87,7 +100,7 @@ def main(arguments: list[str] | None = None) -> int:
     check = parser.parse_args(arguments).check
     try:
         found = differences(Path.cwd()) if check else release(Path.cwd(), say)
-    except CommandFailed as error:
+    except MarkingError as error:
         print(error, file=sys.stderr)
         return 1
     if not found:

@@ -13,9 +13,10 @@ from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.marked_notebooks import marked_notebooks, time_handed_in
+from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
 from grader.marking.result import CellResult
-from tests.marking.classroom import ASSIGNMENT, classroom, gradebook, release_again, result, submit, tasks
+from tests.marking.classroom import ASSIGNMENT, classroom, gradebook, result, submit, tasks
 
 LATE = """
 from nbgrader.plugins import LateSubmissionPlugin
@@ -79,7 +80,7 @@ def test_it_writes_what_nbgrader_autograde_writes(tmp_path, monkeypatch):
     (course.root / "late.py").write_text(LATE)
     with open(course.root / "nbgrader_config.py", "a") as configuration:
         configuration.write("\nc.AssignLatePenalties.plugin_class = 'late.Late'\n")
-    release_again(course)
+    release(course.root)
     with Gradebook(course.database, course.name) as book:
         book.update_or_create_assignment(ASSIGNMENT, duedate=datetime(2026, 1, 5))
     submit(course, "anna", time="2026-01-06 10:00:00 UTC")

@@ -1,6 +1,7 @@
 import re
 from pathlib import Path
 
+import nbformat
 import pytest
 from nbgrader.apps import NbGrader
 from nbgrader.validator import Validator
@@ -13,11 +14,18 @@ from grader.marking.release.samples import SHARES
 from tests.marking.tiny import ROOT, course, grade, tiny
 
 STEPS: list[str] = []
+TABLE = "<table><caption>a table</caption></table>"
+SHOW = f"from IPython.display import HTML, display\ndisplay(HTML('{TABLE}<script>steal()</script>'))"
 
 
 @pytest.fixture(scope="module")
 def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
-    folder = tiny(tmp_path_factory.mktemp("class"))
+    """The samples of a tiny course, marked by nbgrader; its notebook shows a table and has scripts in it."""
+    folder = tiny(
+        tmp_path_factory.mktemp("class"),
+        nbformat.v4.new_code_cell(SHOW, id="show"),
+        nbformat.v4.new_markdown_cell("A *word* <script>steal()</script>", id="words"),
+    )
     return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny", STEPS.append)}
 
 
@@ -60,6 +68,13 @@ def test_what_a_test_cell_writes_to_stderr_costs_nothing_and_shows_in_the_feedba
     assert right.points["test_warn"] == (1, 1)
     assert "WARNING:root:from Python" in text(right.feedback)
     assert "from C" in text(right.feedback)
+
+
+def test_feedback_shows_a_score_table_and_runs_no_script(marked_course):
+    page = marked_course[1]["right"].feedback.read_text()
+    assert TABLE in page
+    assert "<p>A <em>word</em> </p>" in page
+    assert "steal()</script>" not in page
 
 
 def test_everything_about_a_class_lies_in_the_ignored_folder(marked_course):
@@ -110,6 +125,7 @@ def test_the_demo_outside_a_course_says_where_to_go(tmp_path, monkeypatch, capsy
     assert capsys.readouterr().err.endswith(expected)
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("assignment", assignments(ROOT)[:1])  # tests/exercises runs the others' notebooks
 def test_the_courses_own_solutions_earn_everything_and_its_starters_nothing(assignment, tmp_path):
     marks = {marked.student: marked for marked in mark_samples(copy_of_course(ROOT, tmp_path), assignment)}

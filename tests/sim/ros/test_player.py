@@ -250,7 +250,7 @@ def in_another_thread(act):
     told = []
     thread = threading.Thread(target=attempt)
     thread.start()
-    thread.join(20)
+    thread.join(120)
     return told[0]
 
 
