@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import gc
 import os
 import shutil
 import subprocess
@@ -59,12 +58,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         return next((n for n, folder in enumerate(FIRST) if item.nodeid.startswith(folder)), len(FIRST))
 
     items.sort(key=place)
-
-
-def pytest_collection_finish() -> None:
-    """Garbage is looked for after each run, and never in what is there for all tests."""
-    gc.collect()
-    gc.freeze()
 
 
 @functools.cache

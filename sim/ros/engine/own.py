@@ -76,7 +76,7 @@ class OwnProcess:
 
     A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line words and a
     stdin of its own. And its heap is large: one full look of the garbage collector takes 0.2 s. So the
-    collector looks only at what the run makes. Who has frozen a heap for good keeps it so.
+    collector looks only at what the run makes.
     """
 
     def __init__(self) -> None:
@@ -89,14 +89,11 @@ class OwnProcess:
         argv, stdin = sys.argv, sys.stdin
         asyncio._set_running_loop(None)
         asyncio.set_event_loop_policy(self._policy)
-        frozen = gc.get_freeze_count() > 0
-        if not frozen:
-            gc.freeze()
+        gc.freeze()
         try:
             yield
         finally:
-            if not frozen:
-                gc.unfreeze()
+            gc.unfreeze()
             asyncio.set_event_loop_policy(policy)
             asyncio._set_running_loop(loop)
             sys.argv, sys.stdin = argv, stdin
