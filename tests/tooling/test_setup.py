@@ -147,6 +147,22 @@ def test_a_python_without_its_headers_is_told_which_package_has_them(machine):
     )
 
 
+def test_what_was_set_up_from_these_very_files_needs_nothing_and_is_left_alone(machine):
+    """As in a container, which has no compilers any more, and whose files may look new."""
+    files = ["requirements.lock", "pyproject.toml", ".ci/setup", "sim/world/rays/pyproject.toml"]
+    files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("sim/world/rays/*.py"))
+    content = b"".join((ROOT / name).read_bytes() for name in [*files, "sim/world/rays/rays.c"])
+    sum_of_all = subprocess.check_output(["cksum"], input=content, text=False).decode()
+    for command in ("cat", "cksum"):
+        (machine.folder / command).symlink_to(shutil.which(command))
+    (machine.folder / "venv").mkdir()
+    (machine.folder / "venv" / ".requirements").write_text(sum_of_all)
+    done = machine.set_up()
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    (machine.folder / "venv" / ".requirements").write_text("another sum\n")
+    assert machine.set_up().returncode == 1
+
+
 def test_a_second_set_up_is_quick(tmp_path):
     for stamp in (".requirements", ".interfaces"):
         (tmp_path / stamp).touch()
