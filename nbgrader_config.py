@@ -22,6 +22,9 @@ course.solution_directory = "class/solution"
 course.source_with_tests_directory = "class/source_with_tests"
 course.db_url = f"sqlite:///{Path('class', 'gradebook.db').absolute()}"
 Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
+# Without a folder for its exchange, the formgrader opens with a warning. Nothing of this course goes there.
+c.Exchange.root = str(Path("class", "exchange").absolute())
+Path("class", "exchange").mkdir(exist_ok=True)
 # nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A
 # Python file may be an answer that a cell wrote, or stand in for a library: cells write what they need.
 course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]
@@ -50,5 +53,7 @@ c.HTMLExporter.filters = {
 }
 # Nor may its size keep the instructor waiting.
 c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.gradebook.short_pages.shorten"]
+c.ExportApp.plugin_class = "grader.marking.gradebook.grades.Grades"
+
 # A student's page, with the name, contents by exercise, and nothing from elsewhere.
 c.GenerateFeedback.exporter_class = "grader.marking.gradebook.student_page.StudentPage"

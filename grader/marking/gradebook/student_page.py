@@ -12,6 +12,7 @@ from typing import Any
 from nbconvert.exporters import HTMLExporter
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry
+from pygments.formatters import HtmlFormatter
 from traitlets.config import Config
 
 from grader.marking.outputs import FOR_INSTRUCTOR
@@ -47,8 +48,12 @@ class StudentPage(HTMLExporter):
     ) -> tuple[str, dict[str, Any]]:
         """As HTMLExporter. resources: nbgrader's, which say whose notebook it is."""
         about = (resources or {})["nbgrader"]
-        page = {"name": _name(about), "assignment": about["assignment"], "notebook": about["notebook"]}
-        self.environment.globals["page"] = page
+        self.environment.globals["page"] = {
+            "name": _name(about),
+            "assignment": about["assignment"],
+            "notebook": about["notebook"],
+            "colours": HtmlFormatter().get_style_defs(".highlight"),  # of code
+        }
         for cell in nb.cells:
             if "outputs" in cell:
                 cell.outputs = [output for output in cell.outputs if not _for_instructor(output)]
@@ -70,7 +75,7 @@ def _name(about: dict[str, Any]) -> str:
             name = " ".join(part for part in (known.first_name, known.last_name) if part)
     except MissingEntry:
         name = ""
-    return f"{name} ({student})" if name else student
+    return f"{name} ({student})" if name not in ("", student) else student
 
 
 def _for_instructor(output: NotebookNode) -> bool:

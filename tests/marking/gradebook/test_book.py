@@ -32,6 +32,28 @@ def task(course):
     return tasks(course)[0]
 
 
+def test_the_points_of_a_class_are_exported_into_its_folder(course, task):
+    with Book(course) as book:
+        book._gradebook.add_assignment("02_later")
+    write(course, task)
+    with Gradebook(course.database) as book:
+        book.update_or_create_student("bob", first_name="Bob", last_name="Hill")
+    nbgrader(course.root, "export")
+    rows = (course.root / "class" / "grades.csv").read_text().splitlines()
+    told = [[row.split(",")[index] for index in (0, 3, 4, 9)] for row in rows[1:]]
+    score = str(gradebook(course)["anna"]["score"])
+    assert told == [["01_class", "bob", "Hill", "0.0"], ["01_class", "anna", "anna", score]]
+    assert not (course.root / "grades.csv").exists()
+
+
+def test_a_name_that_the_gradebook_has_stays(course, task):
+    with Gradebook(course.database) as book:
+        book.update_or_create_student("anna", first_name="Anna", last_name="Meier")
+    write(course, task)
+    with Gradebook(course.database) as book:
+        assert book.find_student("anna").last_name == "Meier"
+
+
 @pytest.fixture
 def file(course):
     return course.root / "class" / "gradebook.db"

@@ -80,7 +80,7 @@ def test_feedback_shows_a_score_table_and_runs_no_script(marked_course):
 def test_everything_about_a_class_lies_in_the_ignored_folder(marked_course):
     folder, _ = marked_course
     assert names(folder) == {"class", "exercises", "nbgrader_config.py", "solutions"}
-    assert names(folder / "class") == {"autograded", "feedback", "gradebook.db", "submitted"}
+    assert names(folder / "class") == {"autograded", "exchange", "feedback", "gradebook.db", "submitted"}
     assert "/class/\n" in (ROOT / ".gitignore").read_text()
 
 
