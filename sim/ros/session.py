@@ -7,7 +7,7 @@ import gc
 import math
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any
 
 from rclpy.node import Node
@@ -63,8 +63,10 @@ class Session:
         self.engine: Engine | None = None
         self.over = self._interrupted = False
         self._until = until
-        self._moments: Iterator[Nanoseconds] | None = None
+        self._moments: Generator[Nanoseconds, Nanoseconds, Ended] | None = None
         self._due: Nanoseconds = 0  # the moment that time moves to next
+        self._reached: Nanoseconds = 0  # up to which all is done
+        self._begun = False
         self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
         self._screen = Screen(quiet)
         self._thread = threading.get_ident()  # greenlets can't move to another
@@ -105,7 +107,8 @@ class Session:
                 while self._due <= last and not (enough and enough()):
                     if self.truth is not None:
                         self.truth.move_to(self._due)
-                    self._due = next(self._moments)
+                    self._due = self._moments.send(self._due if self._begun else None)
+                    self._begun = True
             except StopIteration as end:
                 self._close(end.value)
             except BaseException:
@@ -113,14 +116,16 @@ class Session:
                 raise
         if self._due <= last or self.over:
             return self.stamp
+        self._reached = max(last, self._reached)
         if self.truth is not None:
             self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
         return limit
 
     def start(self, spec: Process, *, ours: bool = False) -> None:
-        """Add a program; it runs from the next moment on. ours: it is not the student's."""
+        """Add a program; it runs as soon as time goes on. ours: it is not the student's."""
         with self._stretch():
             self.engine.start(spec, ours=ours)
+        self._due = min(self._due, max(self._reached, self.engine.now))
 
     def end(self, ended: Ended) -> None:
         """End the run before its time."""
@@ -161,7 +166,9 @@ class Session:
         watched += [self.engine.start(spec) for spec in self._specs]
         self._moments = self._course(round(self.recording.seconds * SECOND), watched)
 
-    def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Iterator[Nanoseconds]:
+    def _course(
+        self, end: Nanoseconds, watched: list[StudentProcess]
+    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
         """The moments of the run, one after the other."""
         return self.engine.moments(end, self._until, watched)
 

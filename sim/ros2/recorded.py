@@ -106,6 +106,11 @@ class Played(Recorded):
         alive = self._player.nodes
         return [name for name in super().nodes if name in alive]
 
+    @property
+    def now(self) -> float:
+        """As `System`."""
+        return self._player.stamp
+
     def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
         """As `System`, but for no longer than a while, as other cells wait."""
         first = len(self.recording.heard)

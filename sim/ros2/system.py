@@ -11,16 +11,19 @@ from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
 import rclpy
+from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
 from sim.evidence import Endpoint
+from sim.nanoseconds import SECOND
 from sim.nearest import nearest
 
 HIDDEN = "_"  # a name with a part that begins with this is left out unless one asks for it
 OWN_NAME = "_ros2cli"  # what nodes of these tools are called
 _numbers = count(1)
+PATIENCE = 5.0  # s, until a service that should be there is given up, as by the official tools
 POLL = 0.1  # s between two looks at whether something has come
 T = TypeVar("T")
 
@@ -126,6 +129,8 @@ def with_node(work: Work[T], voice: Voice) -> T:
     node = rclpy.create_node(f"{OWN_NAME}_{next(_numbers)}", start_parameter_services=False)
     try:
         return work(node, voice)
+    except (NameValidationException, ValueError) as error:  # a name that none can have
+        raise Wrong(" ".join(str(error).split())) from None
     finally:
         node.destroy_node()
 
@@ -138,8 +143,11 @@ def answer(node: Node, future: Future) -> Any:
 
 
 def ask(node: Node, kind: type, service: str, request: Any) -> Any:
-    """The answer of a service, for which this waits."""
+    """The answer of a service. Raises Wrong where it isn't there for a while."""
     client = node.create_client(kind, service)
+    clock, began = node.get_clock(), node.get_clock().now()
     while not client.service_is_ready():
         rclpy.spin_once(node, timeout_sec=POLL)
+        if (clock.now() - began).nanoseconds > PATIENCE * SECOND:
+            raise Wrong(f"Wait for service timed out waiting for {service}")
     return answer(node, client.call_async(request))

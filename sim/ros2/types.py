@@ -32,6 +32,15 @@ def of_package(package: str, *kinds: str) -> list[str]:
     return sorted(f"{package}/{name}" for name in names if name.split("/")[0] in kinds)
 
 
+def existing(name: str) -> str:
+    """The name of a message type. Raises Wrong where this machine doesn't have it."""
+    try:
+        message_class(name)
+    except (ImportError, AttributeError, ValueError):
+        raise Wrong(f"The message type '{name}' is invalid") from None
+    return name
+
+
 def type_of(name: str, kind: str, failed: str) -> type:
     """The class of a type, whose kind may be left out of its name. Raises Wrong that begins with `failed`."""
     parts = name.split("/")

@@ -125,8 +125,8 @@ class Engine(Scheduler):
 
     def moments(
         self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
-    ) -> Generator[Nanoseconds, None, Ended]:
-        """Yield each moment before time moves on to it; return why there are no more.
+    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
+        """Yield each moment before time moves to it, and take it or an earlier one; return why none is left.
 
         That is `end`, the goal, a fault, or that all watched programs have ended. Whoever iterates may rest
         between two moments: nothing in here depends on it.
@@ -148,7 +148,7 @@ class Engine(Scheduler):
                     end = min(end, self.now + AFTER_LAST_PROCESS)
                 self.limits.check_pace()
                 moment = self.time.next_moment(end)
-                yield moment
+                moment = yield moment
                 self.time.move_to(moment)
                 self.begin_moment()
                 self.settle()

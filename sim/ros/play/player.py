@@ -43,7 +43,7 @@ class Player:
         self.paused = False
         self._session, self._pace = session, pace
         self._show = Show(None, pace.clock)
-        self._stamp = 0.0  # s of simulated time up to which all that is due has been done
+        self.stamp = 0.0  # s of simulated time up to which all that is due has been done
         self._commands: deque[dict[str, Any]] = deque()
         self._hand = Hand(session, pace.clock)
         self._at_work = self._let_go = False
@@ -74,7 +74,7 @@ class Player:
         return [node.get_fully_qualified_name() for node in self._session.nodes]
 
     def add(self, program: Process) -> None:
-        """Add one of our programs, a tool's for example; it runs from the next moment on."""
+        """Add one of our programs, a tool's for example."""
         self._context.run(self._session.start, program, ours=True)
 
     def pause(self) -> None:
@@ -90,7 +90,7 @@ class Player:
     def step(self) -> None:
         """Pause, and go on by 0.05 s: to the next of the robot's scans. Only in the thread of `play`."""
         self.pause()
-        self._work(self._stamp + STEP)
+        self._work(self.stamp + STEP)
         self._update()
 
     def stop(self, why: str = "The user stopped it.") -> None:
@@ -128,7 +128,7 @@ class Player:
     def __repr__(self) -> str:
         how = "paused" if self.paused else f"playing at speed {self.speed:g}"
         how = f"ended: {self.recording.ended.reason}" if self.over else how
-        return f"<Player at {self._stamp:.2f} s of {self.recording.seconds:g} s, {how}>"
+        return f"<Player at {self.stamp:.2f} s of {self.recording.seconds:g} s, {how}>"
 
     def _ipython_display_(self) -> None:
         """Nothing: the picture is there already."""
@@ -180,9 +180,9 @@ class Player:
         if self._wanted is not None and not self.over:
             self._end()
         if not self.over and not self.paused:
-            due, rest = min(self._pace.due(self._stamp), limit), clock() + WORK
+            due, rest = min(self._pace.due(self.stamp), limit), clock() + WORK
             self._work(due, lambda: clock() >= rest or enough())
-            if self._stamp < due:
+            if self.stamp < due:
                 self._pace.fell_behind()
         self._update()
         if self._session.interrupted:
@@ -196,7 +196,7 @@ class Player:
             raise RuntimeError("A player can't be moved on from inside its own run; let `until` return True.")
         self._at_work = True
         try:
-            self._stamp = max(self._stamp, self._context.run(self._session.advance, limit, enough))
+            self.stamp = max(self.stamp, self._context.run(self._session.advance, limit, enough))
         except Exception as error:
             self._error, self._session.over = error, True
             detail = f"`until` raised {type(error).__name__}: {error}"
@@ -209,7 +209,7 @@ class Player:
             self._end()
 
     def _end(self) -> None:
-        self.recording.stamp = max(self.recording.stamp, self._stamp)
+        self.recording.stamp = max(self.recording.stamp, self.stamp)
         ended = Ended("interrupted", self.recording.stamp, self._wanted)
         self._context.run(self._session.end, ended)
         self._update()
@@ -223,8 +223,8 @@ class Player:
         """Show where it is now; and when it is over, say so and let go of everything."""
         ended = list(self.recording.ended[::2]) if self.over else None
         urgent = {"speed": self.speed, "paused": self.paused, "ended": ended}
-        self._show.frame(self._session, self._stamp)
-        self._show.state(self._session, self._stamp, self._pace.measured, **urgent)
+        self._show.frame(self._session, self.stamp)
+        self._show.state(self._session, self.stamp, self._pace.measured, **urgent)
         if self.over and not self._let_go:
             self._let_go, latest.player = True, None if latest.player is self else latest.player
             atexit.unregister(self._quit)

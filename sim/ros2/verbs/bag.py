@@ -18,6 +18,7 @@ from sim.ros.messages.codec import message_class
 from sim.ros2.bags import DURABILITIES, QOS, RELIABILITIES, Bag, BagWriter
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import System, Voice, Wrong, guess
+from sim.ros2.types import existing
 from sim.ros2.verbs.publishing import ROUND_OFF, positive_number
 
 bag = Group("bag", "Bags: record messages, look at them, publish them again")
@@ -40,7 +41,7 @@ def record(system: System, asked: Namespace) -> None:
     for name in wanted:
         if name not in known:
             system.say(f"WARNING: topic [{name}] does not appear to be published yet{guess(name, known)}")
-    chosen = {name: types[0] for name, types in known.items() if asked.all or name in wanted}
+    chosen = {name: existing(types[0]) for name, types in known.items() if asked.all or name in wanted}
     if not chosen:
         raise Wrong("There is nothing to record.")
     qos = {end.name: end.qos for end in system.ends if end.kind == "publisher"}
@@ -76,7 +77,7 @@ def info(voice: Voice, asked: Namespace) -> None:
 def play(system: System, asked: Namespace) -> None:
     """Play back ROS data from a bag."""
     found = [
-        (schema.name, channel, message)
+        (existing(schema.name), channel, message)
         for schema, channel, message in Bag(asked.bag_path).messages()
         if not asked.topics or channel.topic in asked.topics
     ]

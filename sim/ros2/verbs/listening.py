@@ -7,13 +7,13 @@ from collections.abc import Iterator
 
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 
-from sim.ros.messages.codec import message_class
 from sim.ros.messages.decoder import decode
 from sim.ros2.group import argument, flag
 from sim.ros2.measures import Bandwidth, Delay, Measure, Rate
 from sim.ros2.qos_words import QOS, asked_profile
 from sim.ros2.system import Arrived, System, Wrong, guess
 from sim.ros2.text import Style, as_csv, as_yaml
+from sim.ros2.types import existing
 from sim.ros2.verbs.topic import NAME, topic
 
 
@@ -91,7 +91,7 @@ def _only_type(name: str, known: dict[str, list[str]]) -> str:
         raise Wrong(f"Cannot echo topic '{name}', as it contains more than one type: [{', '.join(types)}]")
     if not types:
         raise Wrong("Could not determine the type for the passed topic")
-    return types[0]
+    return existing(types[0])
 
 
 @topic.verb(
@@ -116,7 +116,7 @@ def echo(system: System, asked: Namespace) -> None:
     name = asked.topic_name if asked.topic_name.startswith("/") else f"/{asked.topic_name}"
     known = system.topics(hidden=True)
     if asked.message_type:
-        known = {name: [_checked_type(asked.message_type)]}
+        known = {name: [asked.message_type]}
     elif name not in known:
         system.say(f"WARNING: topic [{name}] does not appear to be published yet{guess(name, known)}")
     type_ = _only_type(name, known)
@@ -135,14 +135,6 @@ def echo(system: System, asked: Namespace) -> None:
             return
     if not shown and not asked.timeout:
         system.say(_silence(system, name))
-
-
-def _checked_type(name: str) -> str:
-    try:
-        message_class(name)
-    except (ImportError, AttributeError, ValueError):
-        raise Wrong("The passed message type is invalid") from None
-    return name
 
 
 def _in_time(

@@ -58,7 +58,11 @@ def list_(system: System, asked: Namespace) -> None:
         shown = {node for node in system.nodes if asked.include_hidden_nodes or not is_hidden(node)}
         nodes = sorted(shown, key=lambda node: node.rpartition("/")[::-1])  # by name, then by namespace
     for node in nodes:
-        names = [name for name in names_of(system, node) if _wanted(name, asked)]
+        try:
+            names = [name for name in names_of(system, node) if _wanted(name, asked)]
+        except Wrong as wrong:  # a node may be without such services
+            system.say(str(wrong))
+            continue
         if not asked.node_name and names:
             system.say(f"{node}:")
         values = values_of(system, node, names) if asked.param_type else []

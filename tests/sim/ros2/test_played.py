@@ -4,6 +4,7 @@ import math
 from time import perf_counter
 
 import pytest
+from rclpy.node import Node
 
 from sim.ros.latest import latest
 from sim.ros2.notebook import ros2
@@ -110,6 +111,10 @@ def test_publishing_without_end_ends_after_five_seconds_of_the_play(playing):
             "topic pub /level std_msgs/msg/Float64 '{data: [1}'",
             "'{data: [1}' is not YAML, such as '{x: 1.0, y: 2.0}': while parsing a flow sequence\n",
         ),
+        (
+            "topic pub '/a b' std_msgs/msg/Empty",
+            "Invalid topic name: topic name must not contain characters other than alphanumerics, ",
+        ),
         ("param load /talker none.yaml", "none.yaml can't be read: No such file or directory\n"),
         ("bag play none", "Bag path 'none' is not there.\n"),
         ("bag record", "Need to specify at least one option out of --all, --topics\n"),
@@ -126,6 +131,33 @@ def test_a_play_that_stands_still_answers_nothing(playing):
     assert playing("topic hz /place") == still
     assert playing("param get /talker speed") == still
     assert playing("node list") == OFFICIAL["node list"]
+
+
+def test_ctrl_c_ends_what_goes_on_without_end(playing):
+    player, turn, turns = playing.player, playing.player.turn, []
+
+    def interrupted(*arguments):
+        turns.append(turn(*arguments))
+        if len(turns) == 3:
+            raise KeyboardInterrupt
+
+    player.turn, player.speed = interrupted, 20.0
+    assert playing("topic pub -r 100 -p 0 /level std_msgs/msg/Float64").endswith("Stopped.\n")
+    player.turn, player.speed = turn, math.inf
+    turn(player.recording.stamp + 0.2)
+    count = len(player.recording.messages("/level"))
+    turn(player.recording.stamp + 2.0)
+    assert len(player.recording.messages("/level")) == count
+
+
+def test_a_node_without_services_for_its_parameters_is_given_up(capsys):
+    def mute():
+        return Node("mute", start_parameter_services=False)
+
+    made = player(mute, seconds=60, speed=math.inf, clock=perf_counter)
+    ros2("param list")
+    assert capsys.readouterr().out == "Wait for service timed out waiting for /mute/list_parameters\n"
+    made.stop()
 
 
 def test_when_the_play_is_over_it_is_the_last_recording(playing):

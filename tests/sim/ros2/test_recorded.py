@@ -103,7 +103,7 @@ def test_what_needs_running_nodes_says_that_none_run_any_more(said, command):
         ("topic echo --filter 1/0 /place", "--filter '1/0' fails: ZeroDivisionError: division by zero\n"),
         ("topic echo --once --raw /greeting", r"b'\x00\x01\x00\x00\x06\x00\x00\x00hello\x00'" "\n---\n"),
         ("topic echo --once -l 2 /greeting", "data: he...\n---\n"),
-        ("topic echo /place std_msgs/msg/Nothing", "The passed message type is invalid\n"),
+        ("topic echo /place std_msgs/msg/Nothing", "The message type 'std_msgs/msg/Nothing' is invalid\n"),
         ("service type /ad", "Unknown service '/ad'. Did you mean /add?\n"),
         (
             "action info /fibonaci",

@@ -96,6 +96,31 @@ def test_the_command_itself_says_what_is_wrong_on_stderr(system):
     assert err.endswith("Did you mean topic?\n")
 
 
+def test_doctor_looks_at_the_same_as_in_a_recording(terminal):
+    assert terminal("doctor") == (
+        "UserWarning: Publisher without subscriber detected on /greeting.\n"
+        "UserWarning: Publisher without subscriber detected on /lamp/transition_event.\n"
+        "UserWarning: Subscriber without publisher detected on /level.\n"
+        "UserWarning: Publisher without subscriber detected on /place.\n"
+        "\nAll 3 checks passed\n\n",
+        0,
+    )
+
+
+def test_a_bag_is_recorded_until_ctrl_c_and_played_again(terminal, system, tmp_path):
+    folder = tmp_path / "kept"
+    process = start([*ROS2, "bag", "record", "-o", str(folder), "/place"], system)
+    assert process.stdout.readline() == "Subscribed to topic '/place'\n"
+    for _ in range(3):  # meanwhile some come
+        terminal("topic echo --once /place")
+    process.send_signal(signal.SIGINT)
+    last = process.communicate(timeout=300)[0]
+    count = int(re.fullmatch(rf"Recording stopped: (\d+) messages in {folder}\n", last)[1])
+    row = f"Topic: /place | Type: geometry_msgs/msg/PointStamped | Count: {count} | Serialization"
+    assert row in terminal(f"bag info {folder}")[0]
+    assert terminal(f"bag play -r 100 {folder}") == (f"Played {count} messages from {folder}\n", 0)
+
+
 def test_a_topic_of_the_robot_is_measured_beside_it():
     with robot("--headless") as running:
         process = start([*ROS2, "topic", "hz", "/scan"], running.domain)
