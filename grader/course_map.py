@@ -16,9 +16,11 @@ from typing import Any
 from grader.page import number
 
 PART = re.compile(r"(\d\d)_(\w+)")
-WORDS_A_MINUTE, MINUTES_A_CELL, MINUTES_AN_EXERCISE = 150, 0.5, 12  # a careful beginner's
+# What a notebook's first cell says of itself.
+TIME = re.compile(r"\*\*Time:\*\* ([^.\n]+)\.")
+NEEDS = re.compile(r"\*\*Before you begin:\*\* ([^.\n]+)\.")
 DONE = 0.9  # of a lesson's cells; who leaves out the rest has read it, too
-FIRST_NEEDS = "Python: functions, classes"
+NEW_VERSION = "-new"  # ends the name of a newer version that came to lie beside the student's own
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,8 @@ class Notebook:
 
     path: Path
     title: str
-    minutes: int
+    time: str
+    needs: str
     cells: int
     run: int
     points: float
@@ -60,9 +63,8 @@ class CourseMap:
         heads = ("Notebook", "Time", "Needs", "So far")
         head = "".join(f'<th scope="col" style="{cell}">{word}</th>' for word in heads)
         rows = ""
-        for before, item in zip([None, *self.notebooks], self.notebooks, strict=False):
-            needs = FIRST_NEEDS if before is None else self._name(before)
-            words = (f"about {item.minutes} min", html.escape(needs), self._state(item))
+        for item in self.notebooks:
+            words = (html.escape(item.time), html.escape(item.needs), self._state(item))
             rows += f'<tr><td style="{cell}">{self._link(item)}</td>'
             rows += "".join(f'<td style="{cell}">{word}</td>' for word in words) + "</tr>"
         return (
@@ -73,7 +75,8 @@ class CourseMap:
     def _next_step(self) -> str:
         if self.next is None:
             return "<b>You have done all of it.</b>"
-        return f"<b>Next step: {self._link(self.next)}</b>, about {self.next.minutes} minutes."
+        time = f", {html.escape(self.next.time)}" if self.next.time else ""
+        return f"<b>Next step: {self._link(self.next)}</b>{time}."
 
     def _points(self) -> str:
         earned, most = (sum(getattr(item, name) for item in self.notebooks) for name in ("points", "most"))
@@ -109,7 +112,7 @@ def course_map(here: Path | str | None = None) -> CourseMap:
 def _notebooks(root: Path) -> Iterator[Notebook]:
     """Lessons and assignments in the order in which one learns."""
     found = [path for folder in ("course", "exercises") for path in (root / folder).glob("*/*.ipynb")]
-    found = [path for path in found if PART.fullmatch(path.parent.name)]
+    found = [path for path in found if PART.fullmatch(path.parent.name) and NEW_VERSION not in path.stem]
     for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
         try:
             cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
@@ -123,11 +126,12 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
     code = [cell for cell in cells if cell["cell_type"] == "code" and cell["source"].strip()]
     tests = [cell for cell in code if cell["metadata"].get("nbgrader", {}).get("grade")]
     title = next(iter(re.findall(r"^# (?:.*?: )?(.+)$", text, re.MULTILINE)), path.stem)
-    minutes = len(text.split()) / WORDS_A_MINUTE + MINUTES_A_CELL * len(code)
+    needs = f"lesson {int(path.parent.name[:2])}" if tests else ""
     return Notebook(
         path=path,
         title=title,
-        minutes=max(5, 5 * round((MINUTES_AN_EXERCISE * len(tests) or minutes) / 5)),
+        time=next(iter(TIME.findall(text)), ""),
+        needs=next(iter(NEEDS.findall(text)), needs),
         cells=len(code),
         run=sum(cell.get("execution_count") is not None for cell in code),
         points=sum(map(_earned, tests)),
