@@ -20,12 +20,12 @@ async function validate(lab, app, panel) {
     title: "Validation Results", body: table.widget, buttons: [lab.Dialog.okButton({ label: "Close" })],
   });
   if (!tests) return;
-  const kernel = await app.serviceManager.kernels.startNew({ name: panel.sessionContext.kernelPreference.name || "python3" },
-    { username: "", clientId: undefined });
+  const name = panel.sessionContext.session?.kernel?.name ?? "python3";
+  const kernel = await app.serviceManager.kernels.startNew({ name, path: panel.context.localPath });
   let open = true;
   closed.then(() => { open = false; kernel.shutdown(); });
   try {
-    await go(kernel, panel, cells, table, () => open);
+    await go(kernel, cells, table, () => open);
   } catch (error) {
     if (open) table.say(`The notebook could not be run to its end: ${error.message ?? error}`);
   } finally {
@@ -33,9 +33,7 @@ async function validate(lab, app, panel) {
   }
 }
 
-async function go(kernel, panel, cells, table, open) {
-  const folder = panel.context.localPath.split("/").slice(0, -1).join("/");
-  await execute(kernel, `import os as _os; _os.chdir(_os.path.join(_os.getcwd(), ${JSON.stringify(folder)})); del _os`);
+async function go(kernel, cells, table, open) {
   let heading = "";
   for (const cell of cells) {
     const text = cell.sharedModel.getSource();
@@ -82,10 +80,12 @@ class Table {
   }
 
   add(name, result, most, error) {
-    const points = Math.min(Math.max(Number.parseFloat(result) || 0, 0), most);
+    // As nbgrader counts: a number is the points, an error none, and a check that ends without either all.
+    const told = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
+    const points = Math.min(Math.max(told, 0), most);
     this.earned += points;
     this.most += most;
-    const note = error || (points >= most ? "✔" : points ? "partly: see the check's table" : "see the check's table");
+    const note = error || (points >= most ? "✔" : points ? "in part: run its check to see why" : "run its check to see why");
     this.body.append(row("td", [name, `${short(points)} of ${short(most)}`, note]));
     this.total.replaceChildren(...row("th", ["Total", `${short(this.earned)} of ${short(this.most)}`, ""]).children);
   }
