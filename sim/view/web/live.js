@@ -101,8 +101,8 @@ class View {
     this.rows = new Map(); // a topic's name to its row; rows stay, so that a click and the focus do
     this.numbers = make("dl", { className: "numbers" });
     this.topic = new Topic();
-    const rows = [this.numbers,
-      make("div", {}, make("div", { className: "head" }, "TOPICS: CLICK ONE TO LOOK INTO IT"), this.topics), this.topic.root];
+    this.head = make("div", { className: "head" });
+    const rows = [this.numbers, make("div", {}, this.head, this.topics), this.topic.root];
     this.root = make("div", { className: "ros2-view live" }, make("style", {}, STYLE));
     this.root.dataset.lmSuppressShortcuts = "true"; // keys are for the robot, not for the notebook
     this.drives = this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
@@ -112,8 +112,9 @@ class View {
       rows.unshift(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
     }
     const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
-    this.root.append(make("div", { className: "how" }, how), make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
-      make("div", { className: "side" }, ...rows)), this.controls());
+    const row = make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
+      make("div", { className: "side" }, ...rows));
+    this.root.append(make("div", { className: "how" }, how), this.controls(), row);
     this.tick = setInterval(() => this.showSilence(), SILENCE / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
     this.onStatus = () => this.showStatus();
@@ -202,10 +203,14 @@ class View {
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
     this.said.textContent = ended ? ended[1] : "";
     for (const { name, type, rate } of topics) this.showTopic(name, type, rate);
-    const { numbers: told = [], topic = null } = this.status;
-    this.numbers.replaceChildren(...told.flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]));
+    const { numbers: told, topic = null } = this.status; // a robot that is a program of its own tells neither
+    this.head.textContent = told ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS";
+    this.numbers.replaceChildren(...(told ?? []).flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]));
     this.topic.show(topic);
-    for (const [name, row] of this.rows) row.setAttribute("aria-expanded", String(name === topic?.name));
+    for (const [name, row] of this.rows) {
+      row.disabled = !told;
+      row.setAttribute("aria-expanded", String(name === topic?.name));
+    }
     if (!this.scene) return;
     this.scene.frame = { ...this.scene.frame, contacts };
     this.scene.ask();
