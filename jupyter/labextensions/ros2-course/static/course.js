@@ -7,6 +7,8 @@ import { nameTab, ways } from "./tabs.js";
 import { keepFresh } from "./start.js";
 import { validateButton } from "./validate.js";
 
+const AFTER_RUN_ALL = 9; // place in a notebook's toolbar
+
 export async function plugins(share) {
   const [notebooks, apputils, rendermime, widgets] = await Promise.all(
     ["@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets"].map(share));
@@ -31,7 +33,7 @@ export async function plugins(share) {
         links.set(panel, link);
         panel.disposed.connect(() => { links.delete(panel); link.close(); });
         const buttons = [dock.button(), validateButton(lab, app, panel), ...ways(lab, app, panel)];
-        buttons.forEach((button, i) => panel.toolbar.insertItem(5 + i, `ros2-course-${i}`, button));
+        buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
         nameTab(panel);
         keepFresh(lab, app, panel, tracker);
       };
