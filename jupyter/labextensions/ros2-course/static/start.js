@@ -21,7 +21,7 @@ export function keepFresh(lab, app, panel, tracker) {
   panel.context.ready.then(() => panel.context.model.stateChanged.connect((model, { name, newValue }) => {
     if (name === "dirty" && newValue) model.dirty = false;
   }));
-  draw();
+  panel.revealed?.then(draw);
   const come = (_, { newValue }) => { if (newValue === panel) draw(); };
   app.shell.currentChanged?.connect(come);
   panel.disposed.connect(() => app.shell.currentChanged?.disconnect(come));
