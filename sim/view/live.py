@@ -23,6 +23,7 @@ from sim.world import Scan, World
 Command = dict[str, Any]
 WIDGET = "application/vnd.jupyter.widget-view+json"
 BESIDE = "application/vnd.ros2-course.robot+json"  # known to jupyter/labextensions
+LONGEST_NAME = 300  # of a topic
 SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
 
 
@@ -33,7 +34,7 @@ class LiveView(anywidget.AnyWidget):
 
     Attributes:
         on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
-            {"step": True}, {"stop": True} or {"drive": [forward, left]}, each of the two in [-1, 1].
+            {"step": True}, {"stop": True}, {"topic": name} or {"drive": [forward, left]}, both in [-1, 1].
     """
 
     _esm = script("live.js")
@@ -59,7 +60,7 @@ class LiveView(anywidget.AnyWidget):
         self.send({}, [packed(stamp, poses, scan)])
 
     def state(self, state: dict[str, Any]) -> None:
-        """Show how the run is going: stamp, speed, pace, paused, topics, contacts and ended."""
+        """Show how the run is going; see `Picture.state` in sim/ros/play."""
         speed = state["speed"]
         self.status = {**state, "speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
 
@@ -110,6 +111,8 @@ def checked(content: Any) -> Command | None:
     if name == "speed" and _between(value, *SPEEDS):
         return {name: float(value)}
     if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop") and value is True):
+        return {name: value}
+    if name == "topic" and isinstance(value, str) and len(value) <= LONGEST_NAME:
         return {name: value}
     if name == "drive" and isinstance(value, list) and len(value) == 2:
         forward, left = value

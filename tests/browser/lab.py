@@ -226,14 +226,16 @@ class Lab:
         """Return the text of all outputs that show."""
         return "\n".join(self.page.locator(".jp-OutputArea-output").all_inner_texts())
 
-    def validate(self) -> str:
-        """Click nbgrader's Validate button and return what its dialog says."""
-        self.page.get_by_role("button", name="Validate").click()
+    def validate(self) -> list[str]:
+        """Click Validate, and return the rows of the table in its dialog, when all has run."""
+        self.page.locator(".validate-button").first.click()
         dialog = self.page.locator(".jp-Dialog", has_text="Validation Results")
-        dialog.wait_for()
-        said = dialog.inner_text()
+        dialog.locator("tbody tr").first.wait_for()
+        dialog.locator("p[role='status']:empty").wait_for(state="attached")
+        rows = [" | ".join(row.locator("th, td").all_inner_texts()) for row in dialog.locator("tr").all()]
+        self.screenshot("validate")
         dialog.locator("button.jp-mod-accept").click()
-        return said
+        return rows[1:]
 
     def has_command(self, name: str) -> bool:
         """Return whether JupyterLab knows a command, such as nbgrader's `nbgrader:open-formgrader`."""

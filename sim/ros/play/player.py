@@ -242,5 +242,7 @@ class Player:
                 self.step()
             case {"stop": True}:
                 self.stop()
+            case {"topic": name}:
+                self._show.readings.look(name)
             case {"drive": [forward, left]}:
                 self._context.run(self._hand.drive, forward, left)

@@ -3,9 +3,12 @@
 import { Dock, robotRenderer, ROBOT } from "./dock.js";
 import { Link } from "./link.js";
 import { imageRenderer } from "./images.js";
-import { nameTab } from "./tabs.js";
+import { startByItself } from "./kernels.js";
+import { nameTab, ways } from "./tabs.js";
 import { keepFresh } from "./start.js";
 import { validateButton } from "./validate.js";
+
+const AFTER_RUN_ALL = 9; // place in a notebook's toolbar
 
 export async function plugins(share) {
   const [notebooks, apputils, rendermime, widgets] = await Promise.all(
@@ -30,10 +33,11 @@ export async function plugins(share) {
         const link = new Link(panel, dock);
         links.set(panel, link);
         panel.disposed.connect(() => { links.delete(panel); link.close(); });
-        panel.toolbar.insertItem(10, "ros2-course-robot", dock.button());
-        panel.toolbar.insertItem(11, "ros2-course-validate", validateButton(lab, app, panel));
+        const buttons = [dock.button(), validateButton(lab, app, panel), ...ways(lab, app, panel)];
+        buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
+        startByItself(panel);
         nameTab(panel);
-        keepFresh(lab, app, panel);
+        keepFresh(lab, app, panel, tracker);
       };
       tracker.widgetAdded.connect(adopt);
       tracker.forEach((panel) => adopt(null, panel));
