@@ -13,6 +13,7 @@ DIAGNOSES = (
     names.typing_slip,
     names.service_slip,
     connections.incompatible_qos,
+    connections.said_too_early,
     services.nobody_offers,
     services.asked_nobody,
     activity.never_spun,

@@ -20,3 +20,16 @@ def incompatible_qos(recording: Recording) -> str:
                 f"Use the same {policy} at both ends."
             )
     return ""
+
+
+def said_too_early(recording: Recording) -> str:
+    """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
+    early = next((row for row in recording.unheard if row.node not in recording.ours), None)
+    if early is None:
+        return ""
+    return (
+        f"{early.node} published on {early.topic} at {early.stamp:.3g} s, before those who listen there had "
+        "found it: two programs need a moment to discover each other, and what is sent before that is lost. "
+        "Make the publisher once, in __init__, and publish from a timer; or latch it (durability "
+        "transient_local at both ends)."
+    )

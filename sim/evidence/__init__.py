@@ -29,6 +29,7 @@ from sim.evidence.rows import (
     LogLine,
     Pose,
     Seconds,
+    Unheard,
     rate,
     stamps,
 )
@@ -54,6 +55,7 @@ __all__ = [
     "Recording",
     "Seconds",
     "TimerInfo",
+    "Unheard",
     "is_node_service",
     "rate",
     "stamps",

@@ -25,6 +25,7 @@ from sim.evidence.rows import (
     LogLine,
     Pose,
     Seconds,
+    Unheard,
 )
 from sim.world import Contact, World
 
@@ -51,6 +52,7 @@ class Recording:
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)
     busy_loops: list[BusyLoop] = field(default_factory=list)
+    unheard: list[Unheard] = field(default_factory=list)  # the first of each node and topic
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
@@ -90,6 +92,7 @@ class Recording:
             errors=stamped(self.errors),
             callbacks=stamped(self.callbacks),
             busy_loops=stamped(self.busy_loops),
+            unheard=stamped(self.unheard),
             prints=stamped(self.prints),
         )
 

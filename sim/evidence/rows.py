@@ -70,6 +70,14 @@ class BusyLoop(NamedTuple):
     place: str  # the callback, thread or main(), and its line
 
 
+class Unheard(NamedTuple):
+    """A message that came too early for a listener of another program: the two had not found each other."""
+
+    stamp: Seconds
+    node: str  # who sent it, as its publisher or the subscription was made
+    topic: str
+
+
 class Pose(NamedTuple):
     """Where the robot really was (ground truth, map frame)."""
 

@@ -9,6 +9,7 @@ from typing import Any
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter_service import ParameterService
 from rclpy.signals import SignalHandlerOptions
 
 from sim import environment
@@ -73,7 +74,9 @@ class RealTimeRun:
         self.scene.forget()
 
     def add(self, node: Node) -> None:
-        """Run one more node."""
+        """Run one more node. In a run nobody asks robots for their parameters; here `ros2 param` may."""
+        if not any(service.srv_name.endswith("/get_parameters") for service in node.services):
+            ParameterService(node)
         self.nodes.append(node)
         self._executor.add_node(node)
 

@@ -92,6 +92,12 @@ class TalkerWithoutTimer(Node):
         self.publisher = self.create_publisher(String, "/chatter", 10)
 
 
+class TalksInItsConstructor(TalkerWithoutTimer):
+    def __init__(self):
+        super().__init__()
+        self.publisher.publish(String(data="hello"))
+
+
 class RateForPeriod(Node):
     """Meant to talk 100 times a second."""
 

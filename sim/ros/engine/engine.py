@@ -93,6 +93,8 @@ class Engine(Scheduler):
             self.guard.impatient = True
             self.interrupt_all()
             self._unheard = True
+            for executor in self.executors:
+                executor._sim.end_coroutines()
             self.end_all()
         finally:
             for process in self.processes:
@@ -181,29 +183,25 @@ class Engine(Scheduler):
 
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""
-        if not self._unheard:
-            self.echo(text)
-            self.recorder.printed(text)
-            self._said(text)
+        self._wrote(text, self.recorder.printed)
 
     def complained(self, text: str) -> None:
         """Student code wrote to stderr."""
+        self._wrote(text, self.recorder.complained)
+
+    def _wrote(self, text: str, keep: Callable[[str], None]) -> None:
         if not self._unheard:
             self.echo(text)
-            self.recorder.complained(text)
-            self._said(text)
+            keep(text)
+            if lines := text.count("\n"):
+                self.called("lines", lines)
 
     def logged(self, severity: Any, logger: str, text: str) -> None:
         """A node wrote a log line."""
         line = self.recorder.log(severity, logger, text)
         if line is not None:
             self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
-        self._said("\n")
-
-    def _said(self, text: str) -> None:
-        lines = text.count("\n")
-        if lines:
-            self.called("lines", lines)
+        self.called("lines")
 
     def loops_busily(self) -> None:
         """As `Scheduler`; it is written down."""

@@ -17,6 +17,7 @@ from sim.evidence import (
     LogLine,
     Recording,
     TimerInfo,
+    Unheard,
     is_node_service,
 )
 from sim.evidence.qos import settings
@@ -73,6 +74,7 @@ class Recorder:
         self._theirs: set[str] = set()  # and of those that are
         self._printed = self._bytes = self._all = 0
         self._known: list[BaseException] = []
+        self._unheard: set[tuple[str, str]] = set()  # nodes and topics
         self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
         self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
@@ -191,6 +193,13 @@ class Recorder:
         """An exception left a callback, a thread or a main(). The same one is kept once."""
         if not isinstance(error, NO_FAULT):
             self._keep(error, callback, node)
+
+    def unheard(self, sender: str, topic: str) -> None:
+        """A message was too early for a listener; the first one of a node on a topic is kept."""
+        if (sender, topic) not in self._unheard:
+            self._unheard.add((sender, topic))
+            if self.open and topic not in INFRASTRUCTURE_TOPICS:
+                self.recording.unheard.append(Unheard(self.now, sender, topic))
 
     def busy_loop(self, fiber: Fiber, line: str) -> None:
         """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""

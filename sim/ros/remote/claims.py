@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, TimerInfo
+from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, TimerInfo, Unheard
 from sim.nanoseconds import SECOND
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.checked import MOST_NAME, Nonsense, Texts, number, rows
@@ -46,6 +46,8 @@ class Claims:
         for node, place in self._claimed(claims, "busy_loops", 2):
             loop = BusyLoop(self._now, self._node(node), self._texts.take(place, "a busy loop"))
             self._recording.busy_loops.append(loop)
+        for node, topic in self._claimed(claims, "unheard", 2):
+            self._recording.unheard.append(Unheard(self._now, self._node(node), self._node(topic)))
         for began, lasted, node, callback, kind in self._claimed(claims, "callbacks", 5):
             self._callback(began, lasted, node, callback, kind)
 

@@ -42,6 +42,12 @@ CAUSES = {
     "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
     "Let the timer do the waiting.",
     (
+        misfits.Listener,
+        misfits.TalksInItsConstructor,
+    ): "/talker published on /chatter at 0 s, before those who listen there had found it: two programs need a moment "
+    "to discover each other, and what is sent before that is lost. Make the publisher once, in __init__, and publish "
+    "from a timer; or latch it (durability transient_local at both ends).",
+    (
         misfits.SilentTalker,
     ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
     "the timer's callback.",

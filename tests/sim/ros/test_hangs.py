@@ -100,6 +100,15 @@ def test_waiting_for_a_thread_is_told_alike_each_time():
     assert first.ended.reason == "blocked"
 
 
+@pytest.mark.parametrize("program, reason", [
+    (hangs.AsksForEver, "blocked"), (hangs.asks_in_a_program_that_ends, "finished"),
+])  # fmt: skip
+def test_a_coroutine_that_swallows_its_end_is_left_behind(usual, program, reason):
+    """It goes on where it waited; when its node is gone, asking fails, and it asks again, for ever."""
+    recording = run(program, seconds=3, quiet=True)
+    assert (recording.ended.reason, recording.errors, recording.stderr) == (reason, [], "")
+
+
 @pytest.mark.parametrize("node", [hangs.Sleep, hangs.SleepLoop])
 @pytest.mark.usefixtures("usual")
 def test_sleeping_is_no_hang(node):

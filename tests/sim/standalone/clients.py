@@ -9,6 +9,7 @@ import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.parameter_client import AsyncParameterClient
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Float64, String
@@ -43,6 +44,16 @@ def listen(seconds):
         "rate": len(scans) / (time.time() - began), "age": time.time() - stamp.sec - stamp.nanosec / 1e9,
         "frame": scans[-1].header.frame_id, "x": last.pose.pose.position.x, "v": last.twist.twist.linear.x,
     }))  # fmt: skip
+
+
+def parameters(seconds):
+    """Ask the robot for the names of its parameters, as `ros2 param list` does."""
+    node = node_of("curious")
+    client = AsyncParameterClient(node, "robot")
+    client.wait_for_services(20.0)
+    future = client.list_parameters()
+    rclpy.spin_until_future_complete(node, future, timeout_sec=20.0)
+    print(json.dumps(future.result().result.names))
 
 
 def command(seconds, v, w, period, kind=Twist):

@@ -53,6 +53,10 @@ def test_other_processes_hear_and_drive_it(yard):
     assert after["v"] == 0.0  # nobody commands any more
 
 
+def test_its_parameters_can_be_asked_for(yard):
+    assert "use_sim_time" in json.loads(finish(yard.client("parameters", 1)))
+
+
 @pytest.mark.parametrize("client", ["flood", "huge", "wrong_type", "broken_bytes", "impostor", "crowd"])
 def test_it_goes_on_while_a_client_misbehaves(yard, client):
     misbehaving = yard.client(client, 4)

@@ -9,8 +9,10 @@ import threading
 import time
 
 import rclpy
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
 
 
 class Hanging(Node):
@@ -182,6 +184,28 @@ class ZeroTimer(Hanging):
 
     def tick(self):
         self.create_timer(0.0, lambda: None)
+
+
+class AsksForEver(Hanging):
+    """Waits for an answer that doesn't come, in a loop that no exception leaves."""
+
+    def __init__(self):
+        super().__init__()
+        self.client = self.create_client(Trigger, "nobody")
+
+    async def tick(self):
+        while True:
+            with contextlib.suppress(BaseException):
+                await self.client.call_async(Trigger.Request())
+
+
+def asks_in_a_program_that_ends():
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    executor.add_node(AsksForEver())
+    end = time.monotonic() + 1.5
+    while time.monotonic() < end:
+        executor.spin_once(timeout_sec=0.5)
 
 
 class Allocates(Hanging):
