@@ -1,10 +1,10 @@
 """The notebook around the runs: its cells, what they define, and the page that shows it."""
 
 from sim.notebook.kernel import (
-    Interrupted,
     LastVersionDidNotRun,
     Outdated,
     in_notebook,
+    interrupted,
     missing,
     notebook_page,
     outdated,
@@ -14,10 +14,10 @@ from sim.notebook.kernel import (
 )
 
 __all__ = [
-    "Interrupted",
     "LastVersionDidNotRun",
     "Outdated",
     "in_notebook",
+    "interrupted",
     "missing",
     "notebook_page",
     "outdated",

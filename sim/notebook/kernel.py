@@ -19,11 +19,11 @@ _cells: Cells | None = None
 _page = Page()
 
 
-class Interrupted(KeyboardInterrupt):
-    """The user interrupted a run. A notebook shows it in one line."""
-
-    def _render_traceback_(self) -> list[str]:
-        return [f"KeyboardInterrupt: {self}"]
+def interrupted() -> KeyboardInterrupt:
+    """What a run raises that the user interrupted. A notebook shows it in one line."""
+    error = KeyboardInterrupt("The run was interrupted.")
+    error._render_traceback_ = lambda: [f"KeyboardInterrupt: {error}"]
+    return error
 
 
 class LastVersionDidNotRun(RuntimeError):
@@ -103,7 +103,7 @@ def show_error(
 
 def _interruption(error: BaseException, trace: TracebackType | None) -> str:
     """One line for an interrupt that came while code of ours was at work."""
-    if isinstance(error, Interrupted):
+    if hasattr(error, "_render_traceback_"):
         return ""  # it speaks for itself
     while trace is not None:
         if trace.tb_frame.f_code.co_filename.startswith(OURS):

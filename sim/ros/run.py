@@ -8,7 +8,7 @@ from typing import Any
 import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first message: 0.1 s that no run should pay)
 
 from sim.evidence import Ended, Recording
-from sim.notebook import Interrupted, refuse_outdated
+from sim.notebook import interrupted, refuse_outdated
 from sim.ros.engine.program import Process
 from sim.ros.session import Session
 from sim.world import World
@@ -43,7 +43,7 @@ def run(
     session = Session(nodes, world, seconds, seed, until, quiet, companions=companions)
     session.advance()
     if session.interrupted:
-        raise Interrupted("The run was interrupted.")
+        raise interrupted()
     return session.recording
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Generator
 from typing import Any
 
 from sim.evidence import Ended, Recording
-from sim.notebook import Interrupted
+from sim.notebook import interrupted
 from sim.ros.engine import interrupts
 from sim.ros.engine.engine import INTERRUPTED
 from sim.ros.engine.program import Process
@@ -108,7 +108,7 @@ class Player:
             self._work(math.inf)
             self._update()
             if self._session.interrupted:
-                raise Interrupted("The run was interrupted.")
+                raise interrupted()
         if self._error is not None:
             raise self._error
         return self.recording
@@ -146,7 +146,7 @@ class Player:
             try:
                 asyncio.run(self._play())
             except KeyboardInterrupt:
-                raise Interrupted("The run was interrupted.") from None
+                raise interrupted() from None
             self.result()
         else:
             self._task = loop.create_task(self._play())  # kept, for the loop doesn't
