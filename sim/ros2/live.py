@@ -21,6 +21,7 @@ from sim.ros2 import domains
 from sim.ros2.system import POLL, Arrived, System, T, Voice, Work, with_node
 
 SETTLED = 0.5  # s without news, as the official tools wait: then the graph is known
+LOOK = 0.05  # s, between two looks at it
 PATIENCE = 5.0  # s, while somebody is there of whom nothing is known yet
 
 
@@ -52,13 +53,13 @@ class Live(System):
 
     def _find_others(self) -> None:
         """Wait until no more nodes are found. Where nobody is there say so, for silence says little."""
-        began = changed = time.monotonic()
+        began = time.monotonic()
         known: Any = None
-        while time.monotonic() - changed < SETTLED or (not self.nodes and self._somebody(began)):
-            rclpy.spin_once(self._node, timeout_sec=0.05)
+        quiet = 0  # looks without news; on a busy machine each takes longer
+        while quiet < SETTLED / LOOK or (time.monotonic() - began < PATIENCE and self._more_to_come()):
+            rclpy.spin_once(self._node, timeout_sec=LOOK)
             found = self._node.get_node_names_and_namespaces(), self._node.get_topic_names_and_types()
-            if found != known:
-                known, changed = found, time.monotonic()
+            quiet, known = (quiet + 1 if found == known else 0), found
         others = sorted(domains.here() - {self.domain})
         if not self.nodes and others:
             others_said = " and ".join(str(domain) for domain in others)
@@ -67,9 +68,12 @@ class Live(System):
                 f" To speak with them: export ROS_DOMAIN_ID={others[-1]}"
             )
 
-    def _somebody(self, began: float) -> bool:
-        """Whether to wait on: another process has sockets of this domain, though nothing is known of it."""
-        return time.monotonic() - began < PATIENCE and len(domains.ports(self.domain)) > 2
+    def _more_to_come(self) -> bool:
+        """Whether a process with sockets of this domain, or a node, is there of which nothing is known."""
+        nodes = self._node.get_node_names_and_namespaces()
+        if len(nodes) == 1:  # the own one
+            return len(domains.ports(self.domain)) > 2
+        return not all(_ends_of(self._node.get_publisher_names_and_types_by_node, *of) for of in nodes)
 
     @property
     def nodes(self) -> list[str]:
@@ -94,10 +98,7 @@ class Live(System):
         for name, space in dict.fromkeys(node.get_node_names_and_namespaces()):
             full = f"{space.rstrip('/')}/{name}"
             for kind, ask in asked.items():
-                try:
-                    ends = ask(name, space)
-                except NodeNameNonExistentError:  # it has gone since
-                    continue
+                ends = _ends_of(ask, name, space)
                 found += [Endpoint(kind, full, end, type_, {}) for end, types in ends for type_ in types]
         own = node.get_fully_qualified_name()
         return [end for end in found if end.node != own]
@@ -117,15 +118,20 @@ class Live(System):
 
             return hear
 
+        made = []
         for topic, type_ in topics.items():
             chosen = self._profile(topic) if profile is None else profile
-            kind = message_class(type_)
-            self._node.create_subscription(kind, topic, hear(topic, type_), chosen, raw=True)
-        while True:
-            rclpy.spin_once(self._node, timeout_sec=POLL)
-            yield from come
-            come.clear()
-            yield None
+            kind, callback = message_class(type_), hear(topic, type_)
+            made.append(self._node.create_subscription(kind, topic, callback, chosen, raw=True))
+        try:
+            while True:
+                rclpy.spin_once(self._node, timeout_sec=POLL)
+                yield from come
+                come.clear()
+                yield None
+        finally:
+            for subscription in made:
+                self._node.destroy_subscription(subscription)
 
     def _profile(self, topic: str) -> QoSProfile:
         """The strongest settings that hear all publishers of a topic."""
@@ -141,6 +147,14 @@ class Live(System):
     def act(self, work: Work[T], seconds: float | None = None) -> T:
         """As `System`; Ctrl-C ends what takes long."""
         return with_node(work, Voice(self.say))
+
+
+def _ends_of(ask: Callable[..., list], name: str, space: str) -> list:
+    """What rclpy tells of a node's ends; nothing where it has gone since."""
+    try:
+        return ask(name, space)
+    except NodeNameNonExistentError:
+        return []
 
 
 def _endpoint(topic: str, end: Any) -> Endpoint:

@@ -6,7 +6,6 @@ import functools
 import textwrap
 from collections.abc import Callable, Mapping
 from itertools import pairwise
-from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties
@@ -37,13 +36,14 @@ LOOKS = {
 
 
 class GraphPlot(Plot):
-    """A picture of a graph; `text` says the same."""
+    """A picture of a graph."""
 
     text = ""
 
-    def _repr_mimebundle_(self, **_: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        bundle = {"image/png": self._repr_png_(), "text/plain": self.text}
-        return bundle, {"image/png": {"alt": self.text}}
+    @property
+    def words(self) -> str:
+        """The same in words: a line for each topic, service and action, then what is missing and why."""
+        return self.text
 
 
 def plot_graph(recording: Recording) -> GraphPlot:
@@ -52,7 +52,7 @@ def plot_graph(recording: Recording) -> GraphPlot:
     A connection that doesn't come about is red, broken and numbered, and its reason stands below. Grey boxes
     hold what a node offers and nobody takes. The nodes of the world and of an exercise are grey, too.
 
-    The `text` of what this returns says the same in words.
+    The `words` of what this returns say the same.
     """
     shown = wiring(recording)
     sizes = {key: _size(box) for key, box in columns(shown)}

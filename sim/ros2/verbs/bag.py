@@ -41,6 +41,10 @@ def record(system: System, asked: Namespace) -> None:
     for name in wanted:
         if name not in known:
             system.say(f"WARNING: topic [{name}] does not appear to be published yet{guess(name, known)}")
+    for _ in system.listen({}) if system.window is None and not system.over else ():
+        known = system.topics()
+        if known.keys() >= set(wanted):
+            break
     chosen = {name: existing(types[0]) for name, types in known.items() if asked.all or name in wanted}
     if not chosen:
         raise Wrong("There is nothing to record.")

@@ -41,13 +41,11 @@ def red(figure):
 
 def test_it_shows_nodes_topics_and_rates_and_says_the_same_in_words():
     figure = plot_graph(run(Avoider, world="room", seconds=3, quiet=True))
-    assert figure.text == WORDS
+    assert figure.words == WORDS
     drawn = {"/avoider", "/robot", "/scan", "20 Hz", "/cmd_vel", "10 Hz", "/bumper  20 Hz"}
     assert drawn <= set(texts(figure))
     assert red(figure) == []
-    data, metadata = figure._repr_mimebundle_()
-    assert data["image/png"] == png(figure)
-    assert data["text/plain"] == metadata["image/png"]["alt"] == WORDS
+    assert figure._repr_png_() == (png(figure), {"alt": WORDS})
 
 
 def test_what_does_not_connect_is_red_broken_and_numbered_with_its_reason_below(delivery):
@@ -58,7 +56,7 @@ def test_what_does_not_connect_is_red_broken_and_numbered_with_its_reason_below(
         assert number in shown
         assert any(text.startswith(f"{number}  ") for text in shown)
     assert "1  On /image /camera publishes with reliability best_effort, and" in " ".join(shown)
-    assert delivery.text.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
+    assert delivery.words.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
 
 
 def test_fifteen_nodes_fit_on_a_page_and_no_box_lies_on_another(delivery):
@@ -86,7 +84,7 @@ def test_a_connection_that_fails_with_one_of_two_publishers_is_red_at_that_one()
 def test_a_node_alone_and_a_run_without_nodes_have_a_picture_too():
     alone = plot_graph(run(Lamp, seconds=1, quiet=True))
     assert texts(alone) == ["/lamp"]  # what every node with a lifecycle offers is left out
-    assert plot_graph(Recording()).text == ""
+    assert plot_graph(Recording()).words == ""
 
 
 def test_equal_graphs_give_equal_pictures():
