@@ -44,3 +44,15 @@ def here() -> set[int]:
     """The domains in which somebody on this machine is."""
     used = {port for port in _used_ports() if FIRST_PORT <= port < FIRST_ANY_PORT}
     return {(port - FIRST_PORT) // PORTS for port in used if (port - FIRST_PORT) % PORTS >= UNICAST}
+
+
+def note(domain: int) -> str:
+    """What to say where nobody is on this domain: who is on another; nothing if nobody is."""
+    others = sorted(here() - {domain})
+    if not others:
+        return ""
+    there = " and ".join(str(other) for other in others)
+    hint = f"To speak with them: export ROS_DOMAIN_ID={others[-1]}"
+    if others == [0]:
+        hint += " (runs in notebooks are there, too, and hear nobody)"
+    return f"Nobody is on ROS domain {domain} of this machine; there are nodes on {there}. {hint}"

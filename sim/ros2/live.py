@@ -60,13 +60,8 @@ class Live(System):
             rclpy.spin_once(self._node, timeout_sec=LOOK)
             found = self._node.get_node_names_and_namespaces(), self._node.get_topic_names_and_types()
             quiet, known = (quiet + 1 if found == known else 0), found
-        others = sorted(domains.here() - {self.domain})
-        if not self.nodes and others:
-            others_said = " and ".join(str(domain) for domain in others)
-            self._complain(
-                f"Nobody is on ROS domain {self.domain} of this machine; there are nodes on {others_said}."
-                f" To speak with them: export ROS_DOMAIN_ID={others[-1]}"
-            )
+        if not self.nodes and (note := domains.note(self.domain)):
+            self._complain(note)
 
     def _more_to_come(self) -> bool:
         """Whether a process with sockets of this domain, or a node, is there of which nothing is known."""
