@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections import Counter
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any, Protocol
 
 from rclpy.context import Context
@@ -124,15 +124,13 @@ class Engine(Scheduler):
     # -- time --------------------------------------------------------------------------------------
 
     def moments(
-        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
+        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Sequence[StudentProcess]
     ) -> Generator[Nanoseconds, None, Ended]:
         """Yield each moment before time moves on to it; return why there are no more.
 
-        That is `end`, the goal, a fault, or that all watched programs have ended. Whoever iterates may rest
-        between two moments: nothing in here depends on it.
+        That is `end`, the goal, a fault, or that all watched programs have ended. One may rest in between.
         """
-        watched, over = list(watched), None
-        theirs = [process for process in watched if not process.ours]
+        over, theirs = None, [process for process in watched if not process.ours]
         try:
             self.settle()
             while self.fault is None and self.now < end:

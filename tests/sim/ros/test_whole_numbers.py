@@ -42,7 +42,9 @@ def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
         make()
 
 
-@pytest.mark.parametrize("make", [lambda: Float64(data=True), lambda: Float64(data="1"), lambda: Int32(data=2.5)])
+@pytest.mark.parametrize(
+    "make", [lambda: Float64(data=True), lambda: Float64(data="1"), lambda: Int32(data=2.5)]
+)
 def test_what_is_no_such_number_fits_never(make):
     with whole_numbers(), pytest.raises(AssertionError, match="must be of type"):
         make()
