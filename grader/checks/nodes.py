@@ -23,7 +23,8 @@ def named(recording: Recording, name: str) -> None:
         return
     near = closest(name, recording.graph.nodes)
     hint = difference(near, name) if near else "The name of a node is set by super().__init__('name')."
-    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint)
+    slip = ("__node", name.rpartition("/")[2]) if near else None
+    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, slip=slip)
 
 
 def has_timer(recording: Recording, period: float, *, tolerance: float = 1e-3) -> list[TimerInfo]:

@@ -84,12 +84,19 @@ class Evidence:
 
         def kept_or_made(*programs: Any, **scenario: Any) -> Recording:
             plain = repr([scenario[name] for name in ("world", "seconds", "seed")])
+            plain += "".join(map(_slips, programs))
             name = f"{program}-{hashlib.sha256(plain.encode()).hexdigest()[:16]}"
             if name not in at_hand:
                 at_hand[name] = self.get(name, lambda: run(*programs, **scenario))
             return at_hand[name]
 
         return kept_or_made
+
+
+def _slips(program: Any) -> str:
+    """What tells a program without its slips from the program itself."""
+    is_set = isinstance(program, sim.Process)
+    return repr([program.remappings, program.whole_numbers]) if is_set else ""
 
 
 def _computed() -> float:

@@ -92,7 +92,7 @@ class NotebookRun:
         problems = score_outputs.alarms(score)
         if score.max != worth:
             problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")
-        self._flag(cell, problems)
+        self._flag(cell, [*problems, *score_outputs.staged(score)])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
         return [*score_outputs.outputs(shown_score, number), *self._written(shown)]

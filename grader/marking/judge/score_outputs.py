@@ -7,6 +7,7 @@ from typing import Any
 
 from IPython.core.formatters import DisplayFormatter
 
+from grader.checks.judge import STAGED
 from grader.marking.outputs import FOR_INSTRUCTOR, mime_bundle
 from grader.marking.result import CellResult
 from grader.score import Score
@@ -23,6 +24,15 @@ def alarms(score: Score) -> list[str]:
     return [
         f"the check {verdict.name!r} broke: {verdict.alarm.strip().splitlines()[-1]}"
         for verdict in score.broken
+    ]
+
+
+def staged(score: Score) -> list[str]:
+    """What the instructor has to know of a topic or a service that two programs had."""
+    return [
+        f"{verdict.expected}; there were {verdict.saw.replace('of yours', 'of the student')}"
+        for verdict in score.verdicts
+        if verdict.name == STAGED
     ]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections import Counter
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any, Protocol
 
 from rclpy.context import Context
@@ -126,15 +126,13 @@ class Engine(Scheduler):
     # -- time --------------------------------------------------------------------------------------
 
     def moments(
-        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
+        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Sequence[StudentProcess]
     ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
         """Yield each moment before time moves to it, and take it or an earlier one; return why none is left.
 
-        That is `end`, the goal, a fault, or that all watched programs have ended. Whoever iterates may rest
-        between two moments: nothing in here depends on it.
+        That is `end`, the goal, a fault, or that all watched programs have ended. One may rest in between.
         """
-        watched, over = list(watched), None
-        theirs = [process for process in watched if not process.ours]
+        over, theirs = None, [process for process in watched if not process.ours]
         try:
             self.settle()
             while self.fault is None and self.now < end:
