@@ -10,7 +10,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", "CONTRIBUTING.md"]
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
-MADE_LATER = ("class/", "dist/", "test-artifacts/", "wheels/", "work/")  # ignored by git: commands make them
+# Ignored by git: commands make them.
+MADE_LATER = (".pytest_cache/", "class/", "dist/", "test-artifacts/", "wheels/", "work/")
 
 
 def text(page: str) -> str:

@@ -358,7 +358,7 @@ def test_many_odd_cells_are_told_in_a_few_sentences():
     repairs = rebuilt(damage).repairs
     assert len(repairs) == 6
     assert repairs[4:] == [
-        "Cell 42 of the notebook holds a number for its text; that was left out.",
+        "Cell 44 of the notebook holds a number for its text; that was left out.",
         "The notebook has 295 more such oddities.",
     ]
 
@@ -429,7 +429,7 @@ def test_a_notebook_from_back_to_front_runs_as_it_was_handed_out():
     ids.insert(ids.index("counter"), "f00d")
     assert [cell.id for cell in result.notebook.cells] == ids
     assert result.repairs == [
-        "The cells `hello`, `hello-see`, `hello-points`, `counter`, `counter-see` and 15 more had left their "
+        "The cells `hello`, `hello-see`, `hello-points`, `counter`, `counter-see` and 16 more had left their "
         "places in the assignment; they were run there."
     ]
 

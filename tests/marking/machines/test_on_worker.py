@@ -37,14 +37,14 @@ def test_a_worker_has_one_pool_which_ends_with_its_run(worker_pool, right):
     worker_pool.leave("first")
     assert len(set(psutil.Process().children()) - before) == 2
     worker_pool.leave("second")
-    assert set(psutil.Process().children(True)) == before
+    assert set(psutil.Process().children(True)) <= before
 
 
 def test_a_run_that_is_over_is_not_begun_again(worker_pool, right):
     before = set(psutil.Process().children(True))
     worker_pool.leave("first")
     assert worker_pool.mark(FIRST, right) == ("failed", "RuntimeError: the run is over")
-    assert set(psutil.Process().children(True)) == before
+    assert set(psutil.Process().children(True)) <= before
 
 
 def test_nothing_is_raised_for_dask_would_log_the_secret(worker_pool, right):
