@@ -86,6 +86,7 @@ def results(folder: Path, file: str, how: str) -> Found:
             "PYTHONPATH": os.pathsep.join([str(Path.cwd()), os.environ.get("PYTHONPATH", "")]),
             "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+            "ROS_PYTHON_CHECK_FIELDS": "1",  # as sim has it
         }
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "timeout": PATIENCE}
         with contextlib.suppress(subprocess.TimeoutExpired):

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from sim.ros.engine.processes import SharedContext
 
 MIDDLEWARE = "SIM_MIDDLEWARE"  # with this variable in the environment, the middleware carries all messages
+CPP_TOPICS = "/transition_event", "/_service_event"
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
 
 
@@ -231,6 +232,6 @@ class Topics:
                 ends.remove(end)
 
     def _is_carried(self, topic: str) -> bool:
-        """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes."""
-        by_cpp = topic == "/rosout" or "/_action/" in topic or topic.endswith("/transition_event")
+        """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes, calls."""
+        by_cpp = topic == "/rosout" or "/_action/" in topic or topic.endswith(CPP_TOPICS)
         return by_cpp or self._all_carried
