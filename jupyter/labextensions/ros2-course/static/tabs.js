@@ -13,6 +13,8 @@ export function tabName(path) {
 }
 
 export function nameTab(panel) {
+  // JupyterLab takes a new title for a new name of the file, and renames it: it must not hear of ours.
+  if (!panel._onTitleChanged || !panel.title.changed.disconnect(panel._onTitleChanged, panel)) return;
   const name = () => {
     const label = tabName(panel.context.path);
     if (label && panel.title.label !== label) panel.title.label = label;
