@@ -143,9 +143,11 @@ class Lab:
 
     def wait_for_kernel(self) -> None:
         """Wait until the notebook shows and its kernel is idle."""
-        self.page.wait_for_selector(".jp-Notebook .jp-Cell")
+        self.page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook .jp-Cell")
         self.page.evaluate(KERNEL_READY)
-        self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]')
+        self.page.wait_for_selector(
+            '.jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook-ExecutionIndicator[data-status="idle"]'
+        )
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
