@@ -29,6 +29,8 @@ KERNEL_READY = """async () => {
     await panel.sessionContext.ready;
     await panel.sessionContext.session.kernel.info;
 }"""
+# By the session and not by its sign, which a narrow toolbar hides.
+KERNEL_IDLE = "() => window.notebook()?.sessionContext.kernelDisplayStatus === 'idle'"
 # In the order of the cells: each has a count, up to one whose output is an error.
 ALL_CELLS_DONE = """() => {
     for (const cell of window.notebook().content.model.cells) {
@@ -145,9 +147,7 @@ class Lab:
         """Wait until the notebook shows and its kernel is idle."""
         self.page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook .jp-Cell")
         self.page.evaluate(KERNEL_READY)
-        self.page.wait_for_selector(
-            '.jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook-ExecutionIndicator[data-status="idle"]'
-        )
+        self.page.wait_for_function(KERNEL_IDLE)
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
@@ -190,7 +190,7 @@ class Lab:
 
     def save(self) -> None:
         """Save the notebook."""
-        self.command("docmanager:save")
+        self.page.evaluate("window.notebook().context.save()")
         self.page.wait_for_function("() => !window.notebook().context.model.dirty")
 
     def command(self, name: str) -> None:

@@ -255,7 +255,7 @@ def test_the_panel_tells_the_robots_numbers_and_what_is_on_a_topic(playing):
 
 @pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
 def test_a_closed_panel_and_a_page_that_is_loaded_again_find_the_robot(playing):
-    playing.page.locator(".lm-TabBar-tab", has_text="Robot").locator(".lm-TabBar-tabCloseIcon").click()
+    playing.page.get_by_title("Close Robot", exact=True).click()
     playing.page.locator(".ros2-view.live").wait_for(state="detached")
     playing.page.get_by_role("button", name="Show the robot").click()
     live(playing).wait_for_time(0.5)

@@ -3,7 +3,6 @@
 import { Dock, robotRenderer, ROBOT } from "./dock.js";
 import { Link } from "./link.js";
 import { imageRenderer } from "./images.js";
-import { startByItself } from "./kernels.js";
 import { nameTab, ways } from "./tabs.js";
 import { keepFresh } from "./start.js";
 import { validateButton } from "./validate.js";
@@ -35,7 +34,6 @@ export async function plugins(share) {
         panel.disposed.connect(() => { links.delete(panel); link.close(); });
         const buttons = [dock.button(), validateButton(lab, app, panel), ...ways(lab, app, panel)];
         buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
-        startByItself(panel);
         nameTab(panel);
         keepFresh(lab, app, panel, tracker);
       };
