@@ -34,9 +34,12 @@ export class Dock {
       this.widget.title.label = "Robot";
       this.widget.title.closable = true;
       this.widget.title.caption = `The robot of ${this.panel.title.label}`;
-      this.app.shell.add(this.widget, "main", { ...this.place(), activate: false });
+      // A closed panel is put aside with its picture: of one that is thrown away no second picture can be made.
+      this.widget.onCloseRequest = () => { this.widget.parent = null; };
+      this.filled = undefined;
     }
-    this.fill();
+    if (!this.widget.isAttached) this.app.shell.add(this.widget, "main", { ...this.place(), activate: false });
+    if (this.filled !== this.shown) this.fill();
   }
 
   /** Beside the notebook, or among the robots of other notebooks. */
@@ -47,7 +50,7 @@ export class Dock {
   }
 
   async fill() {
-    const bundle = this.shown;
+    const bundle = this.filled = this.shown;
     const { rendermime } = this.panel.content;
     const kind = rendermime.preferredMimeType(bundle, "any");
     let view;
