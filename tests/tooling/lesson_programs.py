@@ -179,6 +179,7 @@ def together(spec: dict[str, Any]) -> dict[str, Any]:
     children = [started(found, program, errors) for program in spec["programs"]]
     listener = Listener(spec["listen"])
     listener.listen(lambda: all(listener.heard.values()), PATIENCE)
+    listener.listen(lambda: all(words in errors.read_text("utf-8") for words in spec["says"]), PATIENCE)
     listener.listen(lambda: False, spec["seconds"])
     number = signal.Signals[spec["signal"]]
     statuses = [ended(child, number) for child in children]

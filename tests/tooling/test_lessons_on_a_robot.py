@@ -31,17 +31,18 @@ def asked(running, errors, **spec):
     return json.loads(done.stdout)
 
 
-def told(yard, errors, lesson, names, number="SIGINT", seconds=1.0, listen=None, **arguments):
+def told(yard, errors, lesson, names, number="SIGINT", seconds=1.0, listen=None, says=(), **arguments):
     programs = [{"name": name, "arguments": arguments.get(name)} for name in names]
     listen = listen or {"/odom": ("nav_msgs/msg/Odometry", "pose.pose.position.x")}
     return asked(
-        yard, errors, lesson=lesson, programs=programs, seconds=seconds, signal=number, listen=listen
-    )
+        yard, errors,
+        lesson=lesson, programs=programs, seconds=seconds, signal=number, listen=listen, says=says,
+    )  # fmt: skip
 
 
 @BOTH
 def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number)
+    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, says=["]: on", "]: off"])
     assert found["ended"] == [0]
     assert {line.split("]: ")[1] for line in found["errors"].splitlines()} == {"on", "off"}
 
@@ -55,7 +56,7 @@ def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
 
 
 def test_the_server_of_lesson_4_drives(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], seconds=6)
+    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], says=["canceled after"])
     assert found["ended"] == [0, 0]
     assert "canceled after" in found["errors"]
     assert max(found["heard"]["/odom"]) - found["heard"]["/odom"][0] > 0.5
