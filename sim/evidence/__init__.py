@@ -21,7 +21,6 @@ from sim.evidence.graph import Endpoint, Graph, TimerInfo
 from sim.evidence.recording import Recording
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
-    BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
@@ -29,7 +28,6 @@ from sim.evidence.rows import (
     LogLine,
     Pose,
     Seconds,
-    Unheard,
     rate,
     stamps,
 )
@@ -41,7 +39,6 @@ __all__ = [
     "INFRASTRUCTURE_TOPICS",
     "REJECTED",
     "STATUSES",
-    "BusyLoop",
     "Call",
     "CallbackError",
     "CallbackRun",
@@ -55,7 +52,6 @@ __all__ = [
     "Recording",
     "Seconds",
     "TimerInfo",
-    "Unheard",
     "is_node_service",
     "rate",
     "stamps",

@@ -13,8 +13,7 @@ class Endpoint(NamedTuple):
     node: str
     name: str  # resolved name, e.g. "/robot1/cmd_vel"
     type: str
-    qos: dict[str, Any]  # see `sim.evidence.qos`; {} for actions
-    ours: bool = False  # the program that made it is not the student's
+    qos: dict[str, Any]  # reliability, durability, history, depth; {} for actions
 
 
 class TimerInfo(NamedTuple):

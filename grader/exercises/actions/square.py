@@ -21,7 +21,6 @@ square = Exercise(
     world="yard",
     seconds=50,
     companions=[DriveServer, SpinServer],
-    may_end=True,
 )
 
 

@@ -94,7 +94,4 @@ def _csv_rows(assignment: str, result: Result) -> Iterator[dict[str, object]]:
 
 
 def _inert(value: object) -> object:
-    """The value without what a terminal would obey, or a spreadsheet."""
-    if not isinstance(value, str):
-        return value
-    return f"'{printable(value)}" if value.startswith(RUNS) else printable(value)
+    return f"'{value}" if isinstance(value, str) and value.startswith(RUNS) else value

@@ -18,12 +18,11 @@ class Hang(BaseException):
 class RemoteLost(BaseException):
     """Another process, in which nodes of the run live, is gone, silent, or sends what can't be.
 
-    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a node's own error.
+    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a mistake of ours.
 
-    reason: one sentence that says so. lives: whether the process is still there and listens: then it can be
-    led on, to something else. mistake: what this side ran into, where the mistake is ours.
+    reason: one sentence that says so.
     """
 
-    def __init__(self, reason: str, lives: bool = False, mistake: Exception | None = None) -> None:
+    def __init__(self, reason: str) -> None:
         super().__init__(reason)
-        self.reason, self.lives, self.mistake = reason, lives, mistake
+        self.reason = reason

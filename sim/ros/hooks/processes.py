@@ -47,7 +47,7 @@ def ok(original: Callable) -> Callable:
     def ok(**keywords: Any) -> bool:
         run = engine()
         if run is not None:
-            run.called("looks at a clock")
+            run.clock_was_read()
         return original(**keywords)
 
     return ok

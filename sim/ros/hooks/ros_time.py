@@ -88,7 +88,7 @@ def now(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self)
-        run.called("looks at a clock")
+        run.clock_was_read()
         return Time(nanoseconds=run.now + _offset(self), clock_type=self.clock_type)
 
     return now

@@ -27,8 +27,6 @@ def sleep(original: Callable) -> Callable:
             return original(seconds)
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
-        if seconds == 0:
-            run.called("looks at a clock")
         run.wait(f"time.sleep({seconds:g})", until=run.now + nanoseconds(seconds))
         return None
 
@@ -42,7 +40,7 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
             run = engine()
             if run is None:
                 return original()
-            run.called("looks at a clock")
+            run.clock_was_read()
             return convert(epoch * SECOND + run.now)
 
         return read
