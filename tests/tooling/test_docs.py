@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", "CONTRIBUTING.md"]
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
-MADE_LATER = ("class/", "test-artifacts/")  # ignored by git: marking and browser tests make them
+MADE_LATER = (".pytest_cache/", "class/", "test-artifacts/")  # ignored by git: marking and browser tests make them
 
 
 def text(page: str) -> str:
