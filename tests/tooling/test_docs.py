@@ -10,7 +10,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", "CONTRIBUTING.md"]
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
-MADE_LATER = (".pytest_cache/", "class/", "test-artifacts/")  # ignored by git: marking and browser tests make them
+# Ignored by git: marking, the tests and the browser tests make them.
+MADE_LATER = (".pytest_cache/", "class/", "test-artifacts/")
 
 
 def text(page: str) -> str:
