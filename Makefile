@@ -2,18 +2,18 @@
 #   make PYTHON=/path/to/python3.13 ...   another Python
 #   make VENV=.venv311 ...                another virtual environment
 
-VENV = .venv
+VENV ?= .venv
 BIN = $(abspath $(VENV))/bin
 INTERFACES = $(shell find interfaces -type f -not -path '*/__pycache__/*')
 
-export PYTHON
+export PYTHON WHEELS
 # Equal runs need equal dictionary orders and equal sums on every machine.
 export PYTHONHASHSEED = 0
 export OPENBLAS_NUM_THREADS = 1
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab teach test demo exercises bench tidy lint setup lock clean
+.PHONY: help lab teach test solutions demo exercises handout bench tidy lint setup tools wheels lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -24,8 +24,11 @@ lab: setup  ## open the course in JupyterLab
 teach: setup  ## the instructor's JupyterLab: formgrader, Create Assignment
 	JUPYTER_CONFIG_PATH=$(CURDIR)/jupyter/teach $(BIN)/jupyter-lab
 
-test: setup  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some)
+test: tools  ## run the tests, on all cores (make test ARGS="-k notebooks" runs some)
 	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)
+
+solutions: setup  ## run every lesson and every solution (make solutions ARGS="--junit FILE")
+	$(BIN)/python -m grader.marking.release.run_solutions $(ARGS)
 
 demo: setup  ## release, mark three sample submissions, give feedback; no browser
 	$(BIN)/python -m grader.marking.release.demo
@@ -33,33 +36,48 @@ demo: setup  ## release, mark three sample submissions, give feedback; no browse
 exercises: setup  ## make exercises/ from solutions/
 	$(BIN)/python -m grader.marking.release.make_exercises
 
-bench: setup  ## print the benchmarks (make bench ARGS=scenario prints one)
+handout: setup  ## make what students get, a folder and a ZIP, in dist/
+	$(BIN)/python -m grader.marking.release.handout $(ARGS)
+
+bench: tools  ## print the benchmarks (make bench ARGS=scenario prints one)
 	$(BIN)/python -m tests.bench $(ARGS)
 
-tidy: setup  ## normalise the notebooks, sort imports
+tidy: tools  ## normalise the notebooks, sort imports
 	$(BIN)/python -m grader.notebooks
 	$(BIN)/ruff check --fix
 
-lint: setup  ## say what is untidy, change nothing
+lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
 	$(BIN)/python -m grader.notebooks --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
 
 setup: $(VENV)/.interfaces  ## make .venv and nothing more
 
-$(VENV)/.packages: requirements.lock pyproject.toml .ci/setup sim/world/rays/pyproject.toml sim/world/rays/setup.py sim/world/rays/rays.py sim/world/rays/rays.c
-	@.ci/setup $(VENV)
+tools: setup $(VENV)/.tools  ## and what tests, lint and several machines need on top
+$(VENV)/.tools: .ci/tools.lock $(VENV)/.requirements
+	@sh .ci/setup $(VENV) .ci/tools.lock
 	@touch $@
 
-$(VENV)/.interfaces: $(VENV)/.packages $(INTERFACES)
+SOURCES = pyproject.toml .ci/setup $(wildcard $(addprefix sim/world/rays/,*.py *.c *.toml))
+
+$(VENV)/.requirements: requirements.lock $(SOURCES)
+	@sh .ci/setup $(VENV)
+	@touch $@
+
+$(VENV)/.interfaces: $(VENV)/.requirements $(INTERFACES)
 	@$(BIN)/python interfaces/install.py
 	@touch $@
 
-lock: setup  ## take the newest versions into requirements.lock
-	$(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --group dev --generate-hashes \
-	    --no-emit-index-url --no-emit-find-links --custom-compile-command 'make lock' \
-	    pyproject.toml --output-file requirements.lock
+wheels: setup  ## collect all that set-up installs in wheels/: then it needs no network and no compiler
+	@$(BIN)/python .ci/wheels
 
-clean:  ## remove the set-up and what tools left; class/ stays
+COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
+    --no-emit-index-url --no-emit-find-links --custom-compile-command 'make lock'
+lock: tools  ## take the newest versions into requirements.lock and its like
+	$(COMPILE) --group build pyproject.toml --output-file requirements.lock
+	$(COMPILE) --group tools --constraint requirements.lock --output-file .ci/tools.lock
+	$(COMPILE) --group install --constraint .ci/tools.lock --output-file .ci/uv.txt
+
+clean:  ## remove the set-up and what tools left; class/, work/ and wheels/ stay
 	rm -rf .venv* *.egg-info build sim/world/rays/*.egg-info sim/world/rays/build dist test-artifacts .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -22,6 +22,9 @@ course.solution_directory = "class/solution"
 course.source_with_tests_directory = "class/source_with_tests"
 course.db_url = f"sqlite:///{Path('class', 'gradebook.db').absolute()}"
 Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
+# Without a folder for its exchange, the formgrader opens with a warning. Nothing of this course goes there.
+c.Exchange.root = str(Path("class", "exchange").absolute())
+Path("class", "exchange").mkdir(exist_ok=True)
 # nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A
 # Python file may be an answer that a cell wrote, or stand in for a library: cells write what they need.
 course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]
@@ -42,7 +45,15 @@ c.Autograde.post_convert_hook = "grader.marking.secret.hide"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
 SAFE = "grader.marking.gradebook.safe_html"
-# The pages' templates hand outputs to the first of these filters, and Markdown cells to the second alone.
-c.HTMLExporter.filters = {"clean_html": f"{SAFE}.clean_output", "strip_files_prefix": f"{SAFE}.clean"}
+# The pages' templates hand outputs to the first of these filters, and Markdown cells to the other two.
+c.HTMLExporter.filters = {
+    "clean_html": f"{SAFE}.clean_output",
+    "markdown2html": f"{SAFE}.markdown",
+    "strip_files_prefix": f"{SAFE}.clean",
+}
 # Nor may its size keep the instructor waiting.
 c.HTMLExporter.preprocessors = [f"{SAFE}.plain_outputs", "grader.marking.gradebook.short_pages.shorten"]
+c.ExportApp.plugin_class = "grader.marking.gradebook.grades.Grades"
+
+# A student's page, with the name, contents by exercise, and nothing from elsewhere.
+c.GenerateFeedback.exporter_class = "grader.marking.gradebook.student_page.StudentPage"

@@ -2,8 +2,9 @@
 
 from grader.catalogue import grade
 from grader.checks.check import Missed, check
+from grader.course_map import course_map
 from grader.exercise import Exercise, Scenario
 from grader.score import Score
 from grader.tell import tell
 
-__all__ = ["Exercise", "Missed", "Scenario", "Score", "check", "grade", "tell"]
+__all__ = ["Exercise", "Missed", "Scenario", "Score", "check", "course_map", "grade", "tell"]

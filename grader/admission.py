@@ -8,6 +8,7 @@ from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from sim import Process
+from sim.notebook import outdated
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
@@ -19,6 +20,20 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
     except Exception as error:  # the student's own class may answer any question with an exception
         saw = f"something that raises {type(error).__name__} when it is looked at"
         return unusable(saw, "Give an ordinary class that is based on Node.")
+
+
+def not_run(nodes: Sequence[Any]) -> Fault | None:
+    """That the notebook shows a newer version of these than would be judged; None if it doesn't."""
+    found = outdated(nodes)
+    if found is None:
+        return None
+    return Fault(
+        "the code that your notebook shows",
+        found.saw,
+        f"{found.hint} Nothing was judged: it would have been an older version.",
+        before_start=True,
+        sentence="Your last version did not run.",
+    )
 
 
 def _refuse(node: Any) -> Fault | None:

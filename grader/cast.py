@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from grader.admission import refusal, unusable
+from grader.admission import not_run, refusal, unusable
 from grader.diagnosis.fault import Fault
 from sim.ros.remote import Remote, RemoteLost
 
 Prepare = Callable[[Any], Any]
-"""Makes of one of the student's programs the one that runs in its place: a function of a module."""
+"""Makes of one of the student's programs the one that runs in its place: a function of a module, or
+functools.partial of one with further words."""
 
 MOST_TEXT = 2_000  # characters of what another process says
 
@@ -33,11 +35,13 @@ class LocalCast:
 
     def refusal(self) -> Fault | None:
         """As Cast."""
-        return refusal(self._nodes)
+        return not_run(self._nodes) or refusal(self._nodes)
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
+        if not isinstance(prepare, functools.partial):
+            return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
+        return [prepare.func(node, *prepare.args) for node in self._nodes]
 
 
 class RemoteCast:
@@ -57,12 +61,14 @@ class RemoteCast:
         if answer is None:
             return None
         if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
-            raise RemoteLost("The process with the nodes did not say whether they can be run.")
+            raise RemoteLost("The process with the nodes did not say whether they can be run.", lives=True)
         return unusable(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        self._remote.preparation = _name(prepare) if prepare is not None else ""
+        words = prepare.args if isinstance(prepare, functools.partial) else ()
+        function = prepare.func if isinstance(prepare, functools.partial) else prepare
+        self._remote.preparation = [_name(function), *words] if function is not None else []
         return [self._remote]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -12,6 +13,7 @@ from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.quiet import quiet_stderr
 from grader.score import Score
+from grader.slips import mended, slips_of, with_half
 from sim.evidence import Recording, Seconds
 
 offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
@@ -87,6 +89,7 @@ class Exercise:
     name: unique in the course. title: what the student reads.
     world, seconds, companions, until: the one scenario, run once for each of `seeds`.
     scenarios: in place of these, several scenarios; a check holds only if it holds in all that judge it.
+    may_end: its programs come to their end when they are done; else the time after that is not earned.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -100,6 +103,7 @@ class Exercise:
     until: Callable[[Recording], bool] | None = None
     seeds: Sequence[int] = (0,)
     scenarios: Sequence[Scenario] = ()
+    may_end: bool = False
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -115,6 +119,7 @@ class Exercise:
         after: Check | tuple[Check, ...] = (),
         only: str | tuple[str, ...] = (),
         guess: str = "",
+        lasts: bool = False,
     ) -> Callable[[Callable[..., Any]], Check]:
         """Make the next check of this exercise of a function whose docstring the student reads.
 
@@ -122,9 +127,10 @@ class Exercise:
         function is handed what these checks have returned, if it takes more than a recording. only: the
         names of the scenarios in which it holds.
         guess: what is most likely missing, where a miss has no hint and no diagnosis fits.
+        lasts: it speaks of all the time, though it builds on no other: time not run is not earned.
         Raises ValueError for a check that can't work, as `new_check` does.
         """
-        return lambda function: self._add(new_check(function, points, after, only, guess))
+        return lambda function: self._add(new_check(function, points, after, only, guess, lasts))
 
     def _add(self, item: Check) -> Check:
         known, where = {before.name for before in self.checks}, f"exercise {self.name}: {item.name}"
@@ -184,11 +190,22 @@ class Exercise:
         judged: list[list[Verdict]] = []
         for scenario, seed in self.runs(secret):
             try:
-                recording = scenario.run(cast, seed)
+                recording, verdicts = self._judged(scenario, seed, cast)
             except Exception as error:
-                recordings.append(Recording(seed=seed))
-                judged.append([broken(item, error) for item in self.checks if item.holds_in(scenario.name)])
-            else:
-                recordings.append(recording)
-                judged.append(judge(self.checks, recording, scenario.name))
+                recording = Recording(seed=seed)
+                verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
+            recordings.append(recording)
+            judged.append(verdicts)
         return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
+
+    def _judged(self, scenario: Scenario, seed: int, cast: Cast) -> tuple[Recording, list[Verdict]]:
+        """One run and its verdicts; where it shows a slip, with half of what a run without it earns."""
+        recording = scenario.run(cast, seed)
+        verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
+        slips = slips_of(recording, verdicts)
+        if not slips or scenario.prepare is not None:
+            return recording, verdicts
+        again = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
+        return recording, with_half(
+            verdicts, judge(self.checks, again, scenario.name, may_end=self.may_end)
+        )

@@ -25,14 +25,23 @@ WIDTH = 88  # characters of a line in a terminal
 
 
 def html(
-    title: str, points: float, most: float, verdicts: Sequence[Verdict], runs: Sequence[str] = ()
+    title: str,
+    points: float,
+    most: float,
+    verdicts: Sequence[Verdict],
+    runs: Sequence[str] = (),
+    note: str = "",
 ) -> str:
-    """The table that Jupyter shows. runs: what to call each run, where there are several."""
+    """The table that Jupyter shows.
+
+    runs: what to call each run, where there are several. note: a sentence on the points as a whole.
+    """
     rows = "".join(_row(verdict, runs) for verdict in verdicts)
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
-        f"<b>{_escape(title)}: {number(points)} of {number(most)} points</b></caption>"
+        f"<b>{_escape(title)}: {number(points)} of {number(most)} points</b>"
+        f'{note and f"<br>{_escape(note)}"}</caption>'
         f"<thead><tr>{_heading('', '6.5em')}{_heading('What is checked')}{_heading('Points', '5em')}</tr>"
         "</thead>"
         f"<tbody>{rows}</tbody></table>"
@@ -40,10 +49,15 @@ def html(
 
 
 def text(
-    title: str, points: float, most: float, verdicts: Sequence[Verdict], runs: Sequence[str] = ()
+    title: str,
+    points: float,
+    most: float,
+    verdicts: Sequence[Verdict],
+    runs: Sequence[str] = (),
+    note: str = "",
 ) -> str:
     """The same for a terminal."""
-    lines = [f"{title}: {number(points)} of {number(most)} points"]
+    lines = [f"{title}: {number(points)} of {number(most)} points", *textwrap.wrap(note, WIDTH)]
     for verdict in verdicts:
         symbol, word, _ = MARKS[mark(verdict)]
         lines.append(f"  {symbol} {word:<11} {_points(verdict):>9}  {verdict.sentence}")

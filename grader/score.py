@@ -8,9 +8,11 @@ from dataclasses import asdict
 from typing import Any
 
 from grader import page
-from grader.checks.judge import Verdict
+from grader.checks.judge import Verdict, halves
 from grader.quiet import quiet_stderr
 from sim.evidence import Recording
+
+UNSAFE = 0.4  # of all points: the most that is earned with a robot that is unsafe
 
 
 class Score(float):
@@ -20,6 +22,7 @@ class Score(float):
 
     max: the points that can be reached.
     verdicts: one per check, and one for an error of the student's, if any.
+    capped: more was earned than `UNSAFE` allows, for a robot that is unsafe.
     recordings: what the verdicts speak of; `Verdict.run` is an index into it.
     """
 
@@ -28,6 +31,7 @@ class Score(float):
     max: float
     verdicts: tuple[Verdict, ...]
     recordings: tuple[Recording, ...]
+    capped: bool
 
     def __new__(
         cls,
@@ -41,7 +45,9 @@ class Score(float):
         verdicts = tuple(verdicts)
         most = _rounded_down(math.fsum(verdict.points for verdict in verdicts))
         earned = _rounded_down(math.fsum(verdict.earned for verdict in verdicts))
-        score = super().__new__(cls, min(max(earned, 0.0), most))
+        limit = halves(UNSAFE * most) if any(verdict.unsafe for verdict in verdicts) else most
+        score = super().__new__(cls, min(max(earned, 0.0), limit))
+        score.capped = earned > limit
         score.exercise, score.title, score.max = exercise, title or exercise, most
         score.verdicts, score.recordings = verdicts, tuple(recordings)
         return score
@@ -54,7 +60,7 @@ class Score(float):
     @property
     def text(self) -> str:
         """The table for a terminal."""
-        return page.text(self.title, float(self), self.max, self.verdicts, self._runs)
+        return page.text(self.title, float(self), self.max, self.verdicts, self._runs, self._note)
 
     @property
     def pictures(self) -> list[tuple[str, Any]]:
@@ -86,13 +92,20 @@ class Score(float):
             count > 1
         )
 
+    @property
+    def _note(self) -> str:
+        """Why it is less than the sum of its lines; "" where it isn't."""
+        missed = next((verdict.sentence for verdict in self.verdicts if verdict.unsafe), "")
+        most = f"at most {UNSAFE:.0%} of the points"
+        return f"Safety comes first: without “{missed.rstrip('.')}” there are {most}." if self.capped else ""
+
     def __repr__(self) -> str:
         return f"{float(self):.4f}".rstrip("0").rstrip(".")
 
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        return page.html(self.title, float(self), self.max, self.verdicts, self._runs)
+        return page.html(self.title, float(self), self.max, self.verdicts, self._runs, self._note)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.

@@ -4,6 +4,7 @@ Nothing happens when this very content is installed. Else the wheel comes from t
 """
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -41,23 +42,37 @@ def build(wheel: Path) -> None:
     with tempfile.TemporaryDirectory() as directory:
         copy = Path(directory, "interfaces")
         shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
-        done = subprocess.run(
-            [sys.executable, "-c", "from setuptools.build_meta import build_wheel; build_wheel('dist')"],
-            cwd=copy,
-            # Fixed times in the archive make two builds equal, byte by byte.
-            env={**os.environ, "SOURCE_DATE_EPOCH": "1704067200"},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        if done.returncode:
-            raise BuildError(f"{done.stdout}\nThe ROS interfaces could not be built; the reason is above.")
+        log = Path(directory, "log")
+        with log.open("w") as output:
+            process = subprocess.Popen(
+                [sys.executable, "-c", "from setuptools.build_meta import build_wheel; build_wheel('dist')"],
+                cwd=copy,
+                # Fixed times in the archive make two builds equal, byte by byte.
+                env={**os.environ, "SOURCE_DATE_EPOCH": "1704067200"},
+                stdout=output,
+                stderr=subprocess.STDOUT,
+            )
+        if tell_packages(process, copy):
+            said = log.read_text()
+            raise BuildError(f"{said}\nThe ROS interfaces could not be built; the reason is above.")
         wheel.parent.mkdir(parents=True, exist_ok=True)
         # First beside its place, then renamed: another process never sees half a wheel.
         half = wheel.with_suffix(f".{os.getpid()}")
         shutil.move(copy / "dist" / wheel.name, half)
         half.replace(wheel)
+
+
+def tell_packages(process: subprocess.Popen, copy: Path) -> int:
+    """Print each package as its compilation begins, until the build ends; return the build's exit status."""
+    told: set[str] = set()
+    packages = len(list((copy / "definitions").iterdir()))
+    while True:
+        try:
+            return process.wait(timeout=0.5)
+        except subprocess.TimeoutExpired:
+            for name in sorted({folder.name for folder in copy.glob("build/temp*/objects/*")} - told):
+                told.add(name)
+                print(f"  {len(told)} of {packages}: {name}", flush=True)
 
 
 def install(wheel: Path) -> None:
@@ -70,8 +85,8 @@ def install(wheel: Path) -> None:
 def main() -> None:
     """Install what is not installed yet, or stop with one sentence that says what to do."""
     try:
-        if installed() == version():
-            return
+        if platform.machine() != "x86_64" or installed() == version():
+            return  # elsewhere rclpy is ROS's own, and so are all interfaces
         wheel = cached_wheel()
         if not wheel.exists():
             print("Building the ROS interfaces, once; this takes about a minute ...", flush=True)

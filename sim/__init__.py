@@ -4,15 +4,19 @@ from sim import environment
 
 environment.prepare()
 
+from sim import notebook  # noqa: E402
 from sim.evidence import Recording  # noqa: E402
 from sim.play import play, replay  # noqa: E402
 from sim.ros.engine.program import Process  # noqa: E402
 from sim.ros.hooks.install import install  # noqa: E402
 from sim.ros.play.teleop import Teleop  # noqa: E402
 from sim.ros.run import run  # noqa: E402
+from sim.ros2 import offer  # noqa: E402
 from sim.world import World  # noqa: E402
 
 Recording.player = replay
-install()  # last: what the engine itself has bound are the real clocks
+notebook.watch()
+install()  # after all imports: what the engine itself has bound are the real clocks
+offer()
 
 __all__ = ["Process", "Recording", "Teleop", "World", "play", "run"]

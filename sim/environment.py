@@ -3,6 +3,7 @@
 import os
 import sys
 import tempfile
+import warnings
 
 PINNED = {
     # Only OFF keeps two processes with the same topics from hearing each other.
@@ -28,6 +29,8 @@ REMOVED = (
 def prepare() -> None:
     """Pin the environment of this process. Safe to call again."""
     os.environ.update(PINNED)
+    # rclpy says it of a node whose name is none; the error that follows says why.
+    warnings.filterwarnings("ignore", "Failed to fini rosout publisher", RuntimeWarning)
     for name in REMOVED:
         os.environ.pop(name, None)
     # rclpy.init() fails where it can't write its log files.

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import builtins
 from collections.abc import Callable
 from typing import Any
 
 from sim.evidence import Recording
+from sim.notebook import in_notebook, refuse_outdated
 from sim.ros.play.pacing import Pace
 from sim.ros.play.player import Player
 from sim.ros.session import Session
@@ -31,9 +31,10 @@ def play(
     its replay takes the picture's place. Without an event loop it returns when the run is over. What was
     played before is stopped. Raises what `run` raises, and ValueError for a speed that is none.
     """
+    refuse_outdated(nodes)
     pace = Pace(speed)
     player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play"), pace)
-    if _in_notebook():
+    if in_notebook():
         from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
 
         view = LiveView(player.recording.world)
@@ -48,9 +49,3 @@ def replay(recording: Recording, *, speed: float) -> Any:
     from sim.view.replay import replay  # here, for it takes a while
 
     return replay(recording, speed=speed)
-
-
-def _in_notebook() -> bool:
-    """Whether a notebook's cell is running, which can show a picture."""
-    shell = getattr(builtins, "get_ipython", lambda: None)()
-    return getattr(shell, "kernel", None) is not None

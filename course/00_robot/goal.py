@@ -4,6 +4,7 @@ import math
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
 
@@ -13,7 +14,7 @@ class Explorer(Node):
     def __init__(self):
         super().__init__("explorer")
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(LaserScan, "/scan", self.look, 10)
+        self.create_subscription(LaserScan, "/scan", self.look, qos_profile_sensor_data)
 
     def look(self, scan):
         """Choose a velocity, 20 times a second."""

@@ -5,6 +5,7 @@ import random
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
 
@@ -38,7 +39,7 @@ class Bodyguard(Node):
         super().__init__("bodyguard")
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.ahead = 0.0  # metres; nothing is known yet
-        self.create_subscription(LaserScan, "/scan", self.look, 10)
+        self.create_subscription(LaserScan, "/scan", self.look, qos_profile_sensor_data)
         self.create_subscription(Twist, "/cmd_vel_raw", self.filter, 10)
 
     def look(self, scan):

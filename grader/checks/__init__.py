@@ -21,6 +21,7 @@ from grader.checks.motion import (
     passes,
     stands_still,
     travelled,
+    until_a_touch,
 )
 from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.services import calls, responds, serves
@@ -62,6 +63,7 @@ __all__ = [
     "stands_still",
     "subscribes",
     "travelled",
+    "until_a_touch",
     "usual_mistake",
     "within",
 ]

@@ -40,10 +40,11 @@ def serves_action(recording: Recording, action: str, type: str = "") -> list[End
 
 
 def sends_goals(recording: Recording, action: str, type: str = "", *, at_least: int = 1) -> list[Goal]:
-    """The goals sent to an action, at least so many. Raises Missed without client, type or goals."""
+    """The student's goals for an action, at least so many. Raises Missed without client, type or goals."""
     expected = f"an action client for {action}" + (f" of type {type}" if type else "")
     declared(recording, "action client", action, type, expected)
-    found = [goal for goal in recording.goals_of(action) if goal.asked is not None]
+    sent = [goal for goal in recording.goals_of(action) if goal.asked is not None]
+    found = [goal for goal in sent if not goal.asked_by_us]
     if len(found) < at_least:
         many = f"a goal for {action}" if at_least == 1 else f"{at_least} or more goals for {action}"
         saw = f"only {len(found)} in {recording.ended.stamp:.3g} s" if found else "a client, but no goal"

@@ -23,6 +23,8 @@ class Missed(Exception):
     credit: the fraction 0..1 of the check's points that is earned all the same.
     picture: "path" or "topics" where a figure of the recording says more than words.
     measured: with a credit, what checks that come after this one are handed.
+    slip: a name that was misspelt, and how it is written.
+    unsafe: the robot did what may hurt somebody: then the exercise gives no more than a part of its points.
     """
 
     def __init__(
@@ -35,10 +37,13 @@ class Missed(Exception):
         credit: float = 0.0,
         picture: Picture = "",
         measured: Any = None,
+        slip: tuple[str, str] | None = None,
+        unsafe: bool = False,
     ) -> None:
         super().__init__(f"expected {expected}; saw {saw}")
         self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
         self.credit, self.picture, self.measured = fraction(credit), picture, measured
+        self.slip, self.unsafe = slip, unsafe
 
 
 @contextmanager
@@ -57,7 +62,7 @@ class Check:
 
     sentence: what the student reads. after: the checks that it builds on: it is skipped when one of them
     earned nothing. only: names of the scenarios in which it holds; empty for all. guess: as in `Missed`, for
-    any miss of this check.
+    any miss of this check. lasts: it speaks of all the time, as those do that build on others.
     """
 
     name: str
@@ -67,6 +72,7 @@ class Check:
     function: Callable[..., Any]
     only: tuple[str, ...] = ()
     guess: str = ""
+    lasts: bool = False
 
     def __call__(self, recording: Recording, *measured: Any) -> Any:
         """What the function measured. Raises Missed, or whatever a faulty check raises."""
@@ -88,6 +94,7 @@ def new_check(
     after: Check | tuple[Check, ...] = (),
     only: str | tuple[str, ...] = (),
     guess: str = "",
+    lasts: bool = False,
 ) -> Check:
     """A check of this function, whose docstring is the sentence that the student reads.
 
@@ -103,9 +110,8 @@ def new_check(
     if not sentence:
         raise ValueError(f"{name} needs a docstring: it is the sentence that the student reads")
     before = (after,) if isinstance(after, Check) else tuple(after)
-    made = Check(
-        name, sentence, float(points), before, function, (only,) if isinstance(only, str) else only, guess
-    )
+    places = (only,) if isinstance(only, str) else only
+    made = Check(name, sentence, float(points), before, function, places, guess, lasts or bool(before))
     if made.asks not in (0, len(before)):
         raise ValueError(
             f"{name} takes a recording and nothing else, or also what each of its {len(before)} checks in "

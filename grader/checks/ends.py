@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks.check import Missed
-from grader.diagnosis.names import closest, difference
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
+from sim.nearest import closest, difference
 
 
 class _Words(NamedTuple):
@@ -32,23 +32,24 @@ _WORDS = {
 
 
 def declared(recording: Recording, kind: str, name: str, type: str, expected: str) -> list[Endpoint]:
-    """The ends of this kind and name, all of one type if one is given. kind: as in `Endpoint`.
+    """The student's ends of this kind and name, all of one type if one is given. kind: as in `Endpoint`.
 
     Raises Missed with what there is in their place.
     """
-    words, ends = _WORDS[kind], recording.graph.ends(kind)
+    words, ends = _WORDS[kind], [end for end in recording.graph.ends(kind) if not end.ours]
     found = [end for end in ends if end.name == name]
     wrong = next((end for end in found if type and end.type != type), None)
     if wrong:
         hint = f"Both ends of {_a(words.what)} must use the same {words.type}: on {name} it is {type}."
         raise Missed(expected, f"type {wrong.type} on {name}", hint)
     if not found:
-        mine = {end.name for end in ends if end.node not in recording.ours}
         connected = {end.name for end in recording.graph.ends(words.other)}
-        others = sorted(mine - INFRASTRUCTURE_TOPICS - connected)  # a connected one is no slip
+        # a connected one is no slip
+        others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - connected)
         near = closest(name, others)
         saw = words.nobody + (f"; {words.instead.format(', '.join(others))}" if others else "")
-        raise Missed(expected, saw, difference(near, name) if near else "")
+        hint, slip = (difference(near, name), (near, name)) if near else ("", None)
+        raise Missed(expected, saw, hint, slip=slip)
     return found
 
 

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import traceback
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from grader.checks.check import Check, Missed, Picture
+from grader.checks.staging import evidence_of
+from grader.checks.work import work_of
 from grader.diagnosis import explain, find_fault
 from grader.diagnosis.fault import Fault
+from grader.diagnosis.owners import LEAVE_IT, Intrusion, intrusions
 from sim.evidence import Recording
 
 Status = Literal["passed", "failed", "skipped", "broken"]
 
 BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
+EXPLAINED_BY_INTRUSION = "Not judged: nobody can tell what came from whom, see above."
 EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
-CUT_SHORT = "hang", "livelock", "blocked"  # ends of a run before its time that are the student's
+STAGED = "keeps_apart"  # the name of the line that tells of a topic or service with two owners
 
 
 @dataclass(frozen=True)
@@ -40,29 +45,54 @@ class Verdict:
     picture: Picture = ""
     alarm: str = ""
     run: int = 0  # index of the run it speaks of
+    unsafe: bool = False  # as in Missed
+    slip: tuple[str, str] | None = None  # as in Missed
 
     @property
     def earned(self) -> float:
-        """Points."""
-        return self.points * self.credit
+        """Points, in halves: rounded down."""
+        return halves(self.points * self.credit) if self.credit < 1.0 else self.points
 
 
-def judge(checks: Sequence[Check], recording: Recording, scenario: str = "") -> list[Verdict]:
-    """Judge every check that holds in this scenario, in order.
+def halves(points: float) -> float:
+    """Points as a person would write them: whole and half ones, never more than were earned."""
+    return math.floor(points * 2 + 1e-6) / 2
+
+
+def judge(
+    checks: Sequence[Check], recording: Recording, scenario: str = "", *, may_end: bool = False
+) -> list[Verdict]:
+    """Judge every check that holds in this scenario, in order. may_end: as in Exercise.
 
     The student's own error comes first and explains the checks that then miss. An error before the nodes were
     up leaves nothing to judge: everything is skipped.
     """
-    court = _Court(recording)
+    court = _Court(recording, may_end)
     for item in checks:
         if item.holds_in(scenario):
             court.verdicts[item.name] = court.judge(item)
-    return [*([faulty(court.fault)] if court.fault else []), *court.verdicts.values()]
+    first = [faulty(court.fault)] if court.fault else []
+    first += [_staged(found) for found in court.intrusions[:1]]
+    return [*first, *court.verdicts.values()]
 
 
 def faulty(fault: Fault) -> Verdict:
     """The line that tells a student of an error of their own. It carries no points."""
     return Verdict("runs", fault.sentence, 0.0, "failed", 0.0, fault.expected, fault.saw, fault.hint)
+
+
+def _staged(found: Intrusion) -> Verdict:
+    """The line that tells a student of an end where only another program has one. It carries no points."""
+    return Verdict(
+        STAGED,
+        "Topics and services of other programs are left to them.",
+        0.0,
+        "failed",
+        0.0,
+        f"one {found.what} {found.name}: {found.owner}",
+        f"two, {found.owner} and {found.student} of yours",
+        LEAVE_IT,
+    )
 
 
 def skipped(item: Check, reason: str) -> Verdict:
@@ -79,9 +109,10 @@ def broken(item: Check, error: BaseException) -> Verdict:
 class _Court:
     """Judges one recording, and remembers what is explained already: one mistake gives one red line."""
 
-    def __init__(self, recording: Recording) -> None:
-        self.recording = recording
-        self.fault = find_fault(recording)
+    def __init__(self, recording: Recording, may_end: bool) -> None:
+        self.recording, self.evidence = recording, evidence_of(recording)
+        self.work = work_of(recording, may_end=may_end)
+        self.fault, self.intrusions = find_fault(recording), intrusions(recording)
         self.verdicts: dict[str, Verdict] = {}
         self.measured: dict[str, Any] = {}
         self.explained: set[str] = set()
@@ -93,17 +124,18 @@ class _Court:
         unmet = next((before for before in judged if self.verdicts[before.name].credit == 0.0), None)
         if unmet:
             return skipped(item, f"Not judged: first comes “{unmet.sentence}”")
+        if item.after and self.intrusions:
+            return skipped(item, EXPLAINED_BY_INTRUSION)
         try:
-            self.measured[item.name] = item(self.recording, *self._handed(item))
+            self.measured[item.name] = item(self.evidence, *self._handed(item))
         except Missed as missed:
             if missed.measured is not None:
                 self.measured[item.name] = missed.measured
             return self._missed(item, missed)
         except Exception as error:
             return broken(item, error)
-        if item.after and self.share < 1.0:
-            seen = f"Judged only for {self.recording.ended.stamp:.3g} s: the error above ended the run."
-            return replace(skipped(item, seen), credit=self.share)
+        if item.lasts and self.work.share < 1.0:
+            return replace(skipped(item, self.work.why), credit=self.work.share)
         return Verdict(item.name, item.sentence, item.points, "passed", 1.0)
 
     def _handed(self, item: Check) -> list[Any]:
@@ -114,17 +146,11 @@ class _Court:
             )
         return [self.measured[before.name] for before in item.after] if item.asks else []
 
-    @property
-    def share(self) -> float:
-        """How much of its time the run had. Else who gets stuck at once has done nothing wrong."""
-        ended, seconds = self.recording.ended, self.recording.seconds
-        return ended.stamp / seconds if ended.reason in CUT_SHORT and seconds else 1.0
-
     def _missed(self, item: Check, missed: Missed) -> Verdict:
         cause = "" if missed.hint else explain(self.recording)
-        if missed.credit == 0.0 and self.fault:
-            return skipped(item, EXPLAINED_BY_FAULT)
-        if missed.credit == 0.0 and cause in self.explained:
+        if missed.credit == 0.0 and self.fault and not missed.unsafe:
+            return replace(skipped(item, EXPLAINED_BY_FAULT), slip=missed.slip)
+        if missed.credit == 0.0 and cause in self.explained and not missed.unsafe:
             return skipped(item, EXPLAINED_BY_HINT)
         if cause:
             self.explained.add(cause)
@@ -133,12 +159,20 @@ class _Court:
             item.sentence,
             item.points,
             "failed",
-            missed.credit,
+            missed.credit * (self.work.share if item.lasts else 1.0),
             missed.expected,
             missed.saw,
             missed.hint or cause or missed.guess or item.guess,
             missed.picture,
+            unsafe=missed.unsafe,
+            slip=missed.slip,
         )
+
+
+def _worst_of(group: Sequence[Verdict]) -> Verdict:
+    """The one that earns least; one of a robot that was unsafe goes before all, and earns no more."""
+    told = min(group, key=lambda v: (not v.unsafe, v.credit, _GRAVITY[v.status]))
+    return replace(told, credit=min(verdict.credit for verdict in group))
 
 
 _GRAVITY: dict[Status, int] = {"failed": 0, "skipped": 1, "broken": 2, "passed": 3}
@@ -150,6 +184,6 @@ def worst(checks: Sequence[Check], runs: Iterable[Sequence[Verdict]]) -> list[Ve
     for index, verdicts in enumerate(runs):
         for verdict in verdicts:
             found.setdefault(verdict.name, []).append(replace(verdict, run=index))
-    chosen = [min(group, key=lambda v: (v.credit, _GRAVITY[v.status])) for group in found.values()]
-    order = ["runs", *(item.name for item in checks)]
+    chosen = [_worst_of(group) for group in found.values()]
+    order = ["runs", STAGED, *(item.name for item in checks)]
     return sorted(chosen, key=lambda verdict: order.index(verdict.name))

@@ -9,9 +9,12 @@ from typing import NamedTuple
 
 from grader.checks.check import Missed
 from grader.checks.silence import silence
+from grader.checks.work import worked_until
 from grader.diagnosis.activity import slow_callback
 from sim.evidence import Heard, LogLine, Recording, Seconds
 from sim.nearest import nearest
+
+FLOOD = 10.0  # times as many answers as were asked for earn nothing
 
 
 class Said(NamedTuple):
@@ -35,7 +38,7 @@ def logs(
     texts = [
         Said(line.stamp, line.level, line.text, match.groups())
         for line in recording.logs
-        if (match := re.search(pattern, line.text, re.IGNORECASE))
+        if not line.ours and (match := re.search(pattern, line.text, re.IGNORECASE))
     ]
     found = [line for line in texts if level in ("", line.level)]
     if len(found) < at_least:
@@ -87,7 +90,7 @@ def come_every(
     gaps = [after - before for before, after in itertools.pairwise(stamps)]
     if gaps and all(abs(gap - period) <= 0.1 * period for gap in gaps):
         late = stamps[0] - recording.begin > 1.6 * period
-        if not late and recording.ended.stamp - stamps[-1] <= 1.6 * period:
+        if not late and worked_until(recording) - stamps[-1] <= 1.6 * period:
             _set_by_a_timer(recording, period, credit, lines)
             return lines
         hint = f"What changes at {stamps[0] if late else stamps[-1]:.3g} s?"
@@ -95,6 +98,8 @@ def come_every(
         hint = "One timer sets the pace, its period in seconds. Log one line each time its method is called."
     else:
         hint = "The node has no timer: create_timer(period, method) has a method called again and again."
+    if len(stamps) > FLOOD * (worked_until(recording) - recording.begin) / period:
+        credit = 0.0
     expected = f"a line every {period:g} s, from start to end"
     hint = slow_callback(recording) or hint
     raise Missed(expected, _pace(stamps, gaps), hint, credit=credit, measured=lines)
@@ -153,7 +158,9 @@ def answers(
         like = f" like “{text(open_[0])}”" if pattern else ""
         each = f"of the {what}" if what else f"message on {topic}"
         expected = f"a log line{at_level}{like} after each {each}"
-        raise Missed(expected, _instead(recording, open_[0], within), credit=1 - len(open_) / len(asked))
+        right = 1 - len(open_) / len(asked)
+        credit = right if right >= 0.5 else 0.0  # a few may be right by chance
+        raise Missed(expected, _instead(recording, open_[0], within), credit=credit)
     if only:
         _no_others(recording, heard, where, level, f"no other log line{at_level}")
 
@@ -167,9 +174,7 @@ def _no_others(
         before = [one for one in heard if one.stamp <= line.stamp]
         return bool(before) and where(before[-1])
 
-    lines = [
-        line for line in recording.logs if level in ("", line.level) and not recording.is_ours(line.node)
-    ]
+    lines = [line for line in recording.logs if level in ("", line.level) and not line.ours]
     others = [line for line in lines if not answers_one(line)]
     if others:
         saw = f"“{others[0].text}” at {others[0].stamp:.3g} s"
@@ -180,6 +185,7 @@ def _lines_after(recording: Recording, stamp: Seconds, within: Seconds, pattern:
     return any(
         stamp <= line.stamp < stamp + within
         and level in ("", line.level)
+        and not line.ours
         and re.search(pattern, line.text, re.IGNORECASE)
         for line in recording.logs
     )

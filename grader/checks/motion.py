@@ -28,6 +28,7 @@ def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:
             f"a {first.what} at ({first.x:.2f}, {first.y:.2f}) m, on the robot's {first.side} side",
             hint,
             picture="path",
+            unsafe=True,
         )
 
 
@@ -97,6 +98,11 @@ def distances_to_line(points: np.ndarray, line: Sequence[Point]) -> np.ndarray:
     offsets = points[:, None, :] - starts[None]
     along = np.clip((offsets * spans).sum(axis=2) / lengths, 0.0, 1.0)
     return np.linalg.norm(offsets - along[..., None] * spans, axis=2).min(axis=1)
+
+
+def until_a_touch(recording: Recording) -> Recording:
+    """The run until the robot touches something for the first time; the whole one where it doesn't."""
+    return recording.during(0.0, recording.contacts[0].stamp) if recording.contacts else recording
 
 
 def travelled(recording: Recording) -> float:

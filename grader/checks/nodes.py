@@ -6,8 +6,8 @@ import math
 
 from grader.checks.check import Missed
 from grader.diagnosis import find_fault
-from grader.diagnosis.names import closest, difference
 from sim.evidence import Recording, TimerInfo
+from sim.nearest import closest, difference
 
 
 def no_errors(recording: Recording) -> None:
@@ -23,7 +23,8 @@ def named(recording: Recording, name: str) -> None:
         return
     near = closest(name, recording.graph.nodes)
     hint = difference(near, name) if near else "The name of a node is set by super().__init__('name')."
-    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint)
+    slip = ("__node", name.rpartition("/")[2]) if near else None
+    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, slip=slip)
 
 
 def has_timer(recording: Recording, period: float, *, tolerance: float = 1e-3) -> list[TimerInfo]:

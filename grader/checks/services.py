@@ -22,10 +22,14 @@ def serves(recording: Recording, service: str, type: str = "") -> list[Endpoint]
 
 
 def calls(recording: Recording, service: str, type: str = "", *, at_least: int = 1) -> list[Call]:
-    """The calls of a service, at least so many. Raises Missed when client, type or calls are not there."""
+    """The student's calls of a service, at least so many.
+
+    Raises Missed when client, type or calls are not there.
+    """
     expected = f"a client for {service}" + (f" of type {type}" if type else "")
     declared(recording, "client", service, type, expected)
-    found = [call for call in recording.calls_of(service) if call.asked is not None]
+    asked = [call for call in recording.calls_of(service) if call.asked is not None]
+    found = [call for call in asked if not call.asked_by_us]
     if len(found) < at_least:
         many = f"a call of {service}" if at_least == 1 else f"{at_least} or more calls of {service}"
         saw = f"only {len(found)} in {recording.ended.stamp:.3g} s" if found else "a client, but no call"

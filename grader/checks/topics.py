@@ -10,7 +10,7 @@ from typing import Any
 
 from grader.checks.check import Missed
 from grader.checks.ends import declared
-from grader.checks.judge import CUT_SHORT
+from grader.checks.work import worked_until
 from sim.evidence import Endpoint, Heard, Recording, Seconds
 from sim.evidence import rate as mean_rate
 
@@ -50,7 +50,7 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     if abs(measured - hz) > tolerance * hz:
         saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
         raise Missed(expected, saw, _rate_hint(recording, measured, hz), picture="topics")
-    pause, since = longest_pause([0.0, *stamps, recording.ended.stamp])
+    pause, since = longest_pause([0.0, *stamps, worked_until(recording)])
     if pause > 2.5 / hz:
         saw = f"no message for {pause:.3g} s, from {since:.3g} s on"
         raise Missed(
@@ -68,10 +68,10 @@ def longest_pause(moments: Sequence[Seconds]) -> tuple[Seconds, Seconds]:
 def lasts(recording: Recording, topic: str, *, pause: Seconds = 1.0) -> None:
     """Messages on a topic come until the end of the run's time: the last one at most `pause` before it.
 
-    Raises Missed if not. A run that was cut short needs none later: its credit is for the part it had.
+    Raises Missed if not. What ended or got stuck needs none later: its credit is for the part it had.
     """
     last = publishes(recording, topic)[-1].stamp
-    end = recording.ended.stamp if recording.ended.reason in CUT_SHORT else recording.seconds
+    end = worked_until(recording)
     if last < end - pause:
         raise Missed(
             f"messages on {topic} until the end, at {end:g} s",

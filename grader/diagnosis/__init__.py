@@ -1,6 +1,6 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
-from grader.diagnosis import actions, activity, connections, driving, names, services
+from grader.diagnosis import actions, activity, connections, driving, names, owners, services
 from grader.diagnosis.faults import find_fault
 from sim.evidence import Recording
 
@@ -10,9 +10,11 @@ __all__ = ["explain", "find_fault", "find_flaw"]
 DIAGNOSES = (
     activity.slow_callback,
     names.shared_name,
+    owners.two_owners,
     names.typing_slip,
     names.service_slip,
     connections.incompatible_qos,
+    connections.said_too_early,
     services.nobody_offers,
     services.asked_nobody,
     activity.never_spun,
@@ -33,6 +35,7 @@ GUESSES = (services.answer_dropped, activity.ended_early)
 # What no check need ask for.
 FLAWS = (
     activity.busy_listener,
+    activity.busy_loop,
     driving.refused_command,
     driving.two_drivers,
     driving.rare_commands,

@@ -66,7 +66,7 @@ def never_spun(recording: Recording) -> str:
     """A node with timers, incoming messages or requests, none of whose callbacks ever ran."""
     if recording.ended.reason == "blocked":
         return ""  # what is blocked did begin
-    active = {run.node for run in recording.callbacks}
+    active = {run.node for run in recording.callbacks} | {loop.node for loop in recording.busy_loops}
     for node in recording.graph.nodes:
         if node in active or node in recording.ours:
             continue
@@ -94,6 +94,17 @@ def _waiting_work(recording: Recording, node: str) -> str:
     if any(goal.action in acting and not goal.lost for goal in recording.goals):
         return "an action with goals waiting"
     return "a subscription" if listening and finished else ""
+
+
+def busy_loop(recording: Recording) -> str:
+    """A loop without a pause: it works, for others of its program go on meanwhile, and fills a core."""
+    if not recording.busy_loops:
+        return ""
+    loop = recording.busy_loops[0]
+    return (
+        f"A loop without a pause keeps a whole core of the processor busy from {loop.stamp:.3g} s on: "
+        f"{loop.place}. Let a timer do what is in it, or put time.sleep(0.01) there."
+    )
 
 
 def ended_early(recording: Recording) -> str:

@@ -4,35 +4,32 @@ from __future__ import annotations
 
 from itertools import product
 
-from sim.evidence import Endpoint, Recording
-
-# Per policy: what the publisher offers and the subscription asks for when they don't match.
-_MISMATCHES = (
-    ("reliability", "best_effort", "reliable"),
-    ("durability", "volatile", "transient_local"),
-)
+from sim.evidence import Recording
+from sim.evidence.qos import offer, refusal
 
 
 def incompatible_qos(recording: Recording) -> str:
     """A subscription that asks for more than the publisher offers: ROS then connects nothing."""
-    for publisher, subscription in _pairs(recording):
-        for policy, offered, wanted in _MISMATCHES:
-            if _value(publisher, policy) == offered and _value(subscription, policy) == wanted:
-                return (
-                    f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes with "
-                    f"{policy} {offered}, "
-                    f"{subscription.node} asks for {wanted}, so nothing arrives. Use the same "
-                    f"{policy} at both ends."
-                )
+    for publisher, subscription in product(recording.graph.publishers(), recording.graph.subscriptions()):
+        found = refusal(publisher.qos, subscription.qos) if publisher.name == subscription.name else None
+        if found is not None:
+            policy, offered, wanted = found
+            return (
+                f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
+                f"{offer(policy, offered)}, {subscription.node} asks for {wanted}, so nothing arrives. "
+                f"Use the same {policy} at both ends."
+            )
     return ""
 
 
-def _pairs(recording: Recording) -> list[tuple[Endpoint, Endpoint]]:
-    ends = product(recording.graph.publishers(), recording.graph.subscriptions())
-    return [
-        (publisher, subscription) for publisher, subscription in ends if publisher.name == subscription.name
-    ]
-
-
-def _value(endpoint: Endpoint, policy: str) -> str:
-    return str(endpoint.qos.get(policy, "")).lower()
+def said_too_early(recording: Recording) -> str:
+    """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
+    early = next((row for row in recording.unheard if row.node not in recording.ours), None)
+    if early is None:
+        return ""
+    return (
+        f"{early.node} published on {early.topic} at {early.stamp:.3g} s, before those who listen there had "
+        "found it: two programs need a moment to discover each other, and what is sent before that is lost. "
+        "Make the publisher once, in __init__, and publish from a timer; or latch it (durability "
+        "transient_local at both ends)."
+    )

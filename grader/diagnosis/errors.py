@@ -11,6 +11,7 @@ from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.evidence import CallbackError
 from sim.nearest import nearest
+from sim.notebook import missing
 
 _HOMES = {
     "rclpy": "import rclpy",
@@ -56,6 +57,9 @@ def advice(error: CallbackError) -> str:
 
 def _unknown_name(error: CallbackError) -> str:
     name = next(iter(re.findall(r"name '(\w+)'", error.text)), "")
+    not_run = missing(name)
+    if not_run:
+        return not_run
     if name in _HOMES:
         return f"`{name}` is not imported: write `{_HOMES[name]}` at the top."
     near = nearest(name, _HOMES, 0.75)

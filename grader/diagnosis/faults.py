@@ -12,6 +12,7 @@ from sim.evidence import CallbackError, Ended, Recording
 
 # Classes of rclpy that call a student's method inside a callback of their own.
 _RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
+_THREAD = "thread "
 _UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
 # rclpy's own NotImplementedError, for SetBool() and Spin(): that is no exercise that is not started.
 _OF_A_TYPE = re.compile(r"classes can not be instantiated")
@@ -60,7 +61,8 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
         expected="no error",
         saw=f"{error.type}: {_first_line(error, recording)} ({where(error)})",
         hint=advice_here(error, recording) or advice(error),
-        before_start=error.stamp <= 0.0,
+        # A thread that crashes at once takes nothing along: main() and its nodes go on.
+        before_start=error.stamp <= 0.0 and not error.callback.startswith(_THREAD),
     )
 
 

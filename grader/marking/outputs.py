@@ -11,6 +11,7 @@ from typing import Any
 
 MOST = 1_000_000  # characters that one cell shows
 MOST_WORDS = 1_000  # characters that tell of a picture
+FOR_INSTRUCTOR = "for_instructor"  # in an output's metadata: it is not on the student's page
 LEFT_OUT = "\n[This cell showed more than a notebook can hold. The rest is left out.]\n"
 
 SHOWN = (

@@ -1,4 +1,4 @@
-"""The instructor's secret, from which marking derives worlds and seeds that no student has seen.
+"""The instructor's secret, from which marking derives worlds and seeds, others for each student.
 
 One line of text in the file `.secret` beside `nbgrader_config.py`, readable by its owner alone and never
 under version control. This makes one:
@@ -9,9 +9,10 @@ Without the file marking uses the public seeds, those of the students' own check
 """
 import os
 import stat
+from collections.abc import Sequence
 from pathlib import Path
 
-from grader.seeds import VARIABLE
+from grader.seeds import VARIABLE, secret_of_student
 
 
 def read(folder: Path) -> str:
@@ -34,15 +35,18 @@ def read(folder: Path) -> str:
     return text
 
 
-def show(**_: object) -> None:
-    """Hand the secret to the kernels that mark, through the environment variable COURSE_SECRET.
+def show(notebooks: Sequence[str] = (), **_: object) -> None:
+    """Hand a student's share of the secret to the kernel that marks, as the variable COURSE_SECRET.
+
+    notebooks: paths of this student's, in class/submitted/STUDENT/ASSIGNMENT/.
 
     nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
     Raises SystemExit as `read` does: nbgrader only notes other exceptions, and would go on.
     """
     text = read(Path())
     if text:
-        os.environ[VARIABLE] = text
+        student = Path(notebooks[0]).parents[1].name if notebooks else ""
+        os.environ[VARIABLE] = secret_of_student(text, student)
 
 
 def hide(**_: object) -> None:

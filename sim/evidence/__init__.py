@@ -21,6 +21,7 @@ from sim.evidence.graph import Endpoint, Graph, TimerInfo
 from sim.evidence.recording import Recording
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
@@ -28,6 +29,7 @@ from sim.evidence.rows import (
     LogLine,
     Pose,
     Seconds,
+    Unheard,
     rate,
     stamps,
 )
@@ -39,6 +41,7 @@ __all__ = [
     "INFRASTRUCTURE_TOPICS",
     "REJECTED",
     "STATUSES",
+    "BusyLoop",
     "Call",
     "CallbackError",
     "CallbackRun",
@@ -52,6 +55,7 @@ __all__ = [
     "Recording",
     "Seconds",
     "TimerInfo",
+    "Unheard",
     "is_node_service",
     "rate",
     "stamps",

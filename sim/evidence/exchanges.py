@@ -50,6 +50,8 @@ class Call:
     raw_response: bytes | None = None
     lost: bool = False  # nobody offered the service when the client asked
     raised: str = ""  # type of the exception that left the callback, e.g. "ValueError"
+    asked_by_us: bool = False  # the client's program is not the student's
+    served_by_us: bool = False  # and that of the server that took it
 
     @property
     def request(self) -> Any:
@@ -80,6 +82,8 @@ class Goal:
     received: Seconds | None = None  # the client got the result
     raw_result: bytes | None = None
     lost: bool = False  # nobody offered the action when the client asked
+    asked_by_us: bool = False  # the client's program is not the student's
+    served_by_us: bool = False  # and that of the server that took it
 
     @property
     def request(self) -> Any:

@@ -13,7 +13,8 @@ class Endpoint(NamedTuple):
     node: str
     name: str  # resolved name, e.g. "/robot1/cmd_vel"
     type: str
-    qos: dict[str, Any]  # reliability, durability, history, depth; {} for actions
+    qos: dict[str, Any]  # see `sim.evidence.qos`; {} for actions
+    ours: bool = False  # the program that made it is not the student's
 
 
 class TimerInfo(NamedTuple):

@@ -17,6 +17,7 @@ from sim.evidence.graph import Graph
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
     STILL_RUNNING,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
@@ -24,6 +25,7 @@ from sim.evidence.rows import (
     LogLine,
     Pose,
     Seconds,
+    Unheard,
 )
 from sim.world import Contact, World
 
@@ -49,10 +51,14 @@ class Recording:
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)
+    busy_loops: list[BusyLoop] = field(default_factory=list)
+    unheard: list[Unheard] = field(default_factory=list)  # the first of each node and topic
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
     ended: Ended = STILL_RUNNING
+    # when the last of the student's programs had ended; None where one was there to the end
+    gone: Seconds | None = None
     begin: Seconds = 0.0  # later than 0 in what `during` gives
     # full names of the nodes that are not the student's: the robot's, the world's, companions of a scenario
     ours: set[str] = field(default_factory=set)
@@ -85,6 +91,8 @@ class Recording:
             logs=stamped(self.logs),
             errors=stamped(self.errors),
             callbacks=stamped(self.callbacks),
+            busy_loops=stamped(self.busy_loops),
+            unheard=stamped(self.unheard),
             prints=stamped(self.prints),
         )
 
@@ -153,7 +161,8 @@ class Recording:
         digest = hashlib.blake2b(digest_size=16)
         for heard in self.heard:
             digest.update(
-                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {len(heard.raw)} ".encode()
+                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
+                f"{len(heard.raw)} ".encode()
             )
             digest.update(heard.raw)
         for exchange in (*self.calls, *self.goals):

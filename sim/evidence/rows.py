@@ -18,6 +18,7 @@ class Heard(NamedTuple):
     type: str  # e.g. "std_msgs/msg/String"
     sender: str  # fully qualified name of the node, e.g. "/talker"
     raw: bytes
+    ours: bool = False  # the program that made the publisher is not the student's, whatever its node's name
 
     @property
     def message(self) -> Any:
@@ -32,6 +33,7 @@ class LogLine(NamedTuple):
     level: str  # DEBUG, INFO, WARN, ERROR or FATAL
     node: str  # logger name, e.g. "talker" or "robot1.talker"
     text: str
+    ours: bool = False  # the program that wrote it is not the student's
 
 
 class CallbackError(NamedTuple):
@@ -58,6 +60,22 @@ class CallbackRun(NamedTuple):
     node: str
     callback: str
     kind: str  # timer, subscription, service, client, action or task
+
+
+class BusyLoop(NamedTuple):
+    """A loop of a student's that goes on without a pause: it works, and keeps a processor's core busy."""
+
+    stamp: Seconds  # when it was first noticed
+    node: str
+    place: str  # the callback, thread or main(), and its line
+
+
+class Unheard(NamedTuple):
+    """A message that came too early for a listener of another program: the two had not found each other."""
+
+    stamp: Seconds
+    node: str  # who sent it, as its publisher or the subscription was made
+    topic: str
 
 
 class Pose(NamedTuple):

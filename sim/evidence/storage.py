@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from sim.evidence.recording import Recording
 
 ATTACHMENT = "recording.json"
-FORMAT = 6  # of the attachment; raise it when what is in there changes
+FORMAT = 8  # of the attachment; raise it when what is in there changes
 PLAIN = (float, int, str, bool, bytes, Any)
 
 
@@ -68,13 +68,14 @@ def _unpack(data: bytes) -> dict[str, Any]:
 
 def _write_messages(writer: Writer, heard: list[Heard]) -> None:
     schemas: dict[str, int] = {}
-    channels: dict[tuple[str, str, str], int] = {}
-    for number, (stamp, topic, type_, sender, raw) in enumerate(heard):
+    channels: dict[tuple[str, str, str, bool], int] = {}
+    for number, (stamp, topic, type_, sender, raw, ours) in enumerate(heard):
         if type_ not in schemas:
             schemas[type_] = writer.register_schema(type_, "ros2msg", definition(type_).encode())
-        key = (topic, type_, sender)
+        key = (topic, type_, sender, ours)
         if key not in channels:
-            channels[key] = writer.register_channel(topic, "cdr", schemas[type_], {"sender": sender})
+            about = {"sender": sender, "ours": "yes" if ours else "no"}
+            channels[key] = writer.register_channel(topic, "cdr", schemas[type_], about)
         nanoseconds = round(stamp * SECOND)
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
 
@@ -108,7 +109,14 @@ def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
             f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
         )
     heard = [
-        Heard(message.log_time / SECOND, channel.topic, schema.name, channel.metadata["sender"], message.data)
+        Heard(
+            message.log_time / SECOND,
+            channel.topic,
+            schema.name,
+            channel.metadata["sender"],
+            message.data,
+            channel.metadata["ours"] == "yes",
+        )
         for schema, channel, message in reader.iter_messages(log_time_order=False)
     ]
     restored = {name: _maker(hint)(rest[name]) for name, hint in _hints(kind).items() if name != "heard"}

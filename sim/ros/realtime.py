@@ -9,6 +9,7 @@ from typing import Any
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter_service import ParameterService
 from rclpy.signals import SignalHandlerOptions
 
 from sim import environment
@@ -73,7 +74,9 @@ class RealTimeRun:
         self.scene.forget()
 
     def add(self, node: Node) -> None:
-        """Run one more node."""
+        """Run one more node. In a run nobody asks robots for their parameters; here `ros2 param` may."""
+        if not any(service.srv_name.endswith("/get_parameters") for service in node.services):
+            ParameterService(node)
         self.nodes.append(node)
         self._executor.add_node(node)
 
@@ -94,18 +97,15 @@ class RealTimeRun:
 
     def teleop(self) -> Callable[[float, float], None]:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
-        from geometry_msgs.msg import Twist
-
         from sim.ros.play.teleop import SPEED, TURN
+        from sim.ros.robots.velocity import VelocityPublisher
 
         node = Node("teleop")
-        publisher = node.create_publisher(Twist, "cmd_vel", 10)
+        velocity = VelocityPublisher(node, self.scene.world.robot.stamped)
         self.add(node)
 
         def drive(forward: float, left: float) -> None:
-            command = Twist()
-            command.linear.x, command.angular.z = forward * SPEED, left * TURN
-            publisher.publish(command)
+            velocity.send(forward * SPEED, left * TURN)
 
         return drive
 

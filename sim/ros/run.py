@@ -8,6 +8,7 @@ from typing import Any
 import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first message: 0.1 s that no run should pay)
 
 from sim.evidence import Ended, Recording
+from sim.notebook import interrupted, refuse_outdated
 from sim.ros.engine.program import Process
 from sim.ros.session import Session
 from sim.world import World
@@ -35,12 +36,14 @@ def run(
     quiet: don't show what the nodes log and print.
 
     Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
-    can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts.
+    can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
+    LastVersionDidNotRun, when a node's cell has failed since, or was changed and not run.
     """
+    refuse_outdated(nodes)
     session = Session(nodes, world, seconds, seed, until, quiet, companions=companions)
     session.advance()
     if session.interrupted:
-        raise KeyboardInterrupt("The run was interrupted.")
+        raise interrupted()
     return session.recording
 
 

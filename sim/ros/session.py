@@ -7,8 +7,10 @@ import gc
 import math
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any
+
+from rclpy.node import Node
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
@@ -20,6 +22,7 @@ from sim.ros.engine.program import Process, as_process
 from sim.ros.fibers.scheduler import active
 from sim.ros.ground_truth import GroundTruth
 from sim.ros.hooks.install import rebind
+from sim.ros.latest import latest
 from sim.ros.robots.programs import programs_of
 from sim.world import World
 
@@ -55,13 +58,15 @@ class Session:
         if not isinstance(seed, int) or seed < 0:
             raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
         world = World.load(world) if isinstance(world, str) else world
-        self.recording = Recording(world=world, seconds=float(seconds), seed=seed)
+        self.recording = latest.recording = Recording(world=world, seconds=float(seconds), seed=seed)
         self.truth: GroundTruth | None = None  # while the run works, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
         self._until = until
-        self._moments: Iterator[Nanoseconds] | None = None
+        self._moments: Generator[Nanoseconds, Nanoseconds, Ended] | None = None
         self._due: Nanoseconds = 0  # the moment that time moves to next
+        self._reached: Nanoseconds = 0  # up to which all is done
+        self._begun = False
         self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
         self._screen = Screen(quiet)
         self._thread = threading.get_ident()  # greenlets can't move to another
@@ -81,6 +86,11 @@ class Session:
         """Whether it is at home in another thread than the one that asks."""
         return self._thread != threading.get_ident()
 
+    @property
+    def nodes(self) -> list[Node]:
+        """The nodes that are there now."""
+        return [node for process in self.engine.processes for node in process.nodes] if self.engine else []
+
     def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
         """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
 
@@ -97,7 +107,8 @@ class Session:
                 while self._due <= last and not (enough and enough()):
                     if self.truth is not None:
                         self.truth.move_to(self._due)
-                    self._due = next(self._moments)
+                    self._due = self._moments.send(self._due if self._begun else None)
+                    self._begun = True
             except StopIteration as end:
                 self._close(end.value)
             except BaseException:
@@ -105,14 +116,16 @@ class Session:
                 raise
         if self._due <= last or self.over:
             return self.stamp
+        self._reached = max(last, self._reached)
         if self.truth is not None:
             self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
         return limit
 
-    def start(self, spec: Process) -> None:
-        """Add a program; it runs from the next moment on."""
+    def start(self, spec: Process, *, ours: bool = False) -> None:
+        """Add a program; it runs as soon as time goes on. ours: it is not the student's."""
         with self._stretch():
-            self.engine.start(spec)
+            self.engine.start(spec, ours=ours)
+        self._due = min(self._due, max(self._reached, self.engine.now))
 
     def end(self, ended: Ended) -> None:
         """End the run before its time."""
@@ -153,7 +166,9 @@ class Session:
         watched += [self.engine.start(spec) for spec in self._specs]
         self._moments = self._course(round(self.recording.seconds * SECOND), watched)
 
-    def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Iterator[Nanoseconds]:
+    def _course(
+        self, end: Nanoseconds, watched: list[StudentProcess]
+    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
         """The moments of the run, one after the other."""
         return self.engine.moments(end, self._until, watched)
 

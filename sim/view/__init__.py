@@ -2,9 +2,20 @@
 
 from sim.view.animation import animate
 from sim.view.figure import png
+from sim.view.graph import plot_graph
 from sim.view.map import plot_map
 from sim.view.replay import replay
 from sim.view.scene import plot_path
 from sim.view.timeline import plot_logs, plot_signal, plot_topics
 
-__all__ = ["animate", "plot_logs", "plot_map", "plot_path", "plot_signal", "plot_topics", "png", "replay"]
+__all__ = [
+    "animate",
+    "plot_graph",
+    "plot_logs",
+    "plot_map",
+    "plot_path",
+    "plot_signal",
+    "plot_topics",
+    "png",
+    "replay",
+]

@@ -29,8 +29,9 @@ class MovingPicture:
     def __repr__(self) -> str:
         return f"<MovingPicture of {self._recording.stamp:g} s>"  # notebooks keep this beside the picture
 
-    def _repr_png_(self) -> bytes:
-        return bytes(self)
+    def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
+        recording = self._recording
+        return bytes(self), {"alt": f"The run in the world {recording.world.name}, {recording.stamp:g} s"}
 
     def __bytes__(self) -> bytes:
         stage, speed, rate = _Stage(self._recording), self._speed, self._rate

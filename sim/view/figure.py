@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from typing import TypeVar
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -11,20 +12,34 @@ from matplotlib.figure import Figure
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and others
 KINDS = {"box": "#d9b991", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
+STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ by more than their colour
 GRID = "#e6e9ec"
 DPI = 100
 
 
 class Plot(Figure):
-    """A figure that Jupyter shows without pyplot."""
+    """A figure that Jupyter shows without pyplot, with words for those who can't see it."""
 
-    def _repr_png_(self) -> bytes:
-        return png(self)
+    @property
+    def words(self) -> str:
+        """What it shows: its title, its axes, and what its legend or its rows name."""
+        (axes,) = self.axes
+        _, named = axes.get_legend_handles_labels()
+        rows = [label.get_text().replace("\n", " ") for label in axes.get_yticklabels()]
+        named = named or [row for row in rows if row[-1:].isalpha() or " " in row]
+        parts = (axes.get_title(), " over ".join(filter(None, (axes.get_ylabel(), axes.get_xlabel()))))
+        return f"Plot: {'; '.join(filter(None, (*parts, ', '.join(named))))}"
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
+        return png(self), {"alt": self.words}
 
 
-def plot(width: float, height: float) -> tuple[Plot, Axes]:
+P = TypeVar("P", bound=Plot)
+
+
+def plot(width: float, height: float, kind: type[P] = Plot) -> tuple[P, Axes]:
     """An empty figure with one pair of axes; sizes in inches, of 100 pixels each."""
-    figure = Plot(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
+    figure = kind(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     return figure, figure.add_subplot()
 

@@ -14,12 +14,16 @@ import traitlets
 from IPython.display import HTML, DisplayHandle, display
 
 from sim.evidence import Recording
+from sim.notebook import notebook_page
 from sim.view.geometry import world_data
 from sim.view.replay import replay
 from sim.view.scripts import script
 from sim.world import Scan, World
 
 Command = dict[str, Any]
+WIDGET = "application/vnd.jupyter.widget-view+json"
+BESIDE = "application/vnd.ros2-course.robot+json"  # known to jupyter/labextensions
+LONGEST_NAME = 300  # of a topic
 SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
 
 
@@ -30,7 +34,7 @@ class LiveView(anywidget.AnyWidget):
 
     Attributes:
         on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
-            {"step": True}, {"stop": True} or {"drive": [forward, left]}, each of the two in [-1, 1].
+            {"step": True}, {"stop": True}, {"topic": name} or {"drive": [forward, left]}, both in [-1, 1].
     """
 
     _esm = script("live.js")
@@ -45,14 +49,18 @@ class LiveView(anywidget.AnyWidget):
 
     def show(self) -> None:
         """Display the view in the output of the cell that is running."""
-        self._place = display(self, display_id=True)
+        bundle = self._repr_mimebundle_()
+        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        # Our JupyterLab shows it beside the notebook, and a line here; others know only the rest.
+        self._place = display({BESIDE: {}, **data}, raw=True, display_id=True)
+        notebook_page().show({WIDGET: data[WIDGET]})
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
         """Show all bodies of the world at `stamp` (s); the picture keeps their trails."""
         self.send({}, [packed(stamp, poses, scan)])
 
     def state(self, state: dict[str, Any]) -> None:
-        """Show how the run is going: stamp, speed, pace, paused, topics, contacts and ended."""
+        """Show how the run is going; see `Picture.state` in sim/ros/play."""
         speed = state["speed"]
         self.status = {**state, "speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
 
@@ -74,6 +82,7 @@ class LiveView(anywidget.AnyWidget):
         place, self._place = self._place, None
         if place is not None:
             place.update(instead)
+            notebook_page().show({"text/html": instead.data if isinstance(instead, HTML) else instead.html})
 
     def _heard(self, _: Any, content: Any, buffers: Any) -> None:
         command = checked(content)
@@ -102,6 +111,8 @@ def checked(content: Any) -> Command | None:
     if name == "speed" and _between(value, *SPEEDS):
         return {name: float(value)}
     if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop") and value is True):
+        return {name: value}
+    if name == "topic" and isinstance(value, str) and len(value) <= LONGEST_NAME:
         return {name: value}
     if name == "drive" and isinstance(value, list) and len(value) == 2:
         forward, left = value

@@ -10,7 +10,19 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from sim.evidence import Pose, Recording
-from sim.view.figure import CAUTION, GRID, KINDS, MUTED, ROBOTS, SOLID, WARNING, Plot, legend_beside, plot
+from sim.view.figure import (
+    CAUTION,
+    GRID,
+    KINDS,
+    MUTED,
+    ROBOTS,
+    SOLID,
+    STYLES,
+    WARNING,
+    Plot,
+    legend_beside,
+    plot,
+)
 from sim.view.geometry import body_tracks, reach
 from sim.world import Body, World
 from sim.world.obstacles import placed
@@ -32,7 +44,9 @@ def plot_path(recording: Recording) -> Plot:
         if body.kind == "robot":
             colour = ROBOTS[robots.index(body) % len(ROBOTS)]
             way = [pose.x for pose in track], [pose.y for pose in track]
-            axes.plot(*way, color=colour, linewidth=1.8, label="path" if first else body.name)
+            style = STYLES[robots.index(body) % len(STYLES)]
+            look = {"color": colour, "linestyle": style, "linewidth": 1.8}
+            axes.plot(*way, **look, label="path" if first else body.name)
         else:
             colour = KINDS.get(body.kind, MUTED)
         _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import numbers
 from collections.abc import Sequence
 from typing import Any
@@ -10,10 +11,28 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from sim.evidence import Recording, rate, stamps
-from sim.view.figure import CAUTION, GRID, MUTED, PATH, SOLID, WARNING, Plot, legend_beside, plot
+from sim.view.figure import (
+    CAUTION,
+    GRID,
+    MARKERS,
+    MUTED,
+    PATH,
+    SOLID,
+    STYLES,
+    WARNING,
+    Plot,
+    legend_beside,
+    plot,
+)
 from sim.view.units import unit_of
 
-LEVELS = {"DEBUG": MUTED, "INFO": PATH, "WARN": CAUTION, "ERROR": WARNING, "FATAL": "black"}
+LEVELS = {
+    "DEBUG": (MUTED, "."),
+    "INFO": (PATH, "|"),
+    "WARN": (CAUTION, "^"),
+    "ERROR": (WARNING, "x"),
+    "FATAL": ("black", "*"),
+}
 
 
 def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
@@ -58,11 +77,13 @@ def plot_logs(recording: Recording) -> Plot:
     """One row for each logger with a stroke for each log line; the colour is the line's level."""
     names = sorted({line.node for line in recording.logs})
     figure, axes = plot(7.2, 0.9 + 0.5 * max(len(names), 1))
-    for level, colour in LEVELS.items():
+    for level, (colour, marker) in LEVELS.items():
         lines = [line for line in recording.logs if line.level == level]
         if lines:
             moments, rows = [line.stamp for line in lines], [names.index(line.node) for line in lines]
-            axes.plot(moments, rows, "|", color=colour, markersize=16, markeredgewidth=2, label=level)
+            size = 16 if marker == "|" else 9
+            look = {"color": colour, "markersize": size, "markeredgewidth": 2, "label": level}
+            axes.plot(moments, rows, marker, **look)
     _along_time(recording, axes, names)
     if names:
         legend_beside(axes)
@@ -97,9 +118,10 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     messages = [item.message for item in heard]
     figure, axes = plot(7.2, 3.2)
     fields = fields or ("data",)
-    for field in fields:
+    for field, style, marker in zip(fields, itertools.cycle(STYLES), itertools.cycle(MARKERS), strict=False):
         values = [_number(message, field, topic) for message in messages]
-        axes.plot(stamps(heard), values, ".-", linewidth=1.2, markersize=4, label=field)
+        look = {"linestyle": style, "marker": marker, "linewidth": 1.2, "markersize": 4}
+        axes.plot(stamps(heard), values, **look, label=field)
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))

@@ -27,8 +27,8 @@ class Drive:
         self._v = self._w = 0.0
         self._target_v = self._target_w = 0.0
         self._steps_left = 0
-        self._x = self._y = 0.0
-        self._distance = self._turn = 0.0
+        self._x, self._y, self._turn = model.odometry
+        self._distance = 0.0
 
     def command(self, v: float, w: float) -> None:
         """From now on, drive at v (m/s, forwards) and w (rad/s, counter-clockwise), within the limits.
@@ -76,16 +76,17 @@ class Drive:
 
     @property
     def odometry(self) -> Odometry:
-        """Where the wheels say the robot is, from (0, 0, 0) at time 0; wrong once something held it."""
+        """Where the wheels say the robot is, from the model's `odometry` on; wrong once something held it."""
         return Odometry(self._x, self._y, wrap(self._turn), self._v, self._w)
 
     @property
     def wheels(self) -> Wheels:
         """Angles and rates of the two wheel joints."""
         radius, lever = self._model.wheel_radius, self._model.track_width / 2
+        turned = lever * (self._turn - self._model.odometry[2])
         return Wheels(
-            (self._distance - lever * self._turn) / radius,
-            (self._distance + lever * self._turn) / radius,
+            (self._distance - turned) / radius,
+            (self._distance + turned) / radius,
             (self._v - lever * self._w) / radius,
             (self._v + lever * self._w) / radius,
         )

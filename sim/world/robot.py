@@ -30,7 +30,10 @@ class CommandError(ValueError):
 
 @dataclass(frozen=True)
 class RobotModel(Model):
-    """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N)."""
+    """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N).
+
+    With `stamped` it takes geometry_msgs/TwistStamped on /cmd_vel, otherwise geometry_msgs/Twist.
+    """
 
     radius: Length = 0.1
     mass: Annotated[float, positive("kg")] = 1.0
@@ -44,6 +47,8 @@ class RobotModel(Model):
     max_force: Annotated[float, positive("N")] = 5.0
     max_torque: Annotated[float, positive("N m")] = 0.25
     friction: Annotated[float, within(0, 10)] = 0.3
+    stamped: Annotated[bool, Wanted("true or false")] = False
+    odometry: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")] = (0.0, 0.0, 0.0)  # at time 0
 
     @property
     def inertia(self) -> float:

@@ -20,15 +20,20 @@ ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
 START_SECONDS = CELL_SECONDS = 300  # only against hanging: a busy machine is slow
+# The notebook that shows: beside it may be the panel with its robot, which then is Lab's current widget.
+NOTEBOOK = """window.notebook = () => [...window.jupyterapp.shell.widgets('main')].find(
+    panel => panel.content?.model?.cells && panel.isVisible);"""
 KERNEL_READY = """async () => {
-    const panel = window.jupyterapp.shell.currentWidget;
+    const panel = window.notebook();
     await panel.context.ready;
     await panel.sessionContext.ready;
     await panel.sessionContext.session.kernel.info;
 }"""
+# By the session and not by its sign, which a narrow toolbar hides.
+KERNEL_IDLE = "() => window.notebook()?.sessionContext.kernelDisplayStatus === 'idle'"
 # In the order of the cells: each has a count, up to one whose output is an error.
 ALL_CELLS_DONE = """() => {
-    for (const cell of window.jupyterapp.shell.currentWidget.content.model.cells) {
+    for (const cell of window.notebook().content.model.cells) {
         if (cell.type !== 'code' || !cell.sharedModel.getSource().trim()) continue;
         if (cell.executionCount === null || cell.executionState === 'running') return false;
         if (cell.outputs.toJSON().some(output => output.output_type === 'error')) return true;
@@ -37,18 +42,18 @@ ALL_CELLS_DONE = """() => {
 }"""
 
 RUN_CELL = """index => {
-    const panel = window.jupyterapp.shell.currentWidget;
+    const panel = window.notebook();
     panel.content.activeCellIndex = index;
     panel.content.deselectAll();
     window.jupyterapp.commands.execute('notebook:run-cell');
 }"""
 CELL_DONE = """index => {
-    const cell = window.jupyterapp.shell.currentWidget.content.model.cells.get(index);
+    const cell = window.notebook().content.model.cells.get(index);
     return cell.executionCount !== null && cell.executionState === 'idle';
 }"""
 # Beside the notebook: it is no cell, so nothing of it shows.
 ASK = """async code => {
-    const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+    const kernel = window.notebook().sessionContext.session.kernel;
     let said = '';
     const future = kernel.requestExecute({code, store_history: false, stop_on_error: false});
     future.onIOPub = ({content}) => {
@@ -58,9 +63,9 @@ ASK = """async code => {
     return said;
 }"""
 BACKGROUND = "getComputedStyle(document.body).getPropertyValue('--jp-layout-color1').trim()"
-SOURCES = """() => [...window.jupyterapp.shell.currentWidget.content.model.cells].map(
+SOURCES = """() => [...window.notebook().content.model.cells].map(
     cell => cell.sharedModel.getSource())"""
-OUTPUTS = """index => window.jupyterapp.shell.currentWidget.content.model.cells.get(index).outputs.toJSON()"""
+OUTPUTS = """index => window.notebook().content.model.cells.get(index).outputs.toJSON()"""
 
 
 def write_notebook(path: Path, *sources: str) -> None:
@@ -93,7 +98,9 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     address = f"http://127.0.0.1:{port}"
-    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token=", *more]
+    # Tests write notebooks beside the course's; students see copies, in work/.
+    root = f"--ServerApp.root_dir={folder}"
+    options = ["--no-browser", f"--ServerApp.port={port}", "--IdentityProvider.token=", root, *more]
     options.append("--LabApp.expose_app_in_browser=True")  # for Lab.run_all and Lab.has_command
     home = folder / "home"  # Lab keeps a student's layout and settings there
     home.mkdir(exist_ok=True)
@@ -107,7 +114,7 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
             yield address
         finally:
             process.terminate()
-            process.wait(20)
+            process.wait(60)
 
 
 def _wait_until_up(url: str, process: subprocess.Popen, log: Path) -> None:
@@ -125,6 +132,7 @@ class Lab:
 
     def __init__(self, page: Page, address: str):
         page.set_default_timeout(CELL_SECONDS * 1000)
+        page.add_init_script(NOTEBOOK)
         self.page = page
         self.address = address
 
@@ -137,9 +145,9 @@ class Lab:
 
     def wait_for_kernel(self) -> None:
         """Wait until the notebook shows and its kernel is idle."""
-        self.page.wait_for_selector(".jp-Notebook .jp-Cell")
+        self.page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook .jp-Cell")
         self.page.evaluate(KERNEL_READY)
-        self.page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]')
+        self.page.wait_for_function(KERNEL_IDLE)
 
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
@@ -182,8 +190,8 @@ class Lab:
 
     def save(self) -> None:
         """Save the notebook."""
-        self.command("docmanager:save")
-        self.page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
+        self.page.evaluate("window.notebook().context.save()")
+        self.page.wait_for_function("() => !window.notebook().context.model.dirty")
 
     def command(self, name: str) -> None:
         """Do one of JupyterLab's commands, such as `docmanager:save`."""
@@ -220,14 +228,16 @@ class Lab:
         """Return the text of all outputs that show."""
         return "\n".join(self.page.locator(".jp-OutputArea-output").all_inner_texts())
 
-    def validate(self) -> str:
-        """Click nbgrader's Validate button and return what its dialog says."""
-        self.page.get_by_role("button", name="Validate").click()
+    def validate(self) -> list[str]:
+        """Click Validate, and return the rows of the table in its dialog, when all has run."""
+        self.page.locator(".validate-button").first.click()
         dialog = self.page.locator(".jp-Dialog", has_text="Validation Results")
-        dialog.wait_for()
-        said = dialog.inner_text()
+        dialog.locator("tbody tr").first.wait_for()
+        dialog.locator("p[role='status']:empty").wait_for(state="attached")
+        rows = [" | ".join(row.locator("th, td").all_inner_texts()) for row in dialog.locator("tr").all()]
+        self.screenshot("validate")
         dialog.locator("button.jp-mod-accept").click()
-        return said
+        return rows[1:]
 
     def has_command(self, name: str) -> bool:
         """Return whether JupyterLab knows a command, such as nbgrader's `nbgrader:open-formgrader`."""

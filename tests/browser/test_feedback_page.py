@@ -58,7 +58,11 @@ def submission(tmp_path_factory):
         grade("test_page", 1, "1.0"),
         nbformat.v4.new_markdown_cell(f"<script>{STEAL}</script> <img src=x onerror='{STEAL}'>", id="words"),
     )
-    return folder, mark_samples(folder, "01_tiny")[0]
+    with pytest.MonkeyPatch.context() as patch:  # of the samples, the right one alone
+        for module in ("samples", "demo"):
+            patch.setattr(f"grader.marking.release.{module}.SHARES", {"right": 1.0})
+        (marked,) = mark_samples(folder, "01_tiny")
+    return folder, marked
 
 
 def check_page(page, address: str, name: str) -> None:

@@ -112,7 +112,7 @@ def test_keys_drive_the_robot_and_leave_the_notebook_alone(playing):
     assert stands(playing)
     assert playing.ask("sent(player, '/cmd_vel')[0]") == count  # nothing held, nothing sent
     assert playing.sources() == cells
-    assert playing.page.evaluate("window.jupyterapp.shell.currentWidget.content.mode") == "command"
+    assert playing.page.evaluate("window.notebook().content.mode") == "command"
 
 
 @pytest.mark.parametrize("playing", [DRIVEN], indirect=True)
@@ -200,7 +200,7 @@ def test_a_cell_run_again_plays_anew_and_alone(playing):
 
 @pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
 def test_a_restarted_kernel_plays_again(playing):
-    playing.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
+    playing.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
     playing.wait_for_kernel()
     playing.run_cell(0)
     playing.run_cell(1)
@@ -228,6 +228,45 @@ def test_plots_appear_in_other_cells_while_it_plays(playing):
     playing.screenshot("play-and-plot")
 
 
+@pytest.mark.parametrize("playing", [(CIRCLE, CIRCLE)], indirect=True)
+def test_the_robot_plays_beside_the_code_and_the_panel_follows_each_new_play(playing):
+    assert playing.page.locator(".ros2-course-robot .ros2-view.live").count() == 1
+    assert playing.page.locator(".jp-Notebook .ros2-view").count() == 0
+    playing.run_cell(2)
+    picture = live(playing)
+    picture.wait_for_time(0.2)
+    assert playing.page.locator(".ros2-course-robot").count() == 1
+    assert picture.root.locator(".how").inner_text().startswith("Click the picture, then drive")
+    eventually(playing, "player.recording.ended.reason == 'running'")
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_the_panel_tells_the_robots_numbers_and_what_is_on_a_topic(playing):
+    root = live(playing).root
+    root.locator("dt", has_text="Nearest").wait_for()
+    topic = root.locator("button.topic", has_text="/odom")
+    topic.click()
+    root.locator(".looked pre", has_text="child_frame_id: base_link").wait_for()
+    root.locator(".looked canvas[aria-label^='Plot of']").wait_for()
+    live(playing).screenshot("play-topic")
+    topic.click()
+    root.locator(".looked").wait_for(state="hidden")
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_a_closed_panel_and_a_page_that_is_loaded_again_find_the_robot(playing):
+    playing.page.get_by_title("Close Robot", exact=True).click()
+    playing.page.locator(".ros2-view.live").wait_for(state="detached")
+    playing.page.get_by_role("button", name="Show the robot").click()
+    live(playing).wait_for_time(0.5)
+    playing.save()
+    playing.page.reload()
+    playing.wait_for_kernel()
+    picture = live(playing)
+    picture.wait_for_time(picture.time() + 0.2)
+    assert playing.ask("player.recording.ended.reason") == "running"
+
+
 SHORT = "player = play(Circle, world='room', seconds=3, speed=4)"
 
 
@@ -238,7 +277,7 @@ def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(playing):
     same = "player.recording.digest == run(Circle, world='room', seconds=3, quiet=True).digest"
     assert playing.ask(same)
     playing.save()
-    name = playing.page.evaluate("window.jupyterapp.shell.currentWidget.context.path")
+    name = playing.page.evaluate("window.notebook().context.path")
     playing.shut_down()
     playing.open(name)
     replay(playing).plays()

@@ -11,11 +11,34 @@ from typing import Any
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 
 from sim import Process
 
 # name: the parts of a run's time from which and until which the node is spun
 TIMES = {"never": (1.0, 0.0), "at first": (0.0, 0.25), "at last": (0.75, 1.0)}
+
+
+def spun_until(target: Any, end: float) -> Any:
+    """The program with a node that is spun for so many seconds, and then the program ends.
+
+    None where it is no class of a node, whose spinning one could end.
+    """
+    if isinstance(target, Process):
+        inner = spun_until(target.target, end)
+        return inner and dataclasses.replace(target, target=inner)
+    if not (isinstance(target, type) and issubclass(target, Node)):
+        return None
+
+    def main(args: list[str] | None = None) -> None:
+        rclpy.init(args=args)
+        node, executor = target(), SingleThreadedExecutor()
+        executor.add_node(node)
+        executor.spin_until_future_complete(Future(), timeout_sec=end)
+        node.destroy_node()
+        rclpy.shutdown()
+
+    return main
 
 
 def working(target: Any, times: str, seconds: float) -> Any:

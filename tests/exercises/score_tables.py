@@ -123,7 +123,7 @@ def _run(beside: Path) -> str:
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(beside, Path(place, beside.name)))  # lessons write files
         notebook = nbformat.read(next(copy.glob("*.ipynb")), 4)
-        client = NotebookClient(notebook, timeout=120, kernel_name="python3", allow_errors=True)
+        client = NotebookClient(notebook, timeout=600, kernel_name="python3", allow_errors=True)
         client.execute(cwd=str(copy))
     return nbformat.writes(notebook)
 

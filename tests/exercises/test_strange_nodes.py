@@ -13,12 +13,14 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import Float64
 
 from grader import Missed
+from grader.cast import LocalCast
 from grader.exercises import navigator, sensing
 from grader.exercises.navigator.mapping import answers_clicks
 from grader.exercises.navigator.planning import answers_a_goal
 from grader.exercises.sensing.turning import does_not_drift
 from sim.evidence import Ended, Graph
-from tests.exercises.score_tables import misses
+from tests.exercises.assignment import first_runs
+from tests.exercises.score_tables import misses, students
 from tests.grader.recordings import published
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -111,6 +113,17 @@ def test_who_says_all_at_once_is_told_to_go_on():
         "messages on /heading until the end, at 20 s",
         "the last one at 0 s",
         "Publish from start to end, in a callback that is called again and again.",
+    )]  # fmt: skip
+
+
+def test_who_never_lets_the_robot_get_free_is_told_so():
+    always_zero = students("sensing", "guard")["AlwaysZero"]
+    score = first_runs(sensing.guard, 1).judge(LocalCast([always_zero]), "an instructor's")
+    assert earned(score) == 3.0
+    assert [tuple(miss)[1:] for miss in misses(score)] == [(
+        "0.5 s or more in which all is well and 1 m are free ahead",
+        "0.0 s: the robot does not get there",
+        "The driver turns the robot away from walls, and drives on: its commands have to pass.",
     )]  # fmt: skip
 
 

@@ -447,7 +447,8 @@ def test_a_node_with_the_name_of_one_of_ours_is_told_so():
         if "/questioner" not in run.ours:
             raise Missed("questions", "none of ours")
 
-    assert red_line(listen.grade(Process(misfits.Talker, name="questioner")))[3] == (
+    *_, line = listen.grade(Process(misfits.Talker, name="questioner")).verdicts
+    assert line.hint == (
         "Two nodes are called /questioner, yours and one that takes part in this exercise, and nobody can tell "
         "them apart: give yours a name of its own, in super().__init__('...')."
     )

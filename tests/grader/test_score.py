@@ -59,6 +59,33 @@ def test_whatever_the_points_the_shown_number_is_between_0_and_the_maximum():
         assert 0.0 <= float(repr(score)) <= score.max <= sum(points) + 1e-9
 
 
+UNSAFE_DRIVE = [verdict(6.0), verdict(4.0, "failed", 0.0, saw="a wall", unsafe=True)]
+
+
+def test_a_robot_that_is_unsafe_has_a_part_of_the_points_and_is_told_why():
+    score = Score("drive", UNSAFE_DRIVE, title="A drive")
+    assert (float(score), score.max, score.capped) == (4.0, 10.0, True)
+    assert score.text.splitlines()[:2] == [
+        "A drive: 4 of 10 points",
+        "Safety comes first: without “Check <4.0>” there are at most 40% of the points.",
+    ]
+    assert "Safety comes first: without “Check &lt;4.0&gt;” there" in score._repr_html_()
+
+
+def test_who_has_less_than_that_part_is_told_nothing_of_it():
+    score = Score("drive", [verdict(6.0, "failed", 0.5), UNSAFE_DRIVE[1]])
+    assert (float(score), score.capped) == (3.0, False)
+    assert "Safety" not in score.text
+
+
+@pytest.mark.parametrize(
+    ("points", "credit", "earned"),
+    [(7.0, 0.327, 2.0), (5.0, 0.5, 2.5), (3.0, 1 / 3, 1.0), (2.0, 0.99, 1.5), (1 / 3, 1.0, 1 / 3), (1, 0.4, 0)],
+)
+def test_points_are_whole_and_half_ones_and_never_more_than_were_earned(points, credit, earned):
+    assert verdict(points, "failed", credit).earned == earned
+
+
 def test_full_marks_are_exactly_the_maximum():
     score = Score("talk", [verdict(p) for p in (0.1, 0.2, 0.7, 1 / 3)])
     assert float(repr(score)) == score.max

@@ -86,3 +86,39 @@ def test_a_definition_with_an_error_stops_the_build_and_the_reason_is_shown(chan
 def test_without_an_installed_wheel_there_is_no_version(monkeypatch):
     monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
     assert install.installed() is None
+
+
+def test_where_ross_own_packages_are_used_nothing_is_built(monkeypatch):
+    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
+    monkeypatch.setattr(install, "build", lambda wheel: pytest.fail("it was built"))
+    monkeypatch.setattr(install, "cached_wheel", lambda: pytest.fail("it was looked for"))
+    monkeypatch.setattr("platform.machine", lambda: "aarch64")
+    assert install.main() is None
+
+
+def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
+    for name in ("a_msgs", "b_msgs", "c_msgs"):
+        (tmp_path / "definitions" / name).mkdir(parents=True)
+    program = (
+        "import pathlib, sys, time\n"
+        "for name in ('b_msgs', 'a_msgs'):\n"
+        "    pathlib.Path('build/temp.x/objects', name).mkdir(parents=True)\n"
+        "    while pathlib.Path('go') not in pathlib.Path().iterdir(): time.sleep(0.05)\n"
+        "    pathlib.Path('go').unlink()\n"
+        "sys.exit(3)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
+    said, wait = "", process.wait
+
+    def lets_go_when_told(timeout):
+        nonlocal said
+        said += capsys.readouterr().out
+        if said.count("\n") > lets_go_when_told.times:
+            lets_go_when_told.times += 1
+            (tmp_path / "go").touch()
+        return wait(timeout)
+
+    lets_go_when_told.times = 0
+    process.wait = lets_go_when_told
+    assert install.tell_packages(process, tmp_path) == 3
+    assert said == "  1 of 3: b_msgs\n  2 of 3: a_msgs\n"

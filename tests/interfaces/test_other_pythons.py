@@ -18,7 +18,7 @@ def interpreter(minor: str) -> str | None:
     candidates = [shutil.which(f"python{minor}"), *Path.home().glob(f".pyenv/versions/{minor}.*/bin/python")]
     for candidate in filter(None, candidates):
         command = [str(candidate), "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor[2:]}))"]
-        if subprocess.run(command, capture_output=True, check=False, timeout=30).returncode == 0:
+        if subprocess.run(command, capture_output=True, check=False, timeout=120).returncode == 0:
             return str(candidate)
     return None
 

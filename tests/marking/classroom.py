@@ -8,11 +8,11 @@ from typing import Any
 import nbformat
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook
-from nbgrader.converters import GenerateAssignment
 
 from grader.marking.command.intake import TaskReader, find_submissions
 from grader.marking.gradebook.course import Course
 from grader.marking.handed_in.submission import load_release
+from grader.marking.release.make_exercises import release
 from grader.marking.result import CellResult, NotebookResult, Result
 from grader.marking.task import Task
 from tests.marking.tiny import ROOT, answer, grade
@@ -45,16 +45,8 @@ def classroom(folder: Path) -> Course:
     shutil.copy(ROOT / "nbgrader_config.py", folder)
     nbformat.write(nbformat.v4.new_notebook(cells=cells), source)
     course = Course(folder)
-    release_again(course)
+    release(folder)
     return course
-
-
-def release_again(course: Course) -> None:
-    """What `make exercises` does, in this process."""
-    course.directory.assignment_id = ASSIGNMENT
-    converter = GenerateAssignment(coursedir=course.directory, parent=course.app)
-    converter.force = True
-    converter.start()
 
 
 def submit(course: Course, *students: str, line: str = "Line = 2", time: str = "") -> None:

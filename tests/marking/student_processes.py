@@ -10,7 +10,9 @@ from grader.marking.pool import PRELOAD
 from grader.marking.sandbox import ConfinedProcess, Sandbox
 from grader.marking.task import TimeLimits
 
-QUICK = TimeLimits(cell=1.0, notebook=60.0)
+USUAL = TimeLimits()
+QUICK = TimeLimits(cell=1.0)  # for cells without end: on a busy machine, others take longer, too
+PATIENCE = 60.0  # s of wall time
 
 
 class StartedStudent:
@@ -19,7 +21,7 @@ class StartedStudent:
     def __init__(self, sandbox: Sandbox, time_limits: TimeLimits, files: dict[str, bytes] | None) -> None:
         ours, theirs = socket.socketpair()
         self.process: ConfinedProcess = sandbox.start(theirs)
-        self.student = LedProcess(ours, time_limits, lambda: self.process.wait(10).detail)
+        self.student = LedProcess(ours, time_limits, lambda: self.process.wait(PATIENCE).detail)
         self.displays = Displays()
         self.outputs = CellOutputs(self.displays)
         if files is not None:
@@ -37,7 +39,7 @@ class StartedStudent:
 
     def leave(self) -> None:
         self.process.kill()
-        self.process.wait(10)
+        self.process.wait(PATIENCE)
 
 
 @pytest.fixture(scope="session")
@@ -51,7 +53,7 @@ def start_student(plain_sandbox) -> Iterator[Callable[..., StartedStudent]]:
     """Makes students' processes, and sees to it that none is left."""
     made: list[StartedStudent] = []
 
-    def make(time_limits: TimeLimits = QUICK, begun: bool = True, **files: bytes) -> StartedStudent:
+    def make(time_limits: TimeLimits = USUAL, begun: bool = True, **files: bytes) -> StartedStudent:
         made.append(StartedStudent(plain_sandbox, time_limits, files if begun else None))
         return made[-1]
 

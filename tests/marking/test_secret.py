@@ -6,6 +6,7 @@ from grader.marking import secret
 from grader.marking.errors import CommandFailed
 from grader.marking.release.demo import mark_samples
 from grader.marking.release.nbgrader_command import nbgrader
+from grader.seeds import private_seed, secret_of_student
 from tests.marking.tiny import ROOT, answer, course, grade
 
 
@@ -20,10 +21,21 @@ def secret_file(tmp_path, monkeypatch):
 
 def test_the_secret_shows_while_marking_only(secret_file):
     secret_file.write_text("d1ce\n")
-    secret.show(assignment="01", student="*", notebooks=[])
-    assert os.environ["COURSE_SECRET"] == "d1ce"
+    secret.show(assignment="01", student="*", notebooks=["/class/submitted/ann/01/tiny.ipynb"])
+    assert os.environ["COURSE_SECRET"] == secret_of_student("d1ce", "ann")
     secret.hide(assignment="01", student="*", notebooks=[])
     assert "COURSE_SECRET" not in os.environ
+
+
+def test_seeds_differ_by_student_and_are_the_same_in_each_marking(secret_file):
+    secret_file.write_text("d1ce")
+    shown = []
+    for student in ("ann", "bob", "ann"):
+        secret.show(notebooks=[f"class/submitted/{student}/01/tiny.ipynb"])
+        shown.append(private_seed(os.environ["COURSE_SECRET"], "wall", 0))
+    secret.hide()
+    assert shown == [668764764, 4190639955, 668764764]
+    assert secret_of_student("", "ann") == ""
 
 
 def test_without_the_file_marking_uses_the_public_seeds(secret_file):
@@ -59,7 +71,7 @@ def test_the_kernels_that_mark_get_the_secret_and_the_command_stops_on_a_bad_one
     folder = course(
         tmp_path,
         answer("import", "### BEGIN SOLUTION\nimport os\n### END SOLUTION"),
-        grade("test_secret", 1, "assert len(os.environ['COURSE_SECRET']) == 4"),
+        grade("test_secret", 1, "assert len(os.environ['COURSE_SECRET']) == 64"),
     )
     (folder / ".secret").touch(mode=0o600)
     (folder / ".secret").write_text("d1ce")

@@ -280,6 +280,30 @@ def test_a_students_node_that_takes_the_name_of_ours_makes_it_vouch_for_nothing(
     assert (both.ours, both.shared) == (set(), {"/ticker"})
 
 
+def test_who_sent_logged_asked_and_served_is_known_by_program_and_not_by_name(tmp_path):
+    theirs = run(Ticker, mains.classic, actions.Server, companions=[services.Adder], seconds=2, quiet=True)
+    ours = run(
+        services.done_callback, companions=[Ticker, mains.classic, services.Adder], seconds=2, quiet=True
+    )
+    both = run(Ticker, mains.classic, companions=[Ticker, mains.classic], seconds=2, quiet=True)
+    for made, told in ((theirs, {False}), (ours, {True}), (both, {False, True})):
+        assert {heard.ours for heard in made.messages("/count")} == told
+        assert {end.ours for end in made.graph.publishers("/count")} == told
+        assert {line.ours for line in made.logs if line.node == "ticker"} == told
+    assert {(call.asked_by_us, call.served_by_us) for call in ours.calls_of("/add")} == {(False, True)}
+    assert Recording.load(both.save(tmp_path / "both.mcap")).heard == both.heard
+
+
+def test_a_goal_knows_whose_client_and_server_it_has():
+    nodes = actions.Client, actions.Server
+    for asked, served in ((True, False), (False, True), (False, False), (True, True)):
+        companions = [node for node, is_ours in zip(nodes, (asked, served), strict=True) if is_ours]
+        students = [node for node in nodes if node not in companions]
+        goals = run(*students, companions=companions, seconds=3, quiet=True).goals
+        assert {(goal.asked_by_us, goal.served_by_us) for goal in goals} == {(asked, served)}
+        assert {heard.ours for goal in goals for heard in goal.feedback} == {served}
+
+
 def test_an_error_of_a_companion_is_a_failure_of_ours():
     faulty = run(Ticker, companions=[Process(Faulty)], seconds=2, quiet=True)
     assert [error.type for error in faulty.failures] == ["ZeroDivisionError"]

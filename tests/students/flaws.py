@@ -1,6 +1,7 @@
 """Nodes that raise nothing, and do what no node should, named by it."""
 
 import math
+import threading
 import time
 
 import rclpy
@@ -82,6 +83,17 @@ class SleepsOverMessages(Node):
 
     def hear(self, msg):
         time.sleep(0.5)
+
+
+class TalksWithoutAPause(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.publisher = self.create_publisher(String, "chatter", 1)
+        threading.Thread(target=self.talk, daemon=True).start()
+
+    def talk(self):
+        while rclpy.ok():
+            self.publisher.publish(String())
 
 
 class Once(Node):

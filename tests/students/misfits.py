@@ -4,8 +4,9 @@ import time
 
 import rclpy
 from example_interfaces.srv import Trigger
+from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, String
 
 
@@ -60,6 +61,14 @@ class LatchedListener(Listener):
     qos = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+class ImpatientListener(Listener):
+    qos = QoSProfile(depth=10, deadline=Duration(seconds=0.5))
+
+
+class ListenerForTheLiving(Listener):
+    qos = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC)
+
+
 class SleepyTalker(Talker):
     def tick(self):
         time.sleep(3.0)
@@ -81,6 +90,12 @@ class TalkerWithoutTimer(Node):
     def __init__(self):
         super().__init__("talker")
         self.publisher = self.create_publisher(String, "/chatter", 10)
+
+
+class TalksInItsConstructor(TalkerWithoutTimer):
+    def __init__(self):
+        super().__init__()
+        self.publisher.publish(String(data="hello"))
 
 
 class RateForPeriod(Node):

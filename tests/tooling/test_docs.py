@@ -10,8 +10,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", "CONTRIBUTING.md"]
 PLACEHOLDERS = re.compile(r"NN_TOPIC|TOPIC|NAME")
-# Ignored by git: marking, the tests and the browser tests make them.
-MADE_LATER = (".pytest_cache/", "class/", "test-artifacts/")
+# Ignored by git: commands make them.
+MADE_LATER = (".pytest_cache/", "class/", "dist/", "test-artifacts/", "wheels/", "work/")
 
 
 def text(page: str) -> str:

@@ -1,22 +1,72 @@
+"""What holds for every lesson: it runs, and it has what a reader needs; and what the assignments say."""
+
+import json
+import re
 from pathlib import Path
 
 import pytest
 
-from tests.exercises.score_tables import notebook_run
+from tests.exercises.score_tables import graded_exercises, notebook_run
 
 ROOT = Path(__file__).parents[2]
 WIDGET = "application/vnd.jupyter.widget-view+json"
 LESSONS = sorted(ROOT.glob("course/*/*.ipynb"))
+NAMES = [path.parent.name for path in LESSONS]
+ASSIGNMENTS = sorted(path.parent.name for path in ROOT.glob("solutions/*/*.ipynb"))
 
 
-@pytest.mark.parametrize("lesson", [path.parent.name for path in LESSONS])
+def cells(folder, name):
+    (path,) = ROOT.glob(f"{folder}/{name}/*.ipynb")
+    return [(cell["id"], "".join(cell["source"])) for cell in json.loads(path.read_text("utf-8"))["cells"]]
+
+
+def is_live(output):
+    """Whether this is a live picture; a slider is a widget, too, but nobody has to end it."""
+    data = output.get("data", {})
+    return WIDGET in data and not data["text/plain"].startswith("interactive(")
+
+
+@pytest.mark.parametrize("lesson", NAMES)
 def test_a_lesson_runs_from_top_to_bottom(lesson):
     outputs = [output for cell in notebook_run("course", lesson).cells for output in cell.get("outputs", ())]
     assert outputs, "a lesson shows something"
     assert [output.evalue for output in outputs if output.output_type == "error"] == []
-    assert not any(WIDGET in output.get("data", {}) for output in outputs), "a picture that nobody ends"
+    assert not any(map(is_live, outputs)), "a picture that nobody ends"
 
 
 def test_every_assignment_has_a_lesson():
     assignments = {path.parent.name for path in ROOT.glob("solutions/*/*.ipynb")}
-    assert {path.parent.name for path in LESSONS} == {"00_robot", *assignments}
+    assert set(NAMES) == {"00_robot", *assignments}
+
+
+@pytest.mark.parametrize("lesson", NAMES)
+def test_a_lesson_says_what_it_takes_and_where_to_read_on(lesson):
+    texts = dict(cells("course", lesson))
+    assert "**Time:**" in texts["title"] and "(../glossary.md)" in texts["title"]
+    assert lesson == "00_robot" or "**Before you begin:**" in texts["title"]
+    assert lesson == "00_robot" or "From lesson " in texts["check"], "a question on an earlier lesson"
+    assert "**Read on" in texts["summary"] and "](https://" in texts["summary"]
+
+
+@pytest.mark.parametrize("lesson", NAMES)
+def test_a_lesson_shows_no_bad_habits(lesson):
+    source = "\n".join(source for _, source in cells("course", lesson))
+    assert "Node.__init__(" not in source.replace("super().__init__(", "")
+    assert re.findall(r"Scan, \"/scan\w*\", \S+, 10\)", source) == [], "many lidars offer best effort only"
+    links = re.findall(r"\]\((?!https://)([^)]+)\)", source)
+    assert [link for link in links if not (ROOT / "course" / lesson / link).exists()] == []
+
+
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_an_assignment_says_its_time_and_ends_with_an_open_task(assignment):
+    texts = dict(cells("solutions", assignment))
+    assert "**Time:**" in texts["title"] and "course/glossary.md" in texts["title"]
+    assert texts["open-task"].startswith("## One more, without points")
+
+
+@pytest.mark.parametrize("assignment", ASSIGNMENTS)
+def test_each_answer_is_explained_to_the_instructor_alone(assignment):
+    text = (ROOT / "solutions" / assignment / "answers.md").read_text("utf-8")
+    numbers = [int(number) for number in re.findall(r"^\*\*(\d)\. ", text, re.M)]
+    assert numbers == list(range(1, len(graded_exercises(assignment)) + 1))
+    assert not (ROOT / "exercises" / assignment / "answers.md").exists()

@@ -33,9 +33,16 @@ class Machine:
         self.has(command, RUNS.format(version=version, **{name: int(lack) for name, lack in lacks.items()}))
 
     def set_up(self, **variables: str) -> subprocess.CompletedProcess:
-        environment = {"PATH": str(self.folder), **variables}
+        environment = {"PATH": str(self.folder), "WHEELS": str(self.folder / "wheels"), **variables}
         script = [shutil.which("sh"), ROOT / ".ci" / "setup", self.folder / "venv"]
         return subprocess.run(script, cwd=ROOT, env=environment, text=True, capture_output=True, timeout=300)
+
+    def has_wheels(self, python: str) -> None:
+        """A folder as `make wheels` makes it, for this version of Python."""
+        (self.folder / "wheels").mkdir()
+        (self.folder / "wheels" / "requirements.lock").touch()
+        (self.folder / "wheels" / "PYTHON").write_text(f"{python}\n")
+        (self.folder / "cat").symlink_to(shutil.which("cat"))
 
     def complaint(self, **variables: str) -> str:
         done = self.set_up(**variables)
@@ -53,8 +60,41 @@ def test_another_kind_of_machine_is_told_what_to_use(machine):
     machine.has("uname", "#!/bin/sh\necho Darwin arm64\n")
     assert machine.complaint() == (
         "ROS publishes its Python packages for Linux x86_64 only and this machine is Darwin arm64: "
-        "use a Linux x86_64 machine, a virtual one or WSL 2.\n"
+        "use the container in .devcontainer, a Linux x86_64 machine, a virtual one or WSL 2.\n"
     )
+
+
+def test_an_arm_machine_without_ross_own_packages_is_told_where_they_are(machine):
+    machine.has("uname", "#!/bin/sh\necho Linux aarch64\n")
+    assert machine.complaint(ROS_PREFIX=str(machine.folder)) == (
+        "ROS publishes its Python packages for Linux x86_64 only, this machine is Linux aarch64, "
+        f"and {machine.folder} has no rclpy: use the container in .devcontainer, which has it.\n"
+    )
+
+
+def test_an_arm_machine_with_them_needs_the_python_that_they_are_for(machine):
+    machine.has("uname", "#!/bin/sh\necho Linux aarch64\n")
+    (machine.folder / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)
+    machine.has_python("python3", "3.13")
+    assert machine.complaint(ROS_PREFIX=str(machine.folder)) == (
+        f"The packages in {machine.folder} are for Python 3.12, and python3 is 3.13: "
+        "name one with `make PYTHON=/path/to/python3.12`.\n"
+    )
+
+
+def test_wheels_of_another_python_are_named(machine):
+    machine.has_wheels("3.11")
+    machine.has_python("python3", "3.12")
+    assert machine.complaint() == (
+        f"The packages in {machine.folder}/wheels are for Python 3.11, and python3 is 3.12: "
+        "name one with `make PYTHON=/path/to/python3.11`.\n"
+    )
+
+
+def test_with_wheels_no_compiler_is_asked_for(machine):
+    machine.has_wheels("3.12")
+    machine.has_python("python3.12", "3.12", venv=False, headers=False)
+    assert machine.complaint().startswith("python3.12 cannot make virtual environments")
 
 
 def test_without_a_supported_python_it_says_which_to_install(machine):
@@ -107,18 +147,34 @@ def test_a_python_without_its_headers_is_told_which_package_has_them(machine):
     )
 
 
+def test_what_was_set_up_from_these_very_files_needs_nothing_and_is_left_alone(machine):
+    """As in a container, which has no compilers any more, and whose files may look new."""
+    files = ["requirements.lock", "pyproject.toml", ".ci/setup", "sim/world/rays/pyproject.toml"]
+    files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("sim/world/rays/*.py"))
+    content = b"".join((ROOT / name).read_bytes() for name in [*files, "sim/world/rays/rays.c"])
+    sum_of_all = subprocess.check_output(["cksum"], input=content, text=False).decode()
+    for command in ("cat", "cksum"):
+        (machine.folder / command).symlink_to(shutil.which(command))
+    (machine.folder / "venv").mkdir()
+    (machine.folder / "venv" / ".requirements").write_text(sum_of_all)
+    done = machine.set_up()
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    (machine.folder / "venv" / ".requirements").write_text("another sum\n")
+    assert machine.set_up().returncode == 1
+
+
 def test_a_second_set_up_is_quick(tmp_path):
-    for stamp in (".packages", ".interfaces"):
+    for stamp in (".requirements", ".interfaces"):
         (tmp_path / stamp).touch()
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     environment = {**os.environ, "MAKEFLAGS": ""}
     subprocess.run(["make", f"VENV={tmp_path}", "setup"], cwd=ROOT, env=environment, check=True, timeout=300)
     spent = resource.getrusage(resource.RUSAGE_CHILDREN)
     assert spent.ru_utime - before.ru_utime < 1
-    assert sorted(path.name for path in tmp_path.iterdir()) == [".interfaces", ".packages"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".interfaces", ".requirements"]
 
 
 def test_make_alone_lists_the_targets():
     done = subprocess.run(["make"], cwd=ROOT, check=True, capture_output=True, text=True, timeout=300)
     targets = {line.split()[0] for line in done.stdout.splitlines()}
-    assert {"lab", "test", "demo", "exercises", "bench", "lint", "clean"} <= targets
+    assert {"lab", "test", "solutions", "demo", "exercises", "handout", "wheels", "lint", "clean"} <= targets

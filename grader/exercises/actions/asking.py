@@ -17,6 +17,7 @@ customer = Exercise(
         Scenario(seconds=10, seed=1, companions=[LateFibonacci], name="late"),
         Scenario(seconds=10, seed=2, companions=[BusyFibonacci], name="busy"),
     ],
+    may_end=True,
 )
 
 
@@ -101,6 +102,7 @@ courier = Exercise(
         Scenario("yard", seconds=16, seed=1, companions=[DriveServer], name="floor"),
         Scenario("yard", seconds=16, seed=2, companions=[CarpetServer], name="carpet"),
     ],
+    may_end=True,
 )
 
 
@@ -139,6 +141,12 @@ def leaves_it_alone(run: Recording, goal: Goal) -> None:
         expected = f"no cancel: the goal succeeded at {goal.ended:.3g} s"
         hint = "The timer goes on after the goal has ended: in hear_result call self.timer.cancel()."
         raise Missed(expected, f"one at {wishes[0]:.3g} s", hint)
+    if goal.status != "succeeded":
+        hint = "It would have arrived in time: the 8 s begin when the goal is accepted."
+        raise Missed("a goal that succeeds", f"it was {goal.status or 'never taken'}", hint)
+    if run.gone is not None and run.gone < goal.ended:
+        saw, hint = f"your program had ended at {run.gone:.3g} s", "Spin until the result is there."
+        raise Missed(f"a node that is there when the robot arrives, at {goal.ended:.3g} s", saw, hint)
 
 
 @courier.check(4, after=asks_to_drive)

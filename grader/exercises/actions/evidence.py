@@ -20,8 +20,8 @@ def offered(run: Recording, action: str, type: str, hint: str) -> list[Goal]:
 
 
 def picked(run: Recording, action: str, where: Callable[[Goal], bool] = lambda goal: True) -> list[Goal]:
-    """The goals of an action that fit. Raises Missed where none was sent."""
-    goals = run.goals_of(action)
+    """The goals of ours for an action that fit. Raises Missed where none was sent."""
+    goals = [goal for goal in run.goals_of(action) if goal.asked_by_us]
     if not goals:
         saw = "it was gone before a goal could be sent"
         guess = "The node has to go on: main() ends with rclpy.spin(node), or executor.spin() with brackets."
@@ -56,7 +56,7 @@ def is_succeeded(goal: Goal) -> None:
 
 def lines(run: Recording, level: str = "") -> list[str]:
     """What the student's client logged, of one level or of all."""
-    return [line.text for line in run.logs if level in ("", line.level) and not run.is_ours(line.node)]
+    return [line.text for line in run.logs if level in ("", line.level) and not line.ours]
 
 
 def numbers_in(text: str) -> list[float]:

@@ -91,13 +91,13 @@ def words(message: Any) -> str:
 
 
 class Mathematician(GoalSender):
-    """Sends two goals with a small order to /fibonacci, which come from the seed of the run."""
+    """Sends two goals with an order of 3 to 20 to /fibonacci, which come from the seed of the run."""
 
     name = "mathematician"
 
     def plan(self) -> list[Wish]:
         """Two different orders."""
-        return [Wish(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 8), 2)]
+        return [Wish(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 21), 2)]
 
 
 class Examiner(GoalSender):

@@ -34,6 +34,10 @@ def succeeds(run: Recording, goals: list[Goal]) -> None:
     """Every goal ends as succeeded."""
     for goal in goals:
         is_succeeded(goal)
+    empty = [goal for goal in goals if goal.result is None or not len(goal.result.sequence)]
+    if empty:
+        guess = "Success without a result is none: return Fibonacci.Result(sequence=sequence)."
+        raise Missed(f"{named(empty[0])} succeeded with a result", "an empty one", guess=guess)
 
 
 @fibonacci.check(3, after=offers)
@@ -137,7 +141,7 @@ def takes_its_time(run: Recording, goals: list[Goal]) -> None:
             raise Missed(f"feedback on {named(goal)} every 0.5 s", f"every {mean:.2g} s")
 
 
-@steps.check(1, after=accepts_good_orders)
+@steps.check(1, after=(accepts_good_orders, tells_its_progress))
 def still_right(run: Recording) -> None:
     """The result is right as before."""
     for goal in picked(run, FIBONACCI, _is_short):

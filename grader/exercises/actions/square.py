@@ -21,6 +21,7 @@ square = Exercise(
     world="yard",
     seconds=50,
     companions=[DriveServer, SpinServer],
+    may_end=True,
 )
 
 

@@ -1,6 +1,7 @@
 """The exercises of 06_navigator, from the way to a goal to a navigator that Nav2's clients can use."""
 
-from grader.exercises.navigator.driving import compass, drive
+from grader.exercises.navigator.bearing import compass
+from grader.exercises.navigator.driving import drive
 from grader.exercises.navigator.following import follow
 from grader.exercises.navigator.mapping import costmap
 from grader.exercises.navigator.navigating import navigate

@@ -61,6 +61,11 @@ def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
         expected, saw = (f"{len(msg.data)} cells in data" for msg in (given, made))
     if expected != saw:
         raise Missed(expected, saw, "Send the map's own header and info along: only the data changes.")
+    walls = cells_of(given) == 100
+    kept = int((cells_of(made)[walls] == 100).sum())
+    if kept < 0.9 * walls.sum():
+        hint = "Begin with a copy of the map's cells: what is occupied there stays 100."
+        raise Missed(f"the {int(walls.sum())} cells that are 100 in the map", f"{kept} of them are", hint)
     return given, made
 
 
@@ -107,7 +112,7 @@ def _clicks(run: Recording) -> list[Click]:
     """All clicks of ours, with the first point told before the next one comes."""
     found = []
     for heard in run.messages("/clicked_point"):
-        if run.is_ours(heard.sender):
+        if heard.ours:
             told = run.during(heard.stamp - 1e-6, heard.stamp + 0.45).messages("/cell_centre")
             found.append(Click(heard.stamp, _point(heard), _point(told[0]) if told else None))
     return found

@@ -18,7 +18,7 @@ def keeps_off(run: Recording, hint: str, expected: str = "no contact with walls 
     if run.contacts:
         touch = run.contacts[0]
         saw = f"a {touch.what} touched at {touch.stamp:.3g} s, at ({touch.x:.2f}, {touch.y:.2f}) m"
-        raise Missed(expected, saw, hint, picture="path")
+        raise Missed(expected, saw, hint, picture="path", unsafe=True)
 
 
 def cells_of(message: Any) -> np.ndarray:

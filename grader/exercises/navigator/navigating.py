@@ -151,7 +151,8 @@ def obeys_a_cancel(run: Recording) -> None:
     moved = math.dist(later[0][1:3], later[-1][1:3]) if later else 0.0
     if moved > 0.02:
         hint = "Send zeros before you return the result."
-        raise Missed("the robot standing still after the cancel", f"it drove on for {moved:.2f} m", hint)
+        saw = f"it drove on for {moved:.2f} m"
+        raise Missed("the robot standing still after the cancel", saw, hint, unsafe=True)
 
 
 def _canceled(run: Recording, goal: Goal) -> Seconds:

@@ -107,7 +107,7 @@ def is_short(run: Recording, points: list[Point]) -> None:
         raise Missed(f"a path of {RIGHT * shortest:.2f} m or less", f"{way:.2f} m", hint, credit=credit)
 
 
-@plan.check(2, after=answers_a_goal)
+@plan.check(2, after=leads_to_the_goal)
 def admits_that_there_is_no_way(run: Recording) -> None:
     """A goal inside a wall is answered with a Path without poses."""
     _, path = _answer(run, 1)
@@ -121,7 +121,7 @@ def admits_that_there_is_no_way(run: Recording) -> None:
 
 def _answer(run: Recording, goal: int) -> tuple[Seconds, Any]:
     """When a goal was sent, and the last path of the 2 s after it; None without one."""
-    goals = [heard.stamp for heard in run.messages("/goal_pose") if run.is_ours(heard.sender)]
+    goals = [heard.stamp for heard in run.messages("/goal_pose") if heard.ours]
     if len(goals) <= goal:
         raise silence(run, "goals on /goal_pose", f"{len(goals)}", run.graph.publishers("/goal_pose"))
     paths = run.during(goals[goal] - 1e-6, goals[goal] + 2.0 + 1e-6).messages("/plan")

@@ -20,7 +20,7 @@ Fault = tuple[str, str, str]  # expected, saw, hint
 
 def goals_of(run: Recording) -> list[Goal]:
     """The goals that our client sent. Raises Missed without one."""
-    goals = [goal for goal in run.goals_of(ACTION) if run.is_ours(goal.client)]
+    goals = [goal for goal in run.goals_of(ACTION) if goal.asked_by_us]
     if not goals:
         raise Missed("a goal that is taken", "no server was there when the client looked for one")
     return goals

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import random
 from dataclasses import replace
 
 from grader.exercises.navigator.ground import Point, drivable, shortest
@@ -39,6 +40,15 @@ def blocked(seed: int) -> tuple[World, World]:
         if shortest(real, ROOM) < 1.5 * shortest(known, ROOM):
             return real, known
     raise ValueError(f"seed {seed}: no room could be blocked so that a way is left")
+
+
+@functools.lru_cache(maxsize=64)
+def yard_from(seed: int) -> World:
+    """The yard, for a robot that has driven before: it starts where its odometry says. With seed 1, at 0."""
+    yard, draw = World.load("yard"), random.Random(f"yard {seed}")
+    spot = [round(draw.uniform(low, high), 2) for low, high in ((-2.5, 2.0), (-2.5, 2.0), (-3.0, 3.0))]
+    start = (0.0, 0.0, 0.0) if seed == 1 else tuple(spot)
+    return replace(yard, start=start, robot=replace(yard.robot, odometry=start))
 
 
 def _halfway(way: tuple[Point, ...]) -> Point:

@@ -10,7 +10,7 @@ from grader.exercises.nodes.after_main import Trace, observed, trace_of
 from sim.evidence import Recording, Seconds
 
 whole_main = Exercise(
-    "whole_main", "A main() that cleans up", scenarios=[Scenario(seconds=7, prepare=observed)]
+    "whole_main", "A main() that cleans up", scenarios=[Scenario(seconds=7, prepare=observed)], may_end=True
 )
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from grader.checks import Missed, Said, come_every, hinting, logs
 from grader.checks.fields import listed
+from grader.checks.logs import FLOOD
 from grader.exercise import Exercise
 from sim.evidence import Recording
 
 battery = Exercise("battery", "A battery that warns", seconds=12)
 
 
-@battery.check(3)
+@battery.check(3, lasts=True)
 def reports_the_charge(run: Recording) -> list[Said]:
     """A line comes every second, from “Battery: 90 %” down to “Battery: 0 %”."""
     lines = logs(run, r"^\W*?battery\W+(\d+)", example="Battery: 90 %")
@@ -18,7 +19,8 @@ def reports_the_charge(run: Recording) -> list[Said]:
     wanted = [max(0, 90 - 10 * index) for index in range(max(len(found), 10))]
     if found != wanted[: len(found)]:
         hint = "One line for each measurement, at one level: if, elif, else."
-        raise Missed(listed(wanted), listed(found), hint, credit=0.5, measured=lines)
+        credit = 0.5 if len(found) <= FLOOD * run.seconds else 0.0
+        raise Missed(listed(wanted), listed(found), hint, credit=credit, measured=lines)
     return come_every(run, lines, 1.0, credit=0.5)
 
 
@@ -62,7 +64,7 @@ def _charge(line: Said) -> int:
     return int(line.groups[0])
 
 
-@battery.check(3)
+@battery.check(3, lasts=True)
 def shows_debug_lines(run: Recording) -> None:
     """A debug line “Measuring” can be seen every second."""
     with hinting("Debug lines are hidden until the logger's level is set to DEBUG." if run.logs else ""):

@@ -19,7 +19,7 @@ def called_weather(run: Recording) -> None:
     named(run, "/weather")
 
 
-@weather.check(3)
+@weather.check(3, lasts=True)
 def tells_the_weather(run: Recording) -> list[Said]:
     """A line like “12 C = 53.6 F, mild” comes every second."""
     return come_every(run, logs(run, LINE, example="12 C = 53.6 F, mild"), 1.0, credit=0.25)

@@ -21,14 +21,14 @@ def called_heart_of_robot1(run: Recording) -> None:
     raise Missed(f"a node called {name}", ", ".join(nodes) or "no node", hint)
 
 
-@heart.check(5)
+@heart.check(5, lasts=True)
 def beats(run: Recording) -> list[Said]:
     """“Beat” is logged every 0.25 s."""
     lines = logs(run, r"^\W*?beat\W*$", level="INFO", example="Beat")
     return come_every(run, lines, 0.25, credit=0.2)
 
 
-@heart.check(5)
+@heart.check(5, lasts=True)
 def reports(run: Recording) -> list[Said]:
     """A report like “Beats: 4” is logged every second."""
     lines = logs(run, r"^\W*?beats\W+(\d+)", level="INFO", example="Beats: 4")

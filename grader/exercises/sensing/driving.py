@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import math
 
-from grader.checks import Missed, keeps_clear, publishes, series, stands_still, travelled
+from grader.checks import (
+    Missed,
+    keeps_clear,
+    publishes,
+    series,
+    stands_still,
+    travelled,
+    until_a_touch,
+)
 from grader.exercise import Exercise
 from grader.exercises.sensing.places import furnished_room, hall
 from sim.evidence import Recording
@@ -40,6 +48,7 @@ def stops_in_time(run: Recording) -> None:
             "Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
             "comparison the right way round?",
             picture="path",
+            unsafe=True,
         )
     if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
         raise Missed(
@@ -105,7 +114,7 @@ def wanders_off(run: Recording) -> None:
 @avoid.check(3, after=wanders_off)
 def drives_on(run: Recording) -> None:
     """It does not get stuck: in 60 s it comes 4 m far, or more."""
-    way = travelled(run)
+    way = travelled(until_a_touch(run))
     if way < LONG:
         credit = 0.7 * way / LONG if way > 1.0 else 0.0
         hint = _why_it_is_stuck(run)
@@ -130,7 +139,7 @@ def hits_nothing(run: Recording) -> None:
 def gets_about(run: Recording) -> None:
     """It gets about: at some time it is 1 m from where it started, or further."""
     start = run.path[0]
-    far = max(math.dist((start.x, start.y), (pose.x, pose.y)) for pose in run.path)
+    far = max(math.dist((start.x, start.y), (pose.x, pose.y)) for pose in until_a_touch(run).path)
     if far < FAR:
         expected = f"the robot {FAR:g} m from its start, or further"
         raise Missed(expected, f"at most {far:.2f} m", picture="path")

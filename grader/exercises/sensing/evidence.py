@@ -41,7 +41,7 @@ def delays(run: Recording) -> list[Window]:
 
 
 def _ours(run: Recording, topic: str) -> list[Heard]:
-    return [heard for heard in run.messages(topic) if run.is_ours(heard.sender)]
+    return [heard for heard in run.messages(topic) if heard.ours]
 
 
 def _gaps(moments: list[Seconds]) -> list[Window]:

@@ -13,6 +13,7 @@ from grader.exercises.sensing.evidence import (
     LIDAR,
     OUT,
     RAW,
+    STEP,
     Moment,
     Window,
     delays,
@@ -25,6 +26,7 @@ from sim import Process
 from sim.evidence import Pose, Recording
 
 TWIST, SCAN = "geometry_msgs/msg/Twist", "sensor_msgs/msg/LaserScan"
+ENOUGH = 5  # moments
 SETTLING = 1.0  # seconds to notice that something is old, and to brake
 STANDING = 0.02  # m/s
 
@@ -59,6 +61,11 @@ def lets_through(run: Recording) -> list[Moment]:
     moments = list(moments_of(run))
     fine = [moment for moment in moments if moment.asked and moment.ahead > FREE]
     wrong = [moment for moment in fine if not _alike(moment.sent, moment.asked)]
+    if len(fine) < ENOUGH:
+        expected = f"{ENOUGH * STEP:g} s or more in which all is well and {FREE:g} m are free ahead"
+        hint = "The driver turns the robot away from walls, and drives on: its commands have to pass."
+        saw = f"{len(fine) * STEP:.1f} s: the robot does not get there"
+        raise Missed(expected, saw, hint, picture="path")
     if len(wrong) > 0.05 * len(fine):
         first = wrong[0]
         raise Missed(
@@ -124,10 +131,10 @@ def stops_with_late_scans(run: Recording) -> None:
         "Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
         "but the time since it was measured: now minus msg.header.stamp."
     )
-    _stands(run, delays(run), "the last scan that came in time", hint)
+    _stands(run, delays(run), "the last scan that came in time", hint, unsafe=False)
 
 
-def _stands(run: Recording, windows: list[Window], what: str, hint: str) -> None:
+def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsafe: bool = True) -> None:
     """Raises Missed where the robot still moves, 1 s after a window has begun."""
     for begin, end in windows:
         path = run.during(begin + SETTLING, end + 1e-6).path
@@ -139,6 +146,7 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str) -> None
                 f"it drives at {speed:.2f} m/s at {stamp:.3g} s",
                 hint,
                 picture="topics",
+                unsafe=unsafe,
             )
 
 

@@ -11,7 +11,7 @@ from grader.checks.services import question
 from grader.exercise import Exercise
 from grader.exercises.services.calls import accepted, answer, offers, our_calls, refused, wrong_answer
 from grader.exercises.services.partners import READINGS, Questioner, RawGyro, Technician
-from sim.evidence import Call, Recording
+from sim.evidence import Call, Recording, Seconds
 
 ADD = "/add_two_ints"
 
@@ -34,6 +34,8 @@ def adds(run: Recording) -> None:
 
 
 CALIBRATE, RAW, RATE = "/gyro/calibrate", "/gyro/raw", "/gyro/rate"
+CLOSE, NEW = 0.001, 0.021  # rad/s, s
+Signal = list[tuple[Seconds, float]]
 ENOUGH = f"It refused with {READINGS} readings. Refuse only below that: if len(self.readings) < {READINGS}."
 
 calibrate = Exercise(
@@ -66,16 +68,20 @@ def refuses_too_early(run: Recording) -> None:
             )
             raise wrong_answer(expected, call, guess)
         if not call.response.message.strip():
-            raise wrong_answer(expected, call, "Say in response.message why not.", credit=0.5)
+            decides = any(map(accepted, our_calls(run, CALIBRATE)))  # an empty response is no refusal
+            raise wrong_answer(expected, call, "Say in response.message why not.", credit=0.5 * decides)
 
 
 @calibrate.check(4, after=offers_to_calibrate)
 def gyro_reads_zero(run: Recording) -> None:
     """After a calibration /gyro/rate is 0 on average, with the robot at rest."""
+    hint = "In hear: publish the reading minus self.bias."
     for number, it in enumerate(_calibrations(run)):
         if math.isnan(it.rate):
-            hint = "In hear: publish the reading minus self.bias."
             raise Missed(f"messages on {RATE} after {question(it.call)}", "none", hint, picture="topics")
+        if it.strange is not None:
+            expected = f"each reading of {RAW} minus the bias, after {question(it.call)}"
+            raise Missed(expected, f"{it.strange:.3g} rad/s, which is none of them", hint, picture="topics")
         if abs(it.rate) > 0.01:
             raise Missed(
                 f"a mean of 0 rad/s, within 0.01, in the second after {question(it.call)}",
@@ -107,6 +113,7 @@ class _Calibration(NamedTuple):
     bias: float  # of the last readings before the call
     rate: float  # of what the node publishes in the second after it
     used: float  # what the node takes away from the readings in that second
+    strange: float | None  # a rate that is no reading minus that, where many are none
 
 
 def _calibrations(run: Recording) -> list[_Calibration]:
@@ -115,9 +122,22 @@ def _calibrations(run: Recording) -> list[_Calibration]:
         readings = _readings_before(run, call)
         if len(readings) >= READINGS:
             after = run.during(call.asked, call.asked + 1.0)
-            raw, rate = (_mean([value for _, value in series(after, topic, "data")]) for topic in (RAW, RATE))
-            found.append(_Calibration(call, _mean(readings[-READINGS:]), rate, raw - rate))
+            raw, rates = (series(after, topic, "data") for topic in (RAW, RATE))
+            rate = _mean([value for _, value in rates])
+            used = _mean([value for _, value in raw]) - rate
+            strange = _strange(raw, rates, used)
+            found.append(_Calibration(call, _mean(readings[-READINGS:]), rate, used, strange))
     return found
+
+
+def _strange(raw: Signal, rates: Signal, used: float) -> float | None:
+    """The first rate that is no new reading minus what is used, where more than a quarter are none."""
+    strange = [
+        rate
+        for at, rate in rates
+        if not any(abs(it - used - rate) < CLOSE for when, it in raw if at - NEW <= when <= at + 1e-6)
+    ]
+    return strange[0] if len(strange) > len(rates) / 4 or len(rates) > 2 * len(raw) else None
 
 
 def _readings_before(run: Recording, call: Call) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 
@@ -15,7 +16,9 @@ from sim.evidence import Call, Recording
 ARM = "/arm"
 CALLS = 6  # that the pilot makes
 SPEED = 0.3  # m/s
+STILL, JUST = 0.01, 0.3  # metres, seconds
 INVERTED = "Each call did the opposite of what it asked for: self.armed = request.data."
+SWITCHES = "Each call switches over, whatever it asks for: write self.armed = request.data."
 NOT_YET = "A robot must not start by itself: self.armed = False in __init__, and drive looks at it."
 NO_MORE = "request.data says what is wanted: self.armed = request.data. While it is False, send zeros."
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
@@ -24,7 +27,7 @@ arming = Exercise(
     "arming",
     "A robot that drives only when it is armed",
     world="yard",
-    seconds=14,
+    seconds=17,
     companions=[Pilot],
     seeds=(1, 2),
 )
@@ -49,6 +52,8 @@ def says_what_it_did(run: Recording) -> None:
 @arming.check(4, after=offers_to_arm)
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
+    _stands(run.during(0.0, our_calls(run, ARM, CALLS)[0].asked), "before the first call", NOT_YET)
+    _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
         seconds, driven = phase.stamp - phase.begin, travelled(phase)
         if not math.isclose(driven, SPEED * seconds, rel_tol=0.15):
@@ -63,17 +68,33 @@ def drives_while_armed(run: Recording) -> None:
 @arming.check(4, after=drives_while_armed)
 def stands_while_disarmed(run: Recording) -> None:
     """While it is not armed, the robot stands still: at the start, too."""
-    start = run.during(0.0, our_calls(run, ARM, CALLS)[0].asked)
-    _stands(start, "before the first call", NOT_YET)
     for call, phase in _phases(run, armed=False):
         _stands(phase, f"after {question(call)}", NO_MORE)
     ends_with_a_stop(run, credit=0.5)
 
 
+def _begins_when_armed(run: Recording) -> None:
+    """Just before a call that arms it, the robot stands. Raises Missed if not."""
+    made = our_calls(run, ARM, CALLS)
+    for before, call in itertools.pairwise(made):
+        if call.request.data and not before.request.data:
+            begin = max(before.asked + SETTLING, call.asked - JUST)
+            _stands(run.during(begin, call.asked), f"until {question(call)}", _why_it_drives(run, made))
+
+
+def _why_it_drives(run: Recording, made: list[Call]) -> str:
+    """The usual reasons for a robot that drives while it isn't armed."""
+    if _is_inverted(made):
+        return INVERTED
+    armed = run.during(made[1].asked + SETTLING, made[2].asked)
+    return NO_MORE if travelled(armed) > 10 * STILL else SWITCHES
+
+
 def _stands(phase: Recording, when: str, hint: str) -> None:
     driven = travelled(phase)
-    if driven > 0.01:
-        raise Missed(f"a robot that stands still {when}", f"it moved {driven:.2f} m", hint, picture="path")
+    if driven > STILL:
+        expected, saw = f"a robot that stands still {when}", f"it moved {driven:.2f} m"
+        raise Missed(expected, saw, hint, picture="path", unsafe=True)
 
 
 def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
@@ -123,7 +144,7 @@ def _driving_hint(run: Recording, call: Call) -> str:
             return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
         return "All commands were 0: does arm set self.armed (with self), and does drive look at it?"
     if before and travelled(run.during(made[0].asked, made[1].asked)) > 0.1:
-        return "Each call switches over, whatever it asks for: write self.armed = request.data."
+        return SWITCHES
     if before and before[-1].request.data:
         return "A second data=True must not switch it off again: write self.armed = request.data."
     return f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second."

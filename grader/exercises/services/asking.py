@@ -102,7 +102,7 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
     if early:
         saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
         hint = "An answer is no yes yet: look at answer.success before you drive."
-        raise Missed("linear.x 0 until the door is open", saw, hint)
+        raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
     late = [(at, speed) for at, speed in commands if at > opened + 0.5 and abs(speed - 0.3) > 0.03]
     if late or not yes:
         saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
@@ -179,7 +179,7 @@ def asks_with_the_newest_ticks(run: Recording, made: list[Call]) -> None:
             raise Missed(f"a={left[-1]}, b={right[-1]}", question(call), hint)
 
 
-@ticks.check(4, after=asks_every_second)
+@ticks.check(4, after=asks_with_the_newest_ticks)
 def heart_goes_on(run: Recording) -> None:
     """The heart beats on at 10 Hz, also while the node waits for an answer."""
     _keeps_pace(run, "/heartbeat", GROUPS)

@@ -17,7 +17,7 @@ STUCK = (
 
 def our_calls(run: Recording, service: str, at_least: int = 1) -> list[Call]:
     """The calls of a service by ours. Raises Missed when the run ended before so many of ours were made."""
-    made = [call for call in run.calls_of(service) if call.client in run.ours]
+    made = [call for call in run.calls_of(service) if call.asked_by_us]
     if len(made) < at_least:
         expected = f"a run that lasts until {service} is called"
         raise Missed(expected if at_least == 1 else f"{expected} {at_least} times", run.ended.detail)

@@ -141,4 +141,5 @@ def _commands(run: Recording, wanted: Velocity, why: str, guess: str = UNARMED) 
         at, v, w = wrong[0] if wrong else (run.begin, 0.0, 0.0)
         saw = f"({v:g} m/s, {w:g} rad/s) at {at:.3g} s" if wrong else f"no command from {at:.3g} s on"
         expected = f"({wanted[0]:g} m/s, {wanted[1]:g} rad/s) {why}"
-        raise Missed(expected, saw, guess=DRIVE if any(wanted) else guess, picture="path")
+        hint = DRIVE if any(wanted) else guess
+        raise Missed(expected, saw, guess=hint, picture="path", unsafe=bool(wrong) and not any(wanted))

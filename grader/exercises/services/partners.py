@@ -86,10 +86,10 @@ class Pilot(Caller):
     def __init__(self) -> None:
         super().__init__("pilot")
         self.client = self.create_client(SetBool, "/arm")
-        moment = random.uniform(0.5, 0.8)
+        moment = random.uniform(0.5, 2.5)
         for armed in (False, True, False, True, True, False):
             at(self, moment, lambda armed=armed: self.ask(self.client, SetBool.Request(data=armed)))
-            moment += random.uniform(1.6, 2.2)
+            moment += random.uniform(1.2, 2.6)
 
 
 class Reader(Caller):

@@ -35,6 +35,21 @@ def obeys(run: Recording) -> None:
         answers(
             run, COMMAND, lambda heard: DOING[_word(heard)], level="INFO", within=PATIENCE, where=_is_command
         )
+    asked = list(filter(_is_command, run.messages(COMMAND)))
+    doubtful = [heard for heard in asked if _said_otherwise(run, heard)]
+    if len(doubtful) > len(asked) / 2:
+        heard = doubtful[0]
+        raise Missed(
+            f"only “{DOING[_word(heard)]}” after “{_word(heard)}”",
+            f"“{_said_otherwise(run, heard)}” at {heard.stamp:.3g} s",
+            "Who says everything has answered nothing. With if, elif, else exactly one branch runs.",
+        )
+
+
+def _said_otherwise(run: Recording, heard: Heard) -> str:
+    """A line at info level that says what another command asks for; "" for none."""
+    lines = [line for line in _lines_after(run, heard) if line.level == "INFO"]
+    return next((line.text[:60] for line in lines if _contradicts(line, _word(heard))), "")
 
 
 @commands.check(4, after=listens_to_commands)

@@ -43,13 +43,13 @@ def temperature_once_a_second(run: Recording) -> None:
 @temperature.check(
     4, after=temperature_is_published, guess="random.uniform(20.0, 25.0) gives a number in this range."
 )
-def temperature_in_range(run: Recording) -> None:
+def temperature_in_range(run: Recording) -> list[float]:
     """Every temperature is from 20 to 25 °C."""
-    within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
+    return within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
 
 
-@temperature.check(2, after=temperature_is_published)
-def temperature_changes(run: Recording, sent: list[Heard]) -> None:
+@temperature.check(2, after=(temperature_is_published, temperature_in_range))
+def temperature_changes(run: Recording, sent: list[Heard], _: list[float]) -> None:
     """The temperature changes from message to message."""
     values = [heard.message.data for heard in sent]
     same = sum(before == after for before, after in itertools.pairwise(values))

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from grader.marking.command.journal import Journal
 from grader.marking.command.mark_class import OpenMarker, Outcome, Settings, mark_class
+from grader.marking.command.progress import printable
 from grader.marking.command.summary import summarise
-from grader.marking.command.summary_page import as_page
+from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
@@ -51,7 +52,7 @@ def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None
         course = Course(Path.cwd())
         settings = _settings(options, course)
         outcome = mark_class(course, options.assignment, settings, open_pool or _open_pool)
-        _report(options, settings, outcome)
+        _report(options, course, settings, outcome)
     except (CourseError, SandboxMissing, SandboxFailed) as error:
         said = f"Not marked: {error}"
         print(said if said.endswith((".", "?")) else f"{said}.", file=sys.stderr)
@@ -94,18 +95,19 @@ def _open_pool(settings: Settings, secret: str) -> Pool | DaskPool:
     return Pool(settings.jobs, settings.unsafe, secret)
 
 
-def _report(options: argparse.Namespace, settings: Settings, outcome: Outcome) -> None:
+def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:
     summary = summarise(options.assignment, outcome.worth, outcome.results)
     if outcome.results:
         print(as_text(summary))
     if settings.csv:
         write_whole(Path(settings.csv), as_csv(options.assignment, outcome.results))
     if settings.html:
-        write_whole(Path(settings.html), as_page(summary))
+        links = page_links(course, options.assignment, outcome.results, Path(settings.html))
+        write_whole(Path(settings.html), as_page(summary, links))
     all_of_it = f"{len(outcome.results)} of {outcome.total} in all"
     print(f"\n{len(outcome.fresh)} marked now, {all_of_it}, in {outcome.seconds:.1f} s.")
     for problem in outcome.problems:
-        print(problem, file=sys.stderr)
+        print(printable(problem), file=sys.stderr)
     if outcome.interrupted or outcome.problems:
         done = f"{len(outcome.results)} of {outcome.total} submissions are marked and kept"
         print(f"Stopped. {done}: {_again(options)}.", file=sys.stderr)

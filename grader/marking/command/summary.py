@@ -1,4 +1,5 @@
 """What the instructor wants to know of a marked class: points, common mistakes, times, what to look at."""
+import math
 import re
 import statistics
 from collections import Counter
@@ -7,9 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED
+from grader.marking.handed_in.words import quote
 from grader.marking.result import CellResult, Result
 
 SLOWEST = 5
+FEW = 0.5  # of the points
 NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
 
 
@@ -138,14 +141,26 @@ def _by_hand(worth: Mapping[tuple[str, str], float], results: list[Result]) -> I
 def _concerns(result: Result) -> Iterator[Concern]:
     if result.verdict in ("refused", "stopped"):
         yield Concern(result.student, f"{result.verdict}: {result.reason}")
+    yield from _mended_in_vain(result)
+    unsure = {f"The test cell {quote(cell.cell)}:" for _, cell in cells(result) if cell.needs_look}
     for flag in result.flags:
-        yield Concern(result.student, flag)
+        by_hand = " Set its points by hand." if flag.startswith(tuple(unsure)) else ""
+        yield Concern(result.student, f"{flag}{by_hand}")
     for (notebook, name), cell in cells(result):
-        if cell.needs_look:
+        told = any(flag.startswith(f"The test cell {quote(name)}:") for flag in result.flags)
+        if cell.needs_look and not told:
             alarms = [str(verdict.get("alarm", "")).strip() for verdict in cell.verdicts]
             last = next((alarm.splitlines()[-1] for alarm in alarms if alarm), "see its outputs")
             said = f"a check of {notebook}/{name} is broken ({last}): set the points by hand"
             yield Concern(result.student, said)
+
+
+def _mended_in_vain(result: Result) -> Iterator[Concern]:
+    """What was mended and has few points: maybe it was mended wrongly."""
+    most = math.fsum(cell.max for _, cell in cells(result))
+    if result.repairs and result.verdict != "refused" and result.points < FEW * most:
+        earned = f"mended, and has {result.points:g} of {most:g} points"
+        yield Concern(result.student, f"{earned}: {' '.join(result.repairs)}")
 
 
 def _times(results: list[Result]) -> Times | None:

@@ -1,14 +1,28 @@
 """The summary of a class as one HTML page: no scripts, nothing from elsewhere, everything escaped."""
+import os
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from urllib.parse import quote
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from grader.marking.command.summary import Summary
+from grader.marking.gradebook.course import Course
 
 
-def as_page(summary: Summary) -> str:
-    """The whole page."""
-    return _pages.get_template("summary.html").render(summary=summary).lstrip()
+def as_page(summary: Summary, links: Mapping[str, str] | None = None) -> str:
+    """The whole page. links: the address of each student's own page, where there is one."""
+    return _pages.get_template("summary.html").render(summary=summary, links=links or {}).lstrip()
+
+
+def page_links(course: Course, assignment: str, students: Iterable[str], place: Path) -> dict[str, str]:
+    """The students' first pages, as addresses for a file at `place`."""
+    found = {student: sorted(course.feedback(student, assignment).glob("*.html")) for student in students}
+    return {
+        student: quote(os.path.relpath(pages[0], place.absolute().parent))
+        for student, pages in found.items()
+        if pages
+    }
 
 
 _pages = Environment(

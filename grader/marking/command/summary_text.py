@@ -94,4 +94,7 @@ def _csv_rows(assignment: str, result: Result) -> Iterator[dict[str, object]]:
 
 
 def _inert(value: object) -> object:
-    return f"'{value}" if isinstance(value, str) and value.startswith(RUNS) else value
+    """The value without what a terminal would obey, or a spreadsheet."""
+    if not isinstance(value, str):
+        return value
+    return f"'{printable(value)}" if value.startswith(RUNS) else printable(value)

@@ -5,7 +5,15 @@ from datetime import datetime
 from types import TracebackType
 
 from nbformat import NotebookNode
-from nbgrader.api import Grade, Gradebook, InvalidEntry, MissingEntry, SubmittedAssignment, SubmittedNotebook
+from nbgrader.api import (
+    Grade,
+    Gradebook,
+    InvalidEntry,
+    MissingEntry,
+    Student,
+    SubmittedAssignment,
+    SubmittedNotebook,
+)
 from nbgrader.preprocessors import AssignLatePenalties
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, is_task
 from sqlalchemy.engine import make_url
@@ -70,7 +78,7 @@ class Book:
         instructor entered by hand stays, and asks for another look, as after `nbgrader autograde`.
         """
         with self._transaction() as book:
-            book.update_or_create_student(result.student)
+            _name(book.update_or_create_student(result.student))
             when = {} if timestamp is None else {"timestamp": timestamp}
             with book.db.no_autoflush:  # the submission is not in the session before it is complete
                 book.update_or_create_submission(result.assignment, result.student, **when)
@@ -122,6 +130,12 @@ class Book:
             place = self._address.render_as_string(hide_password=True)
             said = f"the gradebook {place} can't be used ({reason})"
             raise GradebookError(f"{said}: {next(advice, 'repair it, then mark again')}") from None
+
+
+def _name(student: Student) -> None:
+    """The formgrader would call who has no name "None, None"."""
+    if student.first_name is None and student.last_name is None:
+        student.first_name, student.last_name = "", student.id
 
 
 def _graded_cells(page: NotebookNode | None) -> dict[str, NotebookNode]:

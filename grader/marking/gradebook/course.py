@@ -87,7 +87,7 @@ class Course:
         )
         pattern = str(self.submitted("*", glob.escape(assignment)))
         left_out = self.directory.student_id_exclude.split(",")
-        matches = {path: re.fullmatch(place, path) for path in sorted(glob.glob(pattern))}
+        matches = {path: re.fullmatch(place, path, re.DOTALL) for path in sorted(glob.glob(pattern))}
         found = {match["student"]: Path(path) for path, match in matches.items() if match}
         for student in found:
             _check_name(student, found[student])
@@ -101,12 +101,14 @@ def _check_name(student: str, folder: Path) -> None:
     """Files are called after students, and the gradebook holds text."""
     length = len(os.fsencode(student))
     plain = student.encode(errors="replace").decode()
-    if plain == student and length <= LONGEST_NAME:
+    if plain == student and length <= LONGEST_NAME and "\n" not in student:
         return
     saw = f"{length} bytes" if plain == student else "bytes that are no UTF-8"
+    saw = "two lines" if "\n" in student else saw
     shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
+    expected = f"expected one line of at most {LONGEST_NAME} bytes"
     raise CourseError(
-        f"a student's folder has the name {shown!r}, {saw}; expected a text of at most {LONGEST_NAME} bytes: "
+        f"a student's folder has the name {shown!r}, {saw}; {expected}: "
         f"rename it in {str(folder.parent.parent).encode(errors='replace').decode()}"
     )
 

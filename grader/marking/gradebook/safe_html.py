@@ -9,9 +9,11 @@ only draws its numbers; every script goes, and the course's own player takes its
 
 import re
 from typing import Any
-from urllib.parse import urlsplit
 
 import nh3
+from jinja2 import pass_context
+from jinja2.runtime import Context
+from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 
 from grader.marking.gradebook.short_pages import TOO_LONG, too_long
 
@@ -39,7 +41,13 @@ STYLES = {
     *BOX_STYLES.split(),
     *(kind + side for kind in ("border", "margin", "padding") for side in SIDES),
 }
-PROTOCOLS = {"http", "https", "mailto", "data"}  # data: pictures inside the page
+PROTOCOLS = {"http", "https", "mailto", "data"}  # data: pictures inside the page, and nothing else
+LINK = re.compile(r"(https?://|mailto:|#).*", re.DOTALL)
+# Of pictures: inside the page. One from this server would do what its address does, such as /hub/logout; one
+# from elsewhere would tell its server who reads the page.
+INSIDE = re.compile(r"data:image/(png|jpeg|gif|webp|svg\+xml);base64,[A-Za-z0-9+/=\s]*")
+LENGTH = r"(\d*\.?\d+(px|em|ex|rem|ch|pt|%)?|auto)"  # with a minus, it would cover what is not its own
+MARGIN = re.compile(rf"\s*{LENGTH}(\s+{LENGTH}){{0,3}}\s*")
 
 # Of replays, tables and highlighted code. The pages' own style sheet has others that cover the page.
 CLASSES = re.compile(r"ros2-replay|dataframe|highlight|anchor-link|[a-z]{1,2}\d?|hll|err|esc")
@@ -67,6 +75,24 @@ def clean_output(html: object) -> str:
     return f"{safe}<script>{PLAYER_SCRIPT}</script>"
 
 
+class Attachments(dict[str, Any]):
+    """Pictures that belong to a Markdown cell. One that is missing shows its words, and stops nothing."""
+
+    def __contains__(self, name: object) -> bool:
+        return True
+
+    def __getitem__(self, name: str) -> dict[str, str]:
+        return self.get(name) or {"image/png": ""}
+
+
+@pass_context
+def markdown(context: Context, source: str) -> str:
+    """The filter that makes HTML of Markdown; `clean` comes after it. A picture may be missing."""
+    cell = context.get("cell") or {}
+    renderer = IPythonRenderer(escape=False, attachments=Attachments(cell.get("attachments") or {}))
+    return MarkdownWithMath(renderer=renderer).render(source)
+
+
 def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
     """A preprocessor of nbconvert: drops what only runs, and of pictures' metadata all but size and words.
 
@@ -89,19 +115,18 @@ def _kept(tag: str, name: str, value: str) -> str | None:
     holds = {
         "class": lambda: all(CLASSES.fullmatch(word) for word in value.split()),
         "data-replay": lambda: REPLAY.fullmatch(value),
-        "src": lambda: _inside(value),
+        "href": lambda: LINK.fullmatch(value),
+        "src": lambda: INSIDE.fullmatch(value),
     }
+    if name == "style":
+        return ";".join(rule for rule in value.split(";") if _stays(rule)) or None
     return value if name not in holds or holds[name]() else None
 
 
-def _inside(source: str) -> bool:
-    """Whether a picture comes with the page: one from elsewhere would tell its server who reads the page."""
-    try:
-        parts = urlsplit(source)
-    except ValueError:
-        return False
-    here = not (parts.scheme or parts.netloc or "\\" in source)  # browsers take \\ for /
-    return here or (parts.scheme == "data" and parts.path.startswith("image/"))
+def _stays(rule: str) -> bool:
+    """Whether a rule such as "margin: 1em" leaves things in their place."""
+    name, _, value = rule.partition(":")
+    return not name.strip().lower().startswith("margin") or bool(MARGIN.fullmatch(value))
 
 
 _cleaner = nh3.Cleaner(

@@ -40,9 +40,9 @@ REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The test cell {} was missing; the instructor's own was run.",
             "The test cells {} were missing; the instructor's own were run.",
         ),
-        "test too early": (
-            "The test cell {} stood before its answer; it was run after it.",
-            "The test cells {} stood before their answers; they were run after them.",
+        "moved": (
+            "The cell {} had left its place in the assignment; it was run there.",
+            "The cells {} had left their places in the assignment; they were run there.",
         ),
         "test older": (
             "The test cell {} came from another version of the assignment; the present one was run.",

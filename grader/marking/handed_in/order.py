@@ -1,12 +1,14 @@
 """In which order the cells of a rebuilt notebook stand: as the student had them, so that they run as there.
 
-Cells that were missing stand where the release has them, and no test stands before its answer.
+Where code of the assignment has left its place, such as the set-up or a test above its answer, the release's
+order holds for all of it: in the kernel that the student had open, another one may have worked.
 """
 
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from grader.marking.handed_in.cells import Cell, is_answer, is_test
+from grader.marking.handed_in.cells import Cell, is_test
 
 
 class Place(NamedTuple):
@@ -19,17 +21,51 @@ class Place(NamedTuple):
 def order_cells(
     release: Sequence[Cell], chosen: Mapping[int, int], own: Iterable[int]
 ) -> tuple[list[Place], list[int]]:
-    """Return the order, and the submitted tests, by index in the release, that stood before an answer.
+    """Return the order, and which cells of the release had left their place, by index in it.
 
     chosen: which submitted cell stands for which of the release, by index. own: the student's own cells.
     """
     seen = [*((s, Place(True, r)) for r, s in chosen.items()), *((s, Place(False, s)) for s in own)]
     order = [place for _, place in sorted(seen)]
+    ours = [place.index for place in order if place.ours]
+    code = [r for r in ours if release[r].kind == "code"]
+    moved = sorted(set(code) - set(_in_order(code)))
+    if moved or (len(ours) < len(release) and ours != sorted(ours)):  # else a missing one has no place
+        return _as_released(release, order), moved
     for r in range(len(release)):
         if r not in chosen:
             order.insert(_place_of_missing(release, order, r), Place(True, r))
-    moved = [r for r, answers in _tests(release) if _move_behind(order, r, answers)]
-    return order, [r for r in moved if r in chosen]
+    return order, []
+
+
+def _in_order(numbers: Sequence[int]) -> list[int]:
+    """As many of these different numbers as stand in order, each behind a smaller one."""
+    ends: list[int] = []  # the smallest end of a row of each length
+    lengths = []
+    for number in numbers:
+        length = bisect_left(ends, number)
+        ends[length : length + 1] = [number]
+        lengths.append(length)
+    row: list[int] = []
+    wanted = len(ends) - 1
+    for number, length in zip(reversed(numbers), reversed(lengths), strict=True):
+        if length == wanted and (not row or number < row[-1]):
+            row.append(number)
+            wanted -= 1
+    return row[::-1]
+
+
+def _as_released(release: Sequence[Cell], order: Sequence[Place]) -> list[Place]:
+    """The release's cells in its order, and each of the student's own before the one that it stood before."""
+    before: dict[int, list[Place]] = {}
+    waiting: list[Place] = []
+    for place in order:
+        if place.ours:
+            before[place.index], waiting = waiting, []
+        else:
+            waiting.append(place)
+    cells = [[*before.get(r, ()), Place(True, r)] for r in range(len(release))]
+    return [place for group in (*cells, waiting) for place in group]
 
 
 def _place_of_missing(release: Sequence[Cell], order: Sequence[Place], r: int) -> int:
@@ -37,27 +73,5 @@ def _place_of_missing(release: Sequence[Cell], order: Sequence[Place], r: int) -
     known = {place.index: position for position, place in enumerate(order) if place.ours}
     behind = [known[other] for other in range(r + 1, len(release)) if other in known]
     if is_test(release[r]):
-        return behind[0] if behind else len(order)
+        return min(behind, default=len(order))
     return known[r - 1] + 1 if r else 0
-
-
-def _tests(release: Sequence[Cell]) -> list[tuple[int, list[int]]]:
-    """Each test with the answers between the test before it and itself."""
-    found: list[tuple[int, list[int]]] = []
-    answers: list[int] = []
-    for r, cell in enumerate(release):
-        if is_answer(cell):
-            answers.append(r)
-        elif is_test(cell):
-            found.append((r, answers))
-            answers = []
-    return found
-
-
-def _move_behind(order: list[Place], test: int, answers: Iterable[int]) -> bool:
-    position = order.index(Place(True, test))
-    last = max((order.index(Place(True, answer)) for answer in answers), default=-1)
-    if position > last:
-        return False
-    order.insert(last, order.pop(position))
-    return True

@@ -104,7 +104,7 @@ def rebuild(release: NotebookNode, submitted: PlainNotebook) -> RebuiltNotebook:
             nodes.append(_plain(cell, node, [theirs[s] for s in copies], notes))
     order, moved = order_cells(ours, chosen, own)
     for r in moved:
-        notes.add("test too early", ours[r].name)
+        notes.add("moved", ours[r].name or ours[r].id)
     notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, theirs)})
     repairs = [*submitted.repairs, *notes.sentences(REPAIRS)]
     return RebuiltNotebook(notebook, answers, repairs, notes.sentences(FLAGS))

@@ -28,7 +28,6 @@ MODULES = _by_word(
         "reaches into Python's memory": "ctypes",
         "finds objects that it was not given": "gc",
         "starts processes": "multiprocessing pty subprocess",
-        "changes how the process is stopped": "signal",
         "opens connections": "socket",
         "changes how cells are run and shown": "IPython",
     }
@@ -50,7 +49,8 @@ ATTRIBUTES = _by_word(
         "changes what cells show": "display_formatter displayhook display_pub",
         "changes how cells are run": "run_cell run_cell_async",
         "ends the process": "_exit",
-        "stops processes": "kill killpg",
+        "stops processes": "kill killpg SIGKILL SIGSTOP",
+        "interrupts what runs": "SIGALRM setitimer",
         "starts processes": "fork system popen execv",
         "reaches into other processes": "ptrace",
         "touches the process's own open files": "close closerange dup2 write",

@@ -67,10 +67,9 @@ class CellOutputs:
         return True
 
     @property
-    def printed_text(self) -> list[dict[str, Any]]:
-        """Only what was written as text, all of it as stdout."""
-        text = "".join(output["text"] for output in self.list if output["output_type"] == "stream")
-        return [{"output_type": "stream", "name": "stdout", "text": text}] if text else []
+    def printed_text(self) -> str:
+        """Only what was written as text."""
+        return "".join(output["text"] for output in self.list if output["output_type"] == "stream")
 
     def _begin(self) -> None:
         if self._clear:

@@ -42,11 +42,13 @@ class TestRun:
     """What became of a test cell.
 
     score: None if the exercise wasn't run to its end; error: what went wrong with that on our side, if
-    anything. flags: what no honest cell does.
+    anything; problem: what went wrong on the student's, where the process lives. flags: what no honest cell
+    does.
     """
 
     score: Score | None = None
     error: Exception | None = None
+    problem: str = ""
     flags: list[str] = field(default_factory=list)
 
 
@@ -100,7 +102,7 @@ class LedProcess:
                 tested.flags += [problem] * (problem not in tested.flags and len(tested.flags) < MOST_FLAGS)
             else:
                 self._grade(exercise, tested, secret)
-        if tested.score is None and tested.error is None:
+        if tested.score is None and tested.error is None and not tested.problem:
             self._say_if_late(began, outputs)
         return tested
 
@@ -115,8 +117,10 @@ class LedProcess:
         try:
             try:
                 tested.score = exercise.judge(RemoteCast(remote, secret), secret)
-            except RemoteLost:
-                raise
+            except RemoteLost as lost:
+                if not lost.lives:
+                    raise
+                tested.error, tested.problem = lost.mistake, lost.reason
             except Exception as error:
                 tested.error = error
             remote.end()
@@ -169,7 +173,7 @@ class LedProcess:
 
 
 def _refusal(named: str, exercise: Exercise, tested: TestRun) -> str:
-    if tested.score is not None or tested.error is not None:
+    if tested.score is not None or tested.error is not None or tested.problem:
         return "graded more than once in one cell; the first time was judged"
     if named != exercise.name:
         return f"handed its nodes to the exercise {named!r} instead of {exercise.name!r}"

@@ -18,6 +18,7 @@ from grader.marking.judge.testcells import exercise_names, find_exercise, is_tes
 from grader.marking.outputs import writable_text
 from grader.marking.result import NotebookResult, Result
 from grader.marking.task import Task
+from grader.seeds import secret_of_student
 
 MOST_TRICKS = 20  # of a notebook are told
 
@@ -68,12 +69,14 @@ STEPS = (rebuild_notebooks, find_exercises, name_tricks, run_and_judge, give_the
 
 
 def mark_submission(task: Task, secret: str, start_process: StartStudentProcess) -> Result:
-    """Mark a submission with worlds and seeds from the secret, or with the public ones where it is "".
+    """Mark a submission with worlds and seeds from the secret and the student's name.
+
+    Where the secret is "", they are the public ones.
 
     Raises nothing for anything that a student may have done, and UnknownTest for another release.
     """
     began = monotonic()
-    marking = Marking(task, secret, start_process)
+    marking = Marking(task, secret_of_student(secret, task.student), start_process)
     try:
         for step in STEPS:
             step(marking)

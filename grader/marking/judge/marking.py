@@ -21,9 +21,9 @@ StartStudentProcess = Callable[[], LedProcess]  # gives a fresh process, for one
 class Marking:
     """What the steps have made of a task so far.
 
-    secret: where private worlds and seeds come from; "" for the public ones. exercises: what test cells
-    grade, by notebook and grade_id. cells: what these earned, by notebook. stops: why a notebook did not come
-    to its end. timings: see Result.
+    secret: where this student's worlds and seeds come from; "" for the public ones. exercises: what test
+    cells grade, by notebook and grade_id. cells: what these earned, by notebook. stops: why a notebook did
+    not come to its end. timings: see Result.
     """
 
     task: Task

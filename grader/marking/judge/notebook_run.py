@@ -81,6 +81,8 @@ class NotebookRun:
         self._flag(cell, tested.flags)
         if tested.error is not None:
             return self._course_mistake(cell, tested.error)
+        if tested.problem:
+            return self._not_judged(cell, tested.problem, shown)
         if tested.score is None:
             self._results.append(no_points(cell, exercise))
             shown.say("No points: this cell ended before the nodes could be run.")
@@ -90,10 +92,10 @@ class NotebookRun:
         problems = score_outputs.alarms(score)
         if score.max != worth:
             problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")
-        self._flag(cell, problems)
+        self._flag(cell, [*problems, *score_outputs.staged(score)])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
-        return [*score_outputs.outputs(shown_score, number), *shown.printed_text]
+        return [*score_outputs.outputs(shown_score, number), *self._written(shown)]
 
     def _course_mistake(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
         """Our own mistake: the instructor has to look."""
@@ -101,11 +103,28 @@ class NotebookRun:
         self._flag(cell, [f"could not be judged, by a mistake of the course: {last}"])
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
         words = "This cell could not be judged, by a mistake of the course. Your instructor will look at it."
-        return [{"output_type": "stream", "name": "stdout", "text": words + "\n"}]
+        return _text(words)
+
+    def _not_judged(self, cell: NotebookNode, problem: str, shown: CellOutputs) -> list[dict[str, Any]]:
+        """The student's process could not serve the nodes, and goes on: the cells below are run."""
+        self._flag(cell, [f"not judged, and worth a look. {problem.rstrip('.')}"])
+        self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
+        words = f"No points: this could not be judged. {problem} Your instructor will look at it."
+        return [*_text(words), *self._written(shown)]
+
+    def _written(self, shown: CellOutputs) -> list[dict[str, Any]]:
+        """What the nodes wrote: that of private worlds could tell them."""
+        make = score_outputs.for_instructor if self._marking.secret else _text
+        return make(shown.printed_text)
 
     def _flag(self, cell: NotebookNode, problems: Sequence[str]) -> None:
         name = f"The test cell {quote(cell_name(cell))}"
         self._marking.flags += [f"{name}: {writable_text(problem)}." for problem in problems]
+
+
+def _text(text: str) -> list[dict[str, Any]]:
+    line = text if text.endswith("\n") else f"{text}\n"
+    return [{"output_type": "stream", "name": "stdout", "text": line}] if text else []
 
 
 def _cell_words(cell: NotebookNode, number: int) -> str:

@@ -7,7 +7,8 @@ from typing import Any
 
 from IPython.core.formatters import DisplayFormatter
 
-from grader.marking.outputs import mime_bundle
+from grader.checks.judge import STAGED
+from grader.marking.outputs import FOR_INSTRUCTOR, mime_bundle
 from grader.marking.result import CellResult
 from grader.score import Score
 
@@ -26,6 +27,15 @@ def alarms(score: Score) -> list[str]:
     ]
 
 
+def staged(score: Score) -> list[str]:
+    """What the instructor has to know of a topic or a service that two programs had."""
+    return [
+        f"{verdict.expected}; there were {verdict.saw.replace('of yours', 'of the student')}"
+        for verdict in score.verdicts
+        if verdict.name == STAGED
+    ]
+
+
 def outputs(score: Score, count: int) -> list[dict[str, Any]]:
     """A test cell's outputs, as Jupyter shows a score: pictures first, then the table."""
     bundles = []
@@ -38,6 +48,13 @@ def outputs(score: Score, count: int) -> list[dict[str, Any]]:
     table = {"text/plain": repr(score), "text/html": score._repr_html_()}
     shown = [{"output_type": "display_data", **item} for item in bundles]
     return [*shown, {"output_type": "execute_result", "execution_count": count, **mime_bundle(table, {})}]
+
+
+def for_instructor(text: str) -> list[dict[str, Any]]:
+    """An output with what was written while nodes were judged in private worlds; none for no text."""
+    said = f"Written in private worlds; not on the student's page:\n{text}"
+    shown = {"data": {"text/plain": said}, "metadata": {FOR_INSTRUCTOR: True}}
+    return [{"output_type": "display_data", **shown}] if text else []
 
 
 def cell_result(cell: str, score: Score, worth: float, needs_look: bool) -> CellResult:

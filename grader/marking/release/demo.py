@@ -5,13 +5,14 @@
 import argparse
 import sys
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from nbgrader.api import Gradebook
 
 from grader.marking.errors import CommandFailed
-from grader.marking.release.make_exercises import copy_of_course, release
+from grader.marking.release.make_exercises import copy_of_course, release, say
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES, submit_samples
 
@@ -25,11 +26,18 @@ class Marked:
     feedback: Path
 
 
-def mark_samples(course: Path, assignment: str) -> list[Marked]:
-    """Release, submit the samples, mark them and give feedback in `course`. Raises CommandFailed."""
-    release(course)
+def mark_samples(
+    course: Path, assignment: str, told: Callable[[str], None] = lambda line: None
+) -> list[Marked]:
+    """Release, submit the samples, mark them and give feedback in `course`. Raises CommandFailed.
+
+    told: called with a line at the begin of each step.
+    """
+    release(course, told)
     submit_samples(course, assignment)
+    told(f"Running the notebooks of {', '.join(SHARES)} ...")
     nbgrader(course, "autograde", assignment)
+    told("Writing their pages of feedback ...")
     nbgrader(course, "generate_feedback", assignment)
     return [_marks(course, assignment, student) for student in SHARES]
 
@@ -65,9 +73,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("assignment", nargs="?", choices=names, default=names[0], help="default: the first")
     assignment = parser.parse_args(arguments).assignment
     course = copy_of_course(Path.cwd(), Path(tempfile.mkdtemp(prefix="ros2-course-demo-")))
-    print(f"Marking three sample submissions of {assignment} in {course} ...")
+    say(f"Marking three sample submissions of {assignment} in {course} ...")
     try:
-        print(table(mark_samples(course, assignment)))
+        print(table(mark_samples(course, assignment, say)))
     except CommandFailed as error:
         print(error, file=sys.stderr)
         return 1

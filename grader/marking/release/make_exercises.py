@@ -4,13 +4,19 @@
     python -m grader.marking.release.make_exercises --check    compare; exit 1 on a difference
 """
 import argparse
+import logging
 import shutil
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
-from grader.marking.errors import CommandFailed
-from grader.marking.release.nbgrader_command import assignments, nbgrader
+from nbgrader.converters import GenerateAssignment
+from nbgrader.utils import capture_log
+
+from grader.marking.errors import MarkingError
+from grader.marking.gradebook.course import Course
+from grader.marking.release.nbgrader_command import assignments, failure
 from grader.notebooks import normalise
 
 
@@ -22,13 +28,29 @@ def tidy(assignment: str, **_: object) -> None:
     normalise([Path("exercises", assignment)])
 
 
-def release(course: Path) -> None:
+def say(line: str) -> None:
+    """Print a line at once, wherever it goes."""
+    print(line, flush=True)
+
+
+def release(course: Path, told: Callable[[str], None] = lambda line: None) -> None:
     """Make course/exercises from course/solutions, and enter the assignments into the gradebook.
 
-    Whatever lies in exercises/ is replaced. Raises CommandFailed.
+    As `nbgrader generate_assignment ASSIGNMENT --force`, for all of them in this process. Whatever lies in
+    exercises/ is replaced. told: called with a line at the begin of each assignment.
+    Raises CommandFailed, or CourseError.
     """
-    for assignment in assignments(course):
-        nbgrader(course, "generate_assignment", assignment, "--force")
+    here = Course(course)
+    for handler in here.app.log.handlers:
+        handler.setLevel(logging.CRITICAL)
+    here.app.log.setLevel(logging.ERROR)  # for the words of the failure
+    names = assignments(course)
+    for number, assignment in enumerate(names, 1):
+        told(f"{number} of {len(names)}: exercises/{assignment}")
+        here.directory.assignment_id = assignment
+        made = capture_log(GenerateAssignment(coursedir=here.directory, parent=here.app, force=True))
+        if not made["success"]:
+            raise failure(course, f"generate_assignment {assignment} --force", made.get("log", made["error"]))
     for folder in (course / "exercises").glob("*"):
         if folder.name not in assignments(course):
             shutil.rmtree(folder)
@@ -45,7 +67,7 @@ def copy_of_course(course: Path, target: Path) -> Path:
 def differences(course: Path) -> list[str]:
     """Return a sentence for every file of course/exercises that is not what course/solutions gives now.
 
-    Raises CommandFailed.
+    Raises as `release`.
     """
     with tempfile.TemporaryDirectory() as folder:
         fresh = copy_of_course(course, Path(folder))
@@ -77,8 +99,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 on a difference")
     check = parser.parse_args(arguments).check
     try:
-        found = differences(Path.cwd()) if check else release(Path.cwd())
-    except CommandFailed as error:
+        found = differences(Path.cwd()) if check else release(Path.cwd(), say)
+    except MarkingError as error:
         print(error, file=sys.stderr)
         return 1
     if not found:

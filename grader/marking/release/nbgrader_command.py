@@ -6,15 +6,27 @@ from pathlib import Path
 from grader.marking.errors import CommandFailed
 
 ERROR_LINES = 12
+# As `python -m nbgrader`, without what jsonschema takes a second to import, for a kind of address.
+START = """\
+import sys
+sys.modules["rfc3987_syntax"] = None
+from nbgrader.apps.nbgraderapp import main
+main()
+"""
 
 
 def nbgrader(course: Path, *arguments: str) -> None:
     """Run `nbgrader ARGUMENTS` in the folder `course`, beside its configuration. Raises CommandFailed."""
-    command = [sys.executable, "-m", "nbgrader", *arguments]
+    command = [sys.executable, "-c", START, *arguments]
     done = subprocess.run(command, cwd=course, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
-        last = "\n    ".join(done.stdout.strip().splitlines()[-ERROR_LINES:])
-        raise CommandFailed(f"`nbgrader {' '.join(arguments)}` failed in {course}:\n    {last}")
+        raise failure(course, " ".join(arguments), done.stdout)
+
+
+def failure(course: Path, command: str, said: str) -> CommandFailed:
+    """The error that tells of a command of nbgrader's, and of the end of what it printed."""
+    last = "\n    ".join(said.strip().splitlines()[-ERROR_LINES:])
+    return CommandFailed(f"`nbgrader {command}` failed in {course}:\n    {last}")
 
 
 def assignments(course: Path) -> list[str]:

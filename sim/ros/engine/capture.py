@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -14,6 +15,8 @@ from sim.ros.fibers.scheduler import engine, outside_student_code
 
 ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
 ECHO_CHARACTERS = 20_000
+# What rclpy says of QoS is in the recording, and `tell` says it in words that help.
+RAW_QOS = re.compile(r"\[WARN\] .*: New (publisher|subscription) discovered on topic .* incompatible QoS\.")
 
 
 class StudentStream:
@@ -129,6 +132,8 @@ class Screen:
 
     def __call__(self, text: str) -> None:
         """Show some more, if there is room."""
+        if RAW_QOS.match(text):
+            return
         if not self.quiet and self.lines < ECHO_LINES and self.characters < ECHO_CHARACTERS:
             with outside_student_code():
                 self.stream.write(text[:ECHO_CHARACTERS])

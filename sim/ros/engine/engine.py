@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 from collections import Counter
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import Any, Protocol
 
 from rclpy.context import Context
@@ -26,6 +27,7 @@ from sim.ros.fibers.scheduler import Scheduler, activate
 from sim.ros.messages.cdr import canonical
 from sim.ros.recorder.recorder import Recorder
 from sim.ros.recorder.running import Running
+from sim.ros.recorder.tracebacks import student_line
 
 INTERRUPTED = "The user interrupted the run."
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
@@ -91,6 +93,8 @@ class Engine(Scheduler):
             self.guard.impatient = True
             self.interrupt_all()
             self._unheard = True
+            for executor in self.executors:
+                executor._sim.end_coroutines()
             self.end_all()
         finally:
             for process in self.processes:
@@ -122,14 +126,13 @@ class Engine(Scheduler):
     # -- time --------------------------------------------------------------------------------------
 
     def moments(
-        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Iterable[StudentProcess]
-    ) -> Generator[Nanoseconds, None, Ended]:
-        """Yield each moment before time moves on to it; return why there are no more.
+        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Sequence[StudentProcess]
+    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
+        """Yield each moment before time moves to it, and take it or an earlier one; return why none is left.
 
-        That is `end`, the goal, a fault, or that all watched programs have ended. Whoever iterates may rest
-        between two moments: nothing in here depends on it.
+        That is `end`, the goal, a fault, or that all watched programs have ended. One may rest in between.
         """
-        watched, over = list(watched), None
+        over, theirs = None, [process for process in watched if not process.ours]
         try:
             self.settle()
             while self.fault is None and self.now < end:
@@ -138,12 +141,14 @@ class Engine(Scheduler):
                     return Ended("interrupted", now, INTERRUPTED)
                 if goal is not None and goal(self.recording):
                     return Ended("goal", now, f"The goal was reached at t = {now:g} s.")
+                if self.recording.gone is None and theirs and not any(map(self.lives, theirs)):
+                    self.recording.gone = now
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
                 self.limits.check_pace()
                 moment = self.time.next_moment(end)
-                yield moment
+                moment = yield moment
                 self.time.move_to(moment)
                 self.begin_moment()
                 self.settle()
@@ -172,25 +177,33 @@ class Engine(Scheduler):
         """Send a message to the subscriptions of its topic, and write it down."""
         raw = canonical(writer.type, raw)
         writer.send(raw)
-        self.recorder.message(writer.topic, writer.type, writer.sender, raw)
+        self.recorder.message(writer.topic, writer.type, writer.sender, raw, writer.ours)
 
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""
-        if not self._unheard:
-            self.echo(text)
-            self.recorder.printed(text)
+        self._wrote(text, self.recorder.printed)
 
     def complained(self, text: str) -> None:
         """Student code wrote to stderr."""
+        self._wrote(text, self.recorder.complained)
+
+    def _wrote(self, text: str, keep: Callable[[str], None]) -> None:
         if not self._unheard:
             self.echo(text)
-            self.recorder.complained(text)
+            keep(text)
+            if lines := text.count("\n"):
+                self.called("lines", lines)
 
     def logged(self, severity: Any, logger: str, text: str) -> None:
         """A node wrote a log line."""
         line = self.recorder.log(severity, logger, text)
         if line is not None:
             self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
+        self.called("lines")
+
+    def loops_busily(self) -> None:
+        """As `Scheduler`; it is written down."""
+        self.recorder.busy_loop(self.current, student_line(sys._getframe()))
 
     def describe(self, fiber: Fiber) -> str:
         """Which callback of which node a fiber is in, for a message."""

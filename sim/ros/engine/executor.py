@@ -6,6 +6,8 @@ Callback groups, coroutines and parallel callbacks keep the meaning that rclpy g
 
 from __future__ import annotations
 
+import contextlib
+import inspect
 import threading
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
@@ -24,6 +26,7 @@ from sim.nanoseconds import Nanoseconds, nanoseconds
 from sim.ros.engine.callbacks import Work, perform, suspended
 from sim.ros.engine.processes import shared_context
 from sim.ros.engine.questions import Questions
+from sim.ros.fibers.exceptions import Livelock
 from sim.ros.fibers.fiber import Fiber
 
 if TYPE_CHECKING:
@@ -87,7 +90,11 @@ class Plan:
             while not self._over(done, parallel):
                 if self.running:
                     self._collect()
-                if self._run_one(parallel) or (until is not None and engine.now >= until):
+                if self._run_one(parallel):
+                    return
+                if until is not None and engine.now >= until:
+                    if timeout == 0:
+                        engine.called("empty spins")
                     return
                 ready = None if done is never else done
                 engine.wait("spin()", ready=ready, until=until, spinning=self)
@@ -120,6 +127,15 @@ class Plan:
                 raise TimeoutException()
             engine.wait("spin()", until=until, spinning=self)
         raise ShutdownException() if self.executor._is_shutdown else ConditionReachedException()
+
+    def end_coroutines(self) -> None:
+        """End what still waits in an `await`, as freeing it would, but under the guard: it may loop on."""
+        engine, process = self.engine, self.engine.processes[0]
+        for task, _, _ in self.executor._tasks:
+            if inspect.iscoroutine(task._handler):
+                engine.spawn(task._handler.close, "the end of a coroutine", process)
+        with contextlib.suppress(Livelock):
+            engine.settle()
 
     def _end_of(self, timeout: float | TimeoutObject | None) -> Nanoseconds | None:
         if isinstance(timeout, TimeoutObject):

@@ -2,7 +2,8 @@
 
 A timer signal looks in four times a second. If student code has been in one stretch since, and has used too
 much computing time, or waited too long in a call outside our reach, an exception is raised in it. Code that
-swallows even that is parked. Computing time is what is measured, so that a busy machine changes no verdict.
+swallows even that is parked. A loop that looks for what others of its program do works on a robot, and waits
+for them here. Computing time is what is measured, so that a busy machine changes no verdict.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ import contextlib
 import signal
 import threading
 from collections.abc import Iterator
-from time import thread_time
-from types import FrameType
+from pathlib import Path
+from time import monotonic, thread_time
+from types import CodeType, FrameType
 from typing import TYPE_CHECKING
 
 import greenlet
@@ -21,7 +23,7 @@ from sim.nanoseconds import SECOND
 from sim.ros.fibers.exceptions import Hang
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import outside_student_code
-from sim.ros.recorder.tracebacks import student_line
+from sim.ros.recorder.tracebacks import is_library, student_line
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -31,7 +33,21 @@ COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
 WAITING_LIMIT = 10.0  # s of wall time in one stretch in which nothing was computed
 TOTAL_LIMIT = 20.0  # s of computing time in a whole run, or as long as the run simulates if that is longer
 SECOND_LIMIT = 100.0  # s of wall time for one simulated second, far more than any busy machine needs
+BUSY_LOOK = 0.01  # s of computing in which a busy loop sees what others have done, and leaves
+BUSY_TRIES = 100  # looks at a busy loop until it is found in the student's own code
 IDLE = 0.001  # s of computing time between two looks; more is no waiting, however busy the machine
+
+# What must not be left half done: our own code, and imports, which hold a real lock.
+OURS = str(Path(__file__).parents[2]), "<frozen "
+
+
+def _can_be_left(frame: FrameType | None) -> bool:
+    """Whether others may go on while student code stands there, in its own code or in a library's."""
+    while frame is not None and is_library(frame.f_code.co_filename):
+        if frame.f_code.co_filename.startswith(OURS):
+            return False
+        frame = frame.f_back
+    return frame is not None
 
 
 class Guard:
@@ -43,10 +59,13 @@ class Guard:
         self.hang: Hang | None = None
         self.impatient = False  # while the run is taken down, student code gets less time
         self._stretch = -1
+        self._busy, self._tries = False, 0  # whether the stretch goes on with a busy loop
+        self._known: set[CodeType] = set()  # where there were such loops
         self._computing = self._waiting = self._total = 0.0
         self._second, self._wall = 0, 0.0  # the simulated second under way, and the wall time that it took
         self._total_limit = max(TOTAL_LIMIT, engine.recording.seconds)
         self._seen = self._left = thread_time()
+        self._looked = monotonic()
         self._next_look = LOOK_EVERY
         self._asked = 0
 
@@ -57,6 +76,7 @@ class Guard:
             yield
             return
         self._seen += thread_time() - self._left
+        self._looked = monotonic()
         interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
         alarm = signal.signal(signal.SIGALRM, self._look)
         users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_look, LOOK_EVERY)
@@ -79,24 +99,41 @@ class Guard:
         return None if greenlet.getcurrent() is self.engine.hub else self.engine.current
 
     def _look(self, number: int, frame: FrameType | None) -> None:
-        fiber, stretch, seen = self._student_code(), self.engine.limits.work, self._seen
-        self._seen = thread_time()
-        self._total += self._seen - seen
+        fiber, stretch, computed = self._student_code(), self.engine.limits.work, self._computed()
+        now = monotonic()
+        passed, self._looked = min(now - self._looked, LOOK_EVERY), now  # what stops the machine is no wait
         second = self.engine.now // SECOND
-        self._second, self._wall = second, LOOK_EVERY + (self._wall if second == self._second else 0.0)
+        self._second, self._wall = second, passed + (self._wall if second == self._second else 0.0)
         if fiber is None or stretch != self._stretch:
-            self._stretch, self._asked = stretch, 0
-            self._computing = self._waiting = 0.0
+            self._begin_stretch(stretch)
         else:
-            self._computing += self._seen - seen
-            self._waiting += LOOK_EVERY if self._seen - seen < IDLE else 0.0
+            self._computing += computed
+            self._waiting += passed if computed < IDLE else 0.0
         if fiber is not None:
             self._judge(fiber, frame)
+
+    def _computed(self) -> float:
+        """Computing time since it was last asked for."""
+        seen, self._seen = self._seen, thread_time()
+        self._total += self._seen - seen
+        return self._seen - seen
+
+    def _begin_stretch(self, stretch: int, busy: bool = False) -> None:
+        self._stretch, self._asked = stretch, 0
+        self._busy, self._tries = busy, 0
+        self._computing = self._waiting = 0.0
+        if busy:
+            self._look_soon()
+
+    def _look_soon(self) -> None:
+        signal.setitimer(signal.ITIMER_REAL, BUSY_LOOK, LOOK_EVERY)
 
     def _judge(self, fiber: Fiber, frame: FrameType | None) -> None:
         share = 0.1 if self.impatient or self.interrupted else 1.0
         stuck = self._computing >= share * COMPUTING_LIMIT or self._waiting >= share * WAITING_LIMIT
         long = self._total >= self._total_limit or self._wall >= SECOND_LIMIT
+        if not long and self._lets_wait(fiber, frame):
+            return
         if not stuck and (not long or self.impatient):
             return
         self._asked += 1
@@ -106,6 +143,35 @@ class Guard:
         if self._asked > 2:
             fiber.park()
         raise self.hang
+
+    def _lets_wait(self, fiber: Fiber, frame: FrameType | None) -> bool:
+        """Whether it may be a busy loop that looks for what others do. If so, it waits until they did."""
+        engine, program = self.engine, fiber.process
+        others = [other for other in engine.fibers if other.process is program and other is not fiber]
+        ends = self.hang is not None or self.impatient or self.interrupted or self._tries > BUSY_TRIES
+        if not others or ends or self._waiting >= WAITING_LIMIT:
+            return False
+        known = frame is not None and frame.f_code in self._known
+        if self._computing < (BUSY_LOOK if self._busy or known else COMPUTING_LIMIT):
+            if self._busy:
+                self._look_soon()
+            return self._busy
+        if not _can_be_left(frame):
+            self._tries += 1
+            self._look_soon()
+            return True
+        self._known.add(frame.f_code)
+        engine.loops_busily()
+        steps, calls = program.steps, dict(fiber.calls)
+        fiber.busy = True
+        try:
+            engine.wait("others to go on", ready=lambda: program.steps != steps)
+        finally:
+            fiber.busy = False
+        fiber.calls.update(calls)
+        self._computed()
+        self._begin_stretch(engine.limits.work, busy=True)
+        return True
 
     def _describe(self, fiber: Fiber, frame: FrameType | None, stuck: bool) -> str:
         where, line = self.engine.describe(fiber), student_line(frame)

@@ -9,10 +9,24 @@ from typing import TextIO
 
 def keyboard(lines: Sequence[str] | None) -> TextIO:
     """The stdin of a program that is given these lines; None: it is not expected to read any."""
-    return _Nobody() if lines is None else io.StringIO("".join(f"{line}\n" for line in lines))
+    return _Nobody() if lines is None else _Lines("".join(f"{line}\n" for line in lines))
 
 
-class _Nobody(io.TextIOBase):
+class _NoTerminal(io.TextIOBase):
+    def fileno(self) -> int:
+        """As `TextIO.fileno`. Raises UnsupportedOperation."""
+        raise io.UnsupportedOperation(
+            "a run has no terminal whose keys can be read one by one; give the program lines, as in "
+            'run(Process(main, stdin=["first line", "second line"])) for input(), or drive in the picture of '
+            "play()"
+        )
+
+
+class _Lines(_NoTerminal, io.StringIO):
+    pass
+
+
+class _Nobody(_NoTerminal):
     """Refuses to be read, where a robot's terminal would wait for ever."""
 
     def read(self, size: int | None = -1, /) -> str:

@@ -27,6 +27,7 @@ from rclpy.node import Node
 from sim.ros.engine.keyboard import keyboard
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
+from sim.ros.messages.whole_numbers import whole_numbers
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -86,6 +87,7 @@ class StudentProcess:
         self.context: Context | None = None
         self.executor: Any = None
         self.nodes: list[Node] = []
+        self.steps = 0  # as in `Program`
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
@@ -134,6 +136,10 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
+        with whole_numbers() if self.spec.whole_numbers else contextlib.nullcontext():
+            self._run()
+
+    def _run(self) -> None:
         self._read_settings()
         target = self.target
         if isinstance(target, type):
@@ -154,7 +160,7 @@ class StudentProcess:
             )
         if isinstance(result, Process):
             self._become(as_process(result))
-            self.run()
+            self._run()
         elif isinstance(result, Node):
             self.borrowed_init = False
             self._spin(result)

@@ -18,6 +18,7 @@ class Process:
     remappings: pairs (from, to). parameters: name to value, or a list of such, as in a launch file.
     arguments: further command-line words, which the program finds in `sys.argv`; those after `--ros-args` are
     ROS's. stdin: the lines that `input()` returns, one after the other.
+    whole_numbers: messages take 1 for 1.0, and 2.0 for 2; on a robot they don't.
     """
 
     target: Callable[..., Any]
@@ -27,6 +28,7 @@ class Process:
     parameters: Mapping[str, Any] | Sequence[Mapping[str, Any]] = field(default_factory=dict)
     arguments: Sequence[str] = ()
     stdin: Sequence[str] | None = None
+    whole_numbers: bool = False
 
     def command_line(self) -> list[str]:
         """The words after the program's name that say the same."""

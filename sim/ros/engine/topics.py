@@ -16,6 +16,7 @@ from rclpy.qos import QoSProfile
 
 from sim.nanoseconds import Nanoseconds
 from sim.ros.engine.qos import FOREVER, latches, queue_length, settled, suit
+from sim.ros.fibers.fiber import Program
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 from sim.ros.messages.decoder import decode_message
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from sim.ros.engine.processes import SharedContext
 
 MIDDLEWARE = "SIM_MIDDLEWARE"  # with this variable in the environment, the middleware carries all messages
+CPP_TOPICS = "/transition_event", "/_service_event"
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
 
 
@@ -46,10 +48,16 @@ class Sent(NamedTuple):
         }
 
 
+def program_of(engine: Engine) -> Program | None:
+    """The program at work, which makes an end; None for what stands for one of another process."""
+    return None if engine.current is None else engine.current.process
+
+
 class Writer:
     """The end of a topic that a publisher is.
 
     node and handle: what rclpy has below its classes for the node and the publisher. sender: the node's name.
+    ours: the program that made it is not the student's.
     context: of the program that has it.
     """
 
@@ -64,13 +72,17 @@ class Writer:
         topic: str,
         profile: QoSProfile,
         sender: str,
+        ours: bool = False,
     ) -> None:
-        self.engine, self.handle, self.topic, self.sender = engine, handle, topic, sender
+        self.engine, self.handle, self.topic = engine, handle, topic
+        self.sender, self.ours = sender, ours
         self.type = type_name(type_)
         found = _rclpy.rclpy_get_publishers_info_by_topic
         self.profile = settled(profile, lambda: found(node, topic, False))
         self._lifespan = profile.lifespan.nanoseconds or FOREVER
         self.readers: list[Reader] = []
+        self.made, self.program = engine.now, program_of(engine)
+        self._all_known_after = engine.now  # from later on, all readers have had time to be discovered
         self._latched: deque[Sent] = deque(maxlen=queue_length(profile) if latches(self.profile) else 0)
         self._count = 0
 
@@ -86,12 +98,24 @@ class Writer:
         sent = Sent(raw, now, self._count, now + self._lifespan)
         self._latched.append(sent)
         for reader in self.readers:
-            reader.queue.append(sent)
+            if now > self._all_known_after or self._knows(reader):
+                reader.queue.append(sent)
+            else:
+                self.engine.recorder.unheard(self.sender, self.topic)
+
+    def _knows(self, reader: Reader) -> bool:
+        """Whether this end and that one have discovered each other. Two programs need time for that; what is
+        latched is sent as soon as they have.
+        """
+        time_passed = self.engine.now > max(self.made, reader.made)
+        at_home = self.program is not None and self.program is reader.program
+        return time_passed or at_home or (latches(self.profile) and latches(reader.profile))
 
     def meet(self, reader: Reader) -> None:
         """If this end and that one suit each other, messages go there from now on, and the latched ones."""
         if suit(self.profile, reader.profile):
             self.readers.append(reader)
+            self._all_known_after = max(self._all_known_after, reader.made)
             reader.queue.extend(self._latched if latches(reader.profile) else ())
 
     def close(self) -> None:
@@ -111,6 +135,7 @@ class Reader:
     ) -> None:
         self.engine, self.handle, self.topic, self.raw = engine, handle, topic, raw
         self.message_class = type_
+        self.made, self.program = engine.now, program_of(engine)
         found = _rclpy.rclpy_get_subscriptions_info_by_topic
         self.profile = settled(profile, lambda: found(node, topic, False))
         self.queue: deque[Sent] = deque(maxlen=queue_length(profile))
@@ -207,6 +232,6 @@ class Topics:
                 ends.remove(end)
 
     def _is_carried(self, topic: str) -> bool:
-        """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes."""
-        by_cpp = topic == "/rosout" or "/_action/" in topic or topic.endswith("/transition_event")
+        """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes, calls."""
+        by_cpp = topic == "/rosout" or "/_action/" in topic or topic.endswith(CPP_TOPICS)
         return by_cpp or self._all_carried

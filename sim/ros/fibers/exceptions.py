@@ -18,11 +18,12 @@ class Hang(BaseException):
 class RemoteLost(BaseException):
     """Another process, in which nodes of the run live, is gone, silent, or sends what can't be.
 
-    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a mistake of ours.
+    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a node's own error.
 
-    reason: one sentence that says so.
+    reason: one sentence that says so. lives: whether the process is still there and listens: then it can be
+    led on, to something else. mistake: what this side ran into, where the mistake is ours.
     """
 
-    def __init__(self, reason: str) -> None:
+    def __init__(self, reason: str, lives: bool = False, mistake: Exception | None = None) -> None:
         super().__init__(reason)
-        self.reason = reason
+        self.reason, self.lives, self.mistake = reason, lives, mistake

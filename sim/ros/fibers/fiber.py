@@ -24,6 +24,7 @@ class Program(Protocol):
     name: str
     nodes: list[Any]
     ours: bool  # it is not the student's
+    steps: int  # callbacks of it, and turns of its fibers, but for those that only spin
 
     def load(self) -> None:
         """Let rclpy's module-level state be this program's."""
@@ -55,7 +56,8 @@ class Fiber:
         self.ready: Callable[[], bool] | None = None
         self.wake_at: Nanoseconds | None = None
         self.seen_activity: int | None = None
-        self.clock_reads = 0
+        self.calls: dict[str, int] = {}  # since it last waited, of each kind that a busy loop may make
+        self.busy = False  # it loops without a pause, and waits until others of its program have gone on
         self.running_loop: asyncio.AbstractEventLoop | None = None  # asyncio's, while it waits inside of one
         self._body = body
         self._scheduler = scheduler
@@ -84,6 +86,11 @@ class Fiber:
         if self.seen_activity is not None and self.seen_activity != self._scheduler.activity:
             return True
         return self.ready is not None and bool(self.ready())
+
+    def is_asked(self) -> bool:
+        """Whether it spins and goes on only to ask whether there is work for it."""
+        in_time = self.wake_at is None or self._scheduler.now < self.wake_at
+        return self.spins is not None and in_time
 
     def park(self) -> None:
         """Leave this fiber where it is, for ever.

@@ -17,8 +17,9 @@ from sim.ros.fibers.exceptions import Livelock, RunOver
 from sim.ros.fibers.fiber import Fiber, Program
 
 MAX_ROUNDS = 200_000  # of a settle; a run that needs more will never be quiet
-FREE_CLOCK_READS = 50  # a wait; more must cost time, or a busy loop on a clock would never end
-CLOCK_READ_COST: Nanoseconds = 1_000_000
+# Without a wait between them; more take time, or a busy loop would never end.
+FREE_CALLS = {"looks at a clock": 50, "empty spins": 50, "messages": 1_000, "lines": 5_000}
+CALL_COST: Nanoseconds = 1_000_000
 
 
 class Scheduler:
@@ -62,8 +63,9 @@ class Scheduler:
         """
         fiber = self.current
         assert fiber is not None, "only a fiber can wait"
-        fiber.ready, fiber.wake_at, fiber.waits_for, fiber.clock_reads = ready, until, waits_for, 0
-        fiber.spins = spinning
+        fiber.ready, fiber.wake_at, fiber.waits_for, fiber.spins = ready, until, waits_for, spinning
+        if until != self.now:
+            fiber.calls.clear()
         if spinning is None:
             self.student_code_ran()
         else:
@@ -79,14 +81,20 @@ class Scheduler:
         if self.eager:
             self.activity += 1
 
-    def clock_was_read(self) -> None:
-        """Student code looked at a clock. Often enough, that takes time: else a busy loop would never end."""
-        fiber = self.current
-        fiber.clock_reads += 1
-        if fiber.clock_reads > FREE_CLOCK_READS:
-            reads = fiber.clock_reads
-            self.wait("a busy loop on a clock", until=self.now + CLOCK_READ_COST)
-            fiber.clock_reads = reads
+    def called(self, what: str, times: int = 1) -> None:
+        """Student code did what a loop may do without end. Often enough, that takes time, as on a robot.
+
+        what: a key of `FREE_CALLS`.
+        """
+        calls = self.current.calls
+        count = calls[what] = calls.get(what, 0) + times
+        if count > FREE_CALLS[what]:
+            self.loops_busily()
+            self.wait("a busy loop", until=self.now + CALL_COST)
+            calls[what] = count  # and of the others none: one that takes time is enough
+
+    def loops_busily(self) -> None:
+        """The current fiber goes on and on, without a pause in which it would need no processor."""
 
     def refuse_to_go_on(self, why: str) -> NoReturn:
         """Raise Livelock, and keep the reason: student code may swallow the exception."""
@@ -116,6 +124,8 @@ class Scheduler:
             fiber.started = True
             self.activity += 1
         self.switches += 1
+        if not (fiber.busy or fiber.is_asked()):
+            fiber.process.steps += 1
         fiber.process.load()
         if fiber.running_loop is not None:
             set_running_loop(fiber.running_loop)

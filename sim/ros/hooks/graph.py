@@ -33,6 +33,7 @@ def create_publisher(original: Callable) -> Callable:
                     "Messages on /clock can't change the time in a run: all clocks show its simulated time."
                 )
             end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
+            end["ours"] = run.recorder.is_ours()
             publisher._sim = run.topics.writer(self.handle, publisher.handle, msg_type, **end)
             publisher._sim.context = shared_context(self.context)
             run.recorder.endpoint(
@@ -91,6 +92,7 @@ def publish(original: Callable) -> Callable:
         if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
         run.publish(writer, raw)
+        run.called("messages")
         return None
 
     return publish

@@ -88,7 +88,7 @@ def now(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self)
-        run.clock_was_read()
+        run.called("looks at a clock")
         return Time(nanoseconds=run.now + _offset(self), clock_type=self.clock_type)
 
     return now

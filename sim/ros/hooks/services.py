@@ -7,6 +7,7 @@ from typing import Any
 
 from rclpy.client import Client
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 from rclpy.service import Service
 from rclpy.task import Future
@@ -29,6 +30,22 @@ def create_service(original: Callable) -> Callable:
         return service
 
     return create_service
+
+
+@hook(LifecycleNodeMixin, "__init__", "the graph: its services are made past create_service()")
+def lifecycle_init(original: Callable) -> Callable:
+    def __init__(self: LifecycleNodeMixin, **keywords: Any) -> None:
+        original(self, **keywords)
+        run = engine()
+        if run is not None:
+            for service in self.services:
+                if service.srv_type.__module__.startswith("lifecycle_msgs."):
+                    run.recorder.endpoint(
+                        "service", self, service.service_name, service.srv_type, service.qos_profile,
+                        handle=service.handle,
+                    )  # fmt: skip
+
+    return __init__
 
 
 @hook(Service, "__init__", "requests wait in a service's queue; the recording knows who sent them")

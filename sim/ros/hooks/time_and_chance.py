@@ -27,6 +27,8 @@ def sleep(original: Callable) -> Callable:
             return original(seconds)
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
+        if seconds == 0:
+            run.called("looks at a clock")
         run.wait(f"time.sleep({seconds:g})", until=run.now + nanoseconds(seconds))
         return None
 
@@ -40,7 +42,7 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
             run = engine()
             if run is None:
                 return original()
-            run.clock_was_read()
+            run.called("looks at a clock")
             return convert(epoch * SECOND + run.now)
 
         return read

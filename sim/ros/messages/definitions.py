@@ -18,7 +18,7 @@ IDL_NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "
 def definition(type_: str) -> str:
     """A message's definition followed by those it needs, as MCAP's registry asks for encoding "ros2msg"."""
     whole = re.sub(r"(/[^_/]+)_[^/]*$", r"\1", type_)  # a part of an action or service is described with it
-    described = json.loads(_file(whole, "json").read_text())["type_description_msg"]
+    described = json.loads(installed(whole, "json").read_text())["type_description_msg"]
     if whole == type_:
         needed = [other["type_name"] for other in described["referenced_type_descriptions"]]
     else:
@@ -40,7 +40,7 @@ def _needed(type_: str, descriptions: dict[str, Any]) -> Iterator[str]:
 def _text(type_: str) -> str:
     """A message's own definition: as it was installed, or written from its class where no file has it."""
     if "_" not in type_.rpartition("/")[2]:
-        return _file(type_, "msg").read_text()
+        return installed(type_, "msg").read_text()
     fields = message_class(type_).get_fields_and_field_types()
     return "".join(f"{_field_type(kind)} {name}\n" for name, kind in fields.items())
 
@@ -53,7 +53,10 @@ def _field_type(kind: str) -> str:
     return re.sub(r"^\w+(?=\[|$)", lambda word: IDL_NAMES.get(word[0], word[0]), kind)
 
 
-def _file(type_: str, suffix: str) -> Path:
-    """One of those that ROS installs for a type: "msg", its definition, or "json", its description."""
+def installed(type_: str, suffix: str) -> Path:
+    """A file that ROS installs for a type: "msg", "srv" or "action" defines it, "json" describes it.
+
+    Raises LookupError for a package that there is none of. The file need not be there.
+    """
     package, path = type_.split("/", 1)
     return Path(get_package_share_directory(package)) / f"{path}.{suffix}"

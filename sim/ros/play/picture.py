@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from sim.evidence import Recording
+from sim.ros.play.readings import Readings
 from sim.ros.session import Session
 from sim.world import Scan
 
@@ -19,7 +20,7 @@ class Picture(Protocol):
     """Shows a run while it goes on. All its methods are called by the player, in the kernel's main thread."""
 
     # Set by the player. May be called in any thread, with one of {"speed": 2.0}, {"pause": True or False},
-    # {"step": True}, {"stop": True} and {"drive": [forward, left]}, each of the two in [-1, 1].
+    # {"step": True}, {"stop": True}, {"topic": name} and {"drive": [forward, left]}, each in [-1, 1].
     on_command: Callable[[dict], None] | None
 
     def frame(self, stamp: float, poses: list[tuple[float, float, float]], scan: Scan | None) -> None:
@@ -29,7 +30,8 @@ class Picture(Protocol):
         """How the run is going; 4 a second at most, and whenever it was paused, sped up or ended.
 
         Keys: stamp (s), speed (asked for; may be inf), pace (measured), paused, topics (a list of dicts of
-        name, type, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason, detail]).
+        name, type, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason, detail]), numbers
+        and topic as `Readings.update` gives them.
         """
 
     def finish(self, recording: Recording) -> None:
@@ -45,6 +47,7 @@ class Show:
     def __init__(self, picture: Picture | None, clock: Callable[[], float]) -> None:
         self._picture, self._clock = picture, clock
         self._last: tuple[float, dict] | None = None  # wall time of the last state; what was urgent
+        self.readings = Readings()
         self._shown: float | None = None  # the stamp of the last frame
         self._sent: deque[tuple[float, dict[str, int]]] = deque()  # (stamp, messages on each topic by then)
 
@@ -64,7 +67,7 @@ class Show:
         self._last = now, urgent
         contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-CONTACTS:]]
         state = {"stamp": stamp, "pace": pace, "topics": self._topics(session), "contacts": contacts}
-        self._tell("state", state | urgent)
+        self._tell("state", state | self.readings.update(session) | urgent)
 
     def finish(self, recording: Recording) -> None:
         """Show what is left, if there is anything, and be done."""

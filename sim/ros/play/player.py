@@ -13,20 +13,19 @@ from collections.abc import Callable, Generator
 from typing import Any
 
 from sim.evidence import Ended, Recording
+from sim.notebook import interrupted
 from sim.ros.engine import interrupts
 from sim.ros.engine.engine import INTERRUPTED
 from sim.ros.engine.program import Process
+from sim.ros.latest import latest
+from sim.ros.play.hand import Hand
 from sim.ros.play.pacing import Pace
 from sim.ros.play.picture import Picture, Show
-from sim.ros.play.teleop import Teleop
 from sim.ros.session import Session
 
 FRAME = 1 / 30  # s of wall time
 WORK = 0.8 * FRAME  # of it; the rest is the kernel's, for messages and other cells
 STEP = 0.05  # s, one period of the robot's sensors
-LET_GO = 0.5  # s of wall time; who holds a key says so ten times a second
-
-_playing: Player | None = None  # there is one at a time
 
 
 class Player:
@@ -38,22 +37,21 @@ class Player:
 
     def __init__(self, session: Session, pace: Pace) -> None:
         """Open the session, and stop what was played before. Raises WorldError for a bad world."""
-        global _playing
-        if _playing is not None:
-            _playing.stop("Another play has begun.")
+        if latest.player is not None:  # there is one at a time
+            latest.player.stop("Another play has begun.")
         self.recording: Recording = session.recording
         self.paused = False
         self._session, self._pace = session, pace
         self._show = Show(None, pace.clock)
-        self._stamp = 0.0  # s of simulated time up to which all that is due has been done
+        self.stamp = 0.0  # s of simulated time up to which all that is due has been done
         self._commands: deque[dict[str, Any]] = deque()
-        self._held_at = 0.0  # wall time of the last key that was held or let go
-        self._drives = self._at_work = self._let_go = False  # it drives if it has a Teleop of its own
+        self._hand = Hand(session, pace.clock)
+        self._at_work = self._let_go = False
         self._wanted: str | None = None  # why it should stop
         self._error: Exception | None = None
         self._context = contextvars.copy_context()  # a notebook's output goes to the cell that this names
         self._context.run(session.advance, -1.0)  # opens it
-        _playing = self
+        latest.player = self
         atexit.register(self._quit)
 
     @property
@@ -70,6 +68,15 @@ class Player:
     def speed(self, speed: float) -> None:
         self._pace.speed = speed
 
+    @property
+    def nodes(self) -> list[str]:
+        """Full names of the nodes that are there now."""
+        return [node.get_fully_qualified_name() for node in self._session.nodes]
+
+    def add(self, program: Process) -> None:
+        """Add one of our programs, a tool's for example."""
+        self._context.run(self._session.start, program, ours=True)
+
     def pause(self) -> None:
         """Let time stand still."""
         self.paused = True
@@ -83,7 +90,7 @@ class Player:
     def step(self) -> None:
         """Pause, and go on by 0.05 s: to the next of the robot's scans. Only in the thread of `play`."""
         self.pause()
-        self._work(self._stamp + STEP)
+        self._work(self.stamp + STEP)
         self._update()
 
     def stop(self, why: str = "The user stopped it.") -> None:
@@ -101,7 +108,7 @@ class Player:
             self._work(math.inf)
             self._update()
             if self._session.interrupted:
-                raise KeyboardInterrupt("The run was interrupted.")
+                raise interrupted()
         if self._error is not None:
             raise self._error
         return self.recording
@@ -121,7 +128,7 @@ class Player:
     def __repr__(self) -> str:
         how = "paused" if self.paused else f"playing at speed {self.speed:g}"
         how = f"ended: {self.recording.ended.reason}" if self.over else how
-        return f"<Player at {self._stamp:.2f} s of {self.recording.seconds:g} s, {how}>"
+        return f"<Player at {self.stamp:.2f} s of {self.recording.seconds:g} s, {how}>"
 
     def _ipython_display_(self) -> None:
         """Nothing: the picture is there already."""
@@ -139,7 +146,7 @@ class Player:
             try:
                 asyncio.run(self._play())
             except KeyboardInterrupt:
-                raise KeyboardInterrupt("The run was interrupted.") from None
+                raise interrupted() from None
             self.result()
         else:
             self._task = loop.create_task(self._play())  # kept, for the loop doesn't
@@ -160,20 +167,22 @@ class Player:
     def _interrupt(self) -> None:
         self._wanted = INTERRUPTED
 
-    def turn(self) -> None:
-        """Do what a frame has to: obey, go on as far as is due, show it."""
+    def turn(self, limit: float = math.inf, enough: Callable[[], bool] = lambda: False) -> None:
+        """Do what a frame has to: obey, go on as far as is due, show it.
+
+        limit: go on to that time (s) at most. enough: asked between moments whether to go on.
+        """
         while self._commands and not self.over:
             with contextlib.suppress(ValueError):  # a picture may send anything
                 self._obey(self._commands.popleft())
-        engine, clock = self._session.engine, self._pace.clock
-        if engine and clock() - self._held_at > LET_GO:
-            engine.held = (0.0, 0.0)  # the page is gone
+        clock = self._pace.clock
+        self._hand.rest()
         if self._wanted is not None and not self.over:
             self._end()
         if not self.over and not self.paused:
-            due, enough = self._pace.due(self._stamp), clock() + WORK
-            self._work(due, lambda: clock() >= enough)
-            if self._stamp < due:
+            due, rest = min(self._pace.due(self.stamp), limit), clock() + WORK
+            self._work(due, lambda: clock() >= rest or enough())
+            if self.stamp < due:
                 self._pace.fell_behind()
         self._update()
         if self._session.interrupted:
@@ -187,7 +196,7 @@ class Player:
             raise RuntimeError("A player can't be moved on from inside its own run; let `until` return True.")
         self._at_work = True
         try:
-            self._stamp = max(self._stamp, self._context.run(self._session.advance, limit, enough))
+            self.stamp = max(self.stamp, self._context.run(self._session.advance, limit, enough))
         except Exception as error:
             self._error, self._session.over = error, True
             detail = f"`until` raised {type(error).__name__}: {error}"
@@ -200,7 +209,7 @@ class Player:
             self._end()
 
     def _end(self) -> None:
-        self.recording.stamp = max(self.recording.stamp, self._stamp)
+        self.recording.stamp = max(self.recording.stamp, self.stamp)
         ended = Ended("interrupted", self.recording.stamp, self._wanted)
         self._context.run(self._session.end, ended)
         self._update()
@@ -212,13 +221,12 @@ class Player:
 
     def _update(self) -> None:
         """Show where it is now; and when it is over, say so and let go of everything."""
-        global _playing
         ended = list(self.recording.ended[::2]) if self.over else None
         urgent = {"speed": self.speed, "paused": self.paused, "ended": ended}
-        self._show.frame(self._session, self._stamp)
-        self._show.state(self._session, self._stamp, self._pace.measured, **urgent)
+        self._show.frame(self._session, self.stamp)
+        self._show.state(self._session, self.stamp, self._pace.measured, **urgent)
         if self.over and not self._let_go:
-            self._let_go, _playing = True, None if _playing is self else _playing
+            self._let_go, latest.player = True, None if latest.player is self else latest.player
             atexit.unregister(self._quit)
             # In the context of the caller: what executes notebooks unattended hears only the cell under way.
             self._show.finish(self.recording)
@@ -234,17 +242,7 @@ class Player:
                 self.step()
             case {"stop": True}:
                 self.stop()
+            case {"topic": name}:
+                self._show.readings.look(name)
             case {"drive": [forward, left]}:
-                self._drive(forward, left)
-
-    def _drive(self, forward: float, left: float) -> None:
-        engine = self._session.engine
-        self._held_at, engine.held = self._pace.clock(), (forward, left)
-        begun = engine.switches > 0  # before, nobody's Teleop is there yet
-        nodes = [node for process in engine.processes for node in process.nodes]
-        there = self._drives or any(isinstance(node, Teleop) for node in nodes)
-        bodies = self.recording.world.bodies if self.recording.world is not None else ()
-        robot = any(body.name == "robot" for body in bodies)
-        if (forward or left) and begun and robot and not there:
-            self._drives = True
-            self._context.run(self._session.start, Process(Teleop))
+                self._context.run(self._hand.drive, forward, left)

@@ -34,14 +34,16 @@ class Calls:
 
     def client_made(self, client: Any, node: Any, name: str) -> None:
         """A node made a client of the service of this resolved name."""
-        client._sim = ClientRecord(name, type_name(client.srv_type), self._recorder.name_of(node))
+        client._sim = ClientRecord(
+            name, type_name(client.srv_type), self._recorder.name_of(node), self._recorder.is_ours()
+        )
 
     def service_made(self, service: Any) -> None:
         """A node made a service: from now on requests reach it."""
         profile = service.qos_profile
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
         inbox: deque[Request] = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
-        service._sim = ServiceRecord(service.service_name, inbox)
+        service._sim = ServiceRecord(service.service_name, inbox, self._recorder.is_ours())
         self._services[service.service_name].append(weakref.ref(service))
 
     def asked(self, client: Any, number: int, raw: bytes) -> None:
@@ -52,7 +54,7 @@ class Calls:
         kept: ClientRecord = client._sim
         recorder.count(kept.node, len(raw))
         raw = canonical(f"{kept.type}_Request", raw)
-        call = Call(kept.service, kept.type, kept.node, raw, recorder.now)
+        call = Call(kept.service, kept.type, kept.node, raw, recorder.now, asked_by_us=kept.ours)
         known = self._services[kept.service]
         there = [found for service in known if (found := service()) and alive(found.handle)]
         call.lost = not there
@@ -68,13 +70,16 @@ class Calls:
         calls = self.sent(service, number, raw)
         call = calls[0] if calls and not calls[0].server else None
         if call is None:  # another server has this request too, or it was sent past rclpy's clients
-            client, asked = (calls[0].client, calls[0].asked) if calls else ("", None)
-            call = Call(service._sim.service, type_, client, raw, asked)
+            first = calls[0] if calls else Call("", "", "", b"", None)
+            call = Call(
+                service._sim.service, type_, first.client, raw, first.asked, asked_by_us=first.asked_by_us
+            )
             calls.append(call)
             if recorder.open:
                 recorder.recording.calls.append(call)
         if recorder.open:
             call.server, call.taken = recorder.name_of(node), recorder.now
+            call.served_by_us = service._sim.ours
         return call
 
     def sent(self, service: Any, number: int, raw: bytes) -> list[Call]:

@@ -43,7 +43,8 @@ class Goals:
         """A node made an action server or an action client; `name` is the action's resolved name."""
         if serves:
             self._servers[name].append(weakref.ref(end))
-        end._sim = ActionRecord(name, type_name(type_), self._recorder.name_of(node))
+        recorder = self._recorder
+        end._sim = ActionRecord(name, type_name(type_), recorder.name_of(node), recorder.is_ours())
 
     def known(self, action: str, goal_id: Any) -> list[Goal]:
         """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
@@ -72,7 +73,7 @@ class Goals:
         """A client sent a goal."""
         if self._recorder.open:
             goal = self.new(client, client._sim.node, goal_id, raw, self._recorder.now)
-            client._sim.goals[number] = goal
+            client._sim.goals[number], goal.asked_by_us = goal, client._sim.ours
             goal.lost = not self.served(goal.action)
 
     def served(self, action: str) -> bool:
@@ -111,7 +112,8 @@ class Goals:
         if goal is None:  # another server has it too, or it was sent past rclpy's clients
             client, asked = (known[0].client, known[0].asked) if known else ("", None)
             goal = self.new(server, client, goal_id, encode(request), asked)
-        goal.server = server._sim.node
+            goal.asked_by_us = known[0].asked_by_us
+        goal.server, goal.served_by_us = server._sim.node, server._sim.ours
         if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
             server._sim.goals[key(goal_id)] = goal
         return goal
@@ -146,7 +148,8 @@ class Goals:
             raw, type_ = encode(message), f"{goal.type}_Feedback"
             recorder.count(goal.server, len(raw))
             topic = f"{goal.action}/_action/feedback"
-            goal.feedback.append(Heard(recorder.now, topic, type_, goal.server, canonical(type_, raw)))
+            raw = canonical(type_, raw)
+            goal.feedback.append(Heard(recorder.now, topic, type_, goal.server, raw, goal.served_by_us))
 
     def result(self, server: Any, goal_id: Any, message: Any) -> None:
         """A server has the result of a goal, which it gives to those who ask."""

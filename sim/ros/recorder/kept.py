@@ -22,6 +22,7 @@ class ClientRecord:
     service: str  # resolved name
     type: str
     node: str
+    ours: bool  # made by a program that is not the student's; so below
     requests: dict[int, Request] = field(default_factory=dict)  # without a response yet, by number
 
 
@@ -31,6 +32,7 @@ class ServiceRecord:
 
     service: str  # resolved name
     inbox: deque[Request]
+    ours: bool
     asked: int = 0  # so many requests were sent when its queue was empty
 
 
@@ -41,4 +43,5 @@ class ActionRecord:
     action: str  # resolved name
     type: str
     node: str
+    ours: bool
     goals: dict[bytes | int, Goal] = field(default_factory=dict)

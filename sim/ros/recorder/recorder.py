@@ -9,6 +9,7 @@ from rclpy.executors import ExternalShutdownException
 
 from sim.evidence import (
     INFRASTRUCTURE_TOPICS,
+    BusyLoop,
     CallbackError,
     CallbackRun,
     Endpoint,
@@ -16,10 +17,13 @@ from sim.evidence import (
     LogLine,
     Recording,
     TimerInfo,
+    Unheard,
     is_node_service,
 )
+from sim.evidence.qos import settings
 from sim.nanoseconds import SECOND
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
+from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import Calls
@@ -70,6 +74,8 @@ class Recorder:
         self._theirs: set[str] = set()  # and of those that are
         self._printed = self._bytes = self._all = 0
         self._known: list[BaseException] = []
+        self._unheard: set[tuple[str, str]] = set()  # nodes and topics
+        self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
         self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
 
     @property
@@ -90,12 +96,16 @@ class Recorder:
         name = self._names[id(node)] = node.get_fully_qualified_name()
         if not self.open:
             return
+        self.named(name, ours=self.is_ours())
+
+    def named(self, name: str, *, ours: bool) -> None:
+        """There is a node of this full name, of a program that is ours or the student's."""
         self.recording.graph.nodes.append(name)
-        (self._ours if self._is_ours() else self._theirs).add(name)
+        (self._ours if ours else self._theirs).add(name)
         self.recording.ours = self._ours - self._theirs
         self.recording.shared = self._ours & self._theirs
 
-    def _is_ours(self) -> bool:
+    def is_ours(self) -> bool:
         """Whether a program that is not the student's is at work."""
         fiber = self.scheduler.current
         return fiber is not None and fiber.process.ours
@@ -110,7 +120,8 @@ class Recorder:
         if handle is not None:
             self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
         if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
-            end = Endpoint(kind, of, name, type_name(type_), _qos(qos))
+            chosen = {} if qos is None else settings(qos)
+            end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_ours())
             self.recording.graph.endpoints.append(end)
 
     def timer(self, node: Any, timer: Any) -> None:
@@ -143,18 +154,18 @@ class Recorder:
                 f"the nodes sent more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
             )
 
-    def message(self, topic: str, type_: str, sender: str, raw: bytes) -> None:
+    def message(self, topic: str, type_: str, sender: str, raw: bytes, ours: bool) -> None:
         """A message was published; its bytes are canonical. Raises Livelock for too many."""
         if not self.open:
             return
         self.count(sender, len(raw))
-        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""
         if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
             return None
-        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text)
+        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_ours())
         self.recording.logs.append(line)
         return line
 
@@ -183,6 +194,23 @@ class Recorder:
         if not isinstance(error, NO_FAULT):
             self._keep(error, callback, node)
 
+    def unheard(self, sender: str, topic: str) -> None:
+        """A message was too early for a listener; the first one of a node on a topic is kept."""
+        if (sender, topic) not in self._unheard:
+            self._unheard.add((sender, topic))
+            if self.open and topic not in INFRASTRUCTURE_TOPICS:
+                self.recording.unheard.append(Unheard(self.now, sender, topic))
+
+    def busy_loop(self, fiber: Fiber, line: str) -> None:
+        """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""
+        if not self.open or fiber.process.ours:
+            return
+        running = fiber.callbacks[-1] if fiber.callbacks else None
+        node, what = (running.node, running.name) if running else (self.name_of(None), f"{fiber.name}()")
+        if (node, what) not in self._busy:
+            self._busy.add((node, what))
+            self.recording.busy_loops.append(BusyLoop(self.now, node, f"{what}{line}"))
+
     def exited(self, exit_: SystemExit, program: str) -> None:
         """A program ended itself; as for a shell, every status but 0 says that it failed."""
         if exit_.code:
@@ -197,7 +225,7 @@ class Recorder:
             self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
         )
         self.recording.errors.append(kept)
-        if self._is_ours():
+        if self.is_ours():
             self.recording.failures.append(kept)
 
     def close(self) -> None:
@@ -205,10 +233,3 @@ class Recorder:
         self.open = False
         self._known.clear()
         self.ends.clear()
-
-
-def _qos(profile: Any) -> dict[str, Any]:
-    if profile is None:
-        return {}
-    names = ("reliability", "durability", "history")
-    return {name: getattr(profile, name).name.lower() for name in names} | {"depth": profile.depth}

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sim.evidence import CallbackError, CallbackRun, LogLine, TimerInfo
+from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, TimerInfo, Unheard
 from sim.nanoseconds import SECOND
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.checked import MOST_NAME, Nonsense, Texts, number, rows
@@ -31,7 +31,7 @@ class Claims:
     def believe(self, claims: dict[str, Any]) -> None:
         """Write down what came in one message, by kind. Raises Nonsense for what can't be."""
         for (name,) in self._claimed(claims, "nodes", 0):
-            self._recording.graph.nodes.append(self._node(name))
+            self._engine.recorder.named(self._node(name), ours=False)
         for node, period, callback in self._claimed(claims, "timers", 3):
             seconds = number(period, "a timer's period", 0, MOST_PERIOD)
             timer = TimerInfo(self._node(node), seconds, self._name(callback))
@@ -43,6 +43,11 @@ class Claims:
         for row in self._claimed(claims, "errors", 5):
             told = (self._texts.take(part, "an error") for part in row)
             self._recording.errors.append(CallbackError(self._now, *told))
+        for node, place in self._claimed(claims, "busy_loops", 2):
+            loop = BusyLoop(self._now, self._node(node), self._texts.take(place, "a busy loop"))
+            self._recording.busy_loops.append(loop)
+        for node, topic in self._claimed(claims, "unheard", 2):
+            self._recording.unheard.append(Unheard(self._now, self._node(node), self._node(topic)))
         for began, lasted, node, callback, kind in self._claimed(claims, "callbacks", 5):
             self._callback(began, lasted, node, callback, kind)
 

@@ -15,23 +15,9 @@ from unique_identifier_msgs.msg import UUID
 from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, REJECTED, STATUSES, Call, Goal, Heard
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import message_class, type_name
+from sim.ros.remote import events
 from sim.ros.remote.checked import MOST_NAME, Nonsense, Texts, interface, message, text, whole
 from sim.ros.remote.claims import Claims
-from sim.ros.remote.events import (
-    Ask,
-    CallAnswered,
-    CallMade,
-    CallRaised,
-    CallReceived,
-    CallTaken,
-    GoalAnswered,
-    GoalEvent,
-    GoalFeedback,
-    GoalMade,
-    GoalReceived,
-    GoalResult,
-    GoalTaken,
-)
 from sim.ros.remote.link import Link
 from sim.ros.remote.parts import PuppetClient, PuppetNode, PuppetPublisher
 
@@ -73,7 +59,7 @@ class Ledger(Link):
         """Send it, and write it down."""
         self.engine.publish(publisher.writer, raw)
 
-    def tell_request(self, event: Ask, call: Call | None) -> None:
+    def tell_request(self, event: events.Ask, call: Call | None) -> None:
         """Add a request to the news, and remember its call: the other side tells what becomes of it."""
         super().tell_request(event, call)
         if call is not None:
@@ -92,32 +78,33 @@ class Ledger(Link):
 
     # -- calls that never leave the other side, and what becomes of calls ---------------------------
 
-    def _call(self, event: CallMade) -> None:
+    def _call(self, event: events.CallMade) -> None:
         cls = interface(text(event.type, "a type", MOST_NAME), "srv")
         _, raw = message(event.raw, cls.Request, "a request")
         service, type_ = text(event.service, "a service", MOST_NAME), type_name(cls)
         self.engine.recorder.count(text(event.client, "a node's name", MOST_NAME), len(raw))
         raw = canonical(f"{type_}_Request", raw)
-        client, stamp = self._caller(event.client, service, type_, raw)
-        call = Call(service, type_, client, raw, stamp if event.asked else None, lost=bool(event.lost))
+        client, stamp, ours = self._caller(event.client, service, type_, raw)
+        asked = stamp if event.asked else None
+        call = Call(service, type_, client, raw, asked, lost=bool(event.lost), asked_by_us=ours)
         self._calls[self._fresh(event.key, self._calls)] = call
         self.recording.calls.append(call)
 
-    def _call_taken(self, event: CallTaken) -> None:
+    def _call_taken(self, event: events.CallTaken) -> None:
         call = self._known(event.key, self._calls, "a call")
         call.server, call.taken = self._theirs(event.server), self._now
 
-    def _call_raised(self, event: CallRaised) -> None:
+    def _call_raised(self, event: events.CallRaised) -> None:
         self._known(event.key, self._calls, "a call").raised = text(event.error, "an error", MOST_NAME)
 
-    def _call_answered(self, event: CallAnswered) -> None:
+    def _call_answered(self, event: events.CallAnswered) -> None:
         call = self._known(event.key, self._calls, "a call")
         if event.key in self._answering:
             raise Nonsense("a response that came to nobody")
         _, bytes_ = message(event.raw, message_class(f"{call.type}_Response"), "a response")
         self.engine.recorder.calls.answered(call, bytes_)
 
-    def _call_received(self, event: CallReceived) -> None:
+    def _call_received(self, event: events.CallReceived) -> None:
         if whole(event.key, "a key") in self._sent:
             client, asked = self._sent.pop(event.key)
             self.engine.recorder.calls.received(client, asked)
@@ -126,7 +113,7 @@ class Ledger(Link):
 
     # -- goals ---------------------------------------------------------------------------------------
 
-    def _goal(self, event: GoalMade) -> None:
+    def _goal(self, event: events.GoalMade) -> None:
         key, goals = self._fresh(event.key, self._goals), self.engine.recorder.goals
         cls = interface(text(event.type, "a type", MOST_NAME), "action")
         action = text(event.action, "an action", MOST_NAME)
@@ -148,39 +135,39 @@ class Ledger(Link):
         goal = self._goals[key] = goals.new(end, client, goal_id, bytes_, self._now)
         goal.lost = bool(event.lost)
 
-    def _goal_taken(self, event: GoalTaken) -> None:
+    def _goal_taken(self, event: events.GoalTaken) -> None:
         goal = self._known(event.key, self._goals, "a goal")
         if goal.server:
             raise Nonsense("a goal that another server has taken")
         goal.server = self._theirs(event.server)
         self._taken.add(event.key)
 
-    def _goal_event(self, event: GoalEvent) -> None:
+    def _goal_event(self, event: events.GoalEvent) -> None:
         goal, word = self._known(event.key, self._goals, "a goal"), event.word
         if word != CANCEL_REQUESTED and (word not in GOAL_WORDS or event.key not in self._taken):
             raise Nonsense("a goal's event that can't be")
         goal.events.append((self._now, word))
 
-    def _goal_feedback(self, event: GoalFeedback) -> None:
+    def _goal_feedback(self, event: events.GoalFeedback) -> None:
         goal, bytes_ = self._served(event, "Feedback")
         self.engine.recorder.count(goal.server, len(bytes_))
         topic, type_ = f"{goal.action}/_action/feedback", f"{goal.type}_Feedback"
         goal.feedback.append(Heard(self._now, topic, type_, goal.server, canonical(type_, bytes_)))
 
-    def _goal_result(self, event: GoalResult) -> None:
+    def _goal_result(self, event: events.GoalResult) -> None:
         goal, bytes_ = self._served(event, "Result")
         goal.raw_result = canonical(f"{goal.type}_Result", bytes_)
 
-    def _served(self, event: GoalFeedback | GoalResult, part: str) -> tuple[Goal, bytes]:
+    def _served(self, event: events.GoalFeedback | events.GoalResult, part: str) -> tuple[Goal, bytes]:
         goal = self._known(event.key, self._goals, "a goal")
         if event.key not in self._taken:
             raise Nonsense("news of a goal that its server did not take")
         return goal, message(event.raw, message_class(f"{goal.type}_{part}"), f"a {part.lower()}")[1]
 
-    def _goal_answered(self, event: GoalAnswered) -> None:
+    def _goal_answered(self, event: events.GoalAnswered) -> None:
         self._known(event.key, self._goals, "a goal").answered = self._now
 
-    def _goal_received(self, event: GoalReceived) -> None:
+    def _goal_received(self, event: events.GoalReceived) -> None:
         self._known(event.key, self._goals, "a goal").received = self._now
 
     def _node(self, name: Any) -> str:
@@ -193,18 +180,18 @@ class Ledger(Link):
             raise Nonsense(f"news of the node {name!r}, which it does not have")
         return name
 
-    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None]:
-        """Who made a call, and when: a node of the other side, nobody that is known, or one of ours.
+    def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None, bool]:
+        """Who made a call, when, and whether it was one of ours: else a node of the other side, or nobody.
 
         One of ours has to have made it: where two servers took that, there are two calls.
         """
         name = self._node(name)
         if not name or name in self.puppets.names:
-            return name, self._now
+            return name, self._now, False
         for it in reversed(self.recording.calls):
             if (it.client, it.service, it.type, it.raw_request) == (name, service, type_, raw):
-                return name, it.asked
-        return self._theirs(name), self._now
+                return name, it.asked, it.asked_by_us
+        return self._theirs(name), self._now, False
 
     def _fresh(self, key: Any, known: dict[int, Any]) -> int:
         if whole(key, "a key") % 2 == 0 or key in known:
@@ -218,16 +205,16 @@ class Ledger(Link):
         return found
 
     HANDLERS: ClassVar[dict[type, Callable[..., None]]] = Link.HANDLERS | {
-        CallMade: _call,
-        CallTaken: _call_taken,
-        CallRaised: _call_raised,
-        CallAnswered: _call_answered,
-        CallReceived: _call_received,
-        GoalMade: _goal,
-        GoalTaken: _goal_taken,
-        GoalEvent: _goal_event,
-        GoalFeedback: _goal_feedback,
-        GoalResult: _goal_result,
-        GoalAnswered: _goal_answered,
-        GoalReceived: _goal_received,
+        events.CallMade: _call,
+        events.CallTaken: _call_taken,
+        events.CallRaised: _call_raised,
+        events.CallAnswered: _call_answered,
+        events.CallReceived: _call_received,
+        events.GoalMade: _goal,
+        events.GoalTaken: _goal_taken,
+        events.GoalEvent: _goal_event,
+        events.GoalFeedback: _goal_feedback,
+        events.GoalResult: _goal_result,
+        events.GoalAnswered: _goal_answered,
+        events.GoalReceived: _goal_received,
     }

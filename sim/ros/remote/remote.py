@@ -23,18 +23,21 @@ MOST_DETAIL = 2_000  # characters
 class Remote:
     """What `sim.run` takes in place of nodes that another process serves: see `serve`.
 
-    It may be run again and again; `end` lets the other process go.
+    It may be run again and again, also after a RemoteLost that says that the process lives; `end` lets it go.
 
     patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
     deadline: when all has to be over, by the clock `monotonic`: to enter what came can take long, too.
     secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
-    preparation: "module:function" of what there makes of each node the one that runs; "" for none.
+    preparation: "module:function" of what there makes of each node the one that runs, and further words that
+    it is given; empty for none.
     """
 
     def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
         self.wire, self.patience, self.total = wire, patience, total
         self._waited, self.deadline = 0.0, math.inf
-        self.secret, self.preparation = b"", ""
+        self.secret = b""
+        self.preparation: list[str] = []
+        self._open = False  # the other process is in a run, which nobody has ended
 
     def ask(self, question: str) -> Any:
         """Ask about the nodes themselves, with "module:function" of a function of them.
@@ -46,6 +49,9 @@ class Remote:
     def end(self, **message: Any) -> None:
         """Say that all is over; `serve` returns this message. Raises RemoteLost."""
         try:
+            if self._open:  # it was given up here, and the other process waits
+                self.wire.send(do="over")
+                self.wire.receive(self.patience)
             self.wire.send(**message, do="end")
         except WireError as error:
             self._lose(error)
@@ -54,8 +60,9 @@ class Remote:
         """The program that stands for the others in a run."""
         run = engine()
         if run.link is not None:
-            raise RemoteLost("Only one other process can have nodes in a run.")
+            raise RemoteLost("Only one other process can have nodes in a run.", lives=True)
         self._waited = 0.0
+        run.limits.pace *= 10  # the other process holds its nodes to it; here it is for one that doesn't
         with outside_student_code():
             turn = _Turn(self, run)
             turn.take()
@@ -95,7 +102,9 @@ class Remote:
         if self._waited > self.total:
             raise RemoteLost(f"The process with the nodes took more than {self.total:g} s for one run.")
         if "failed" in answer:
-            raise RemoteLost(f"The nodes could not be run: {printable(str(answer['failed']), MOST_DETAIL)}.")
+            self._open = False
+            why = printable(str(answer["failed"]), MOST_DETAIL)
+            raise RemoteLost(f"The nodes could not be run: {why}.", lives=True)
         return answer
 
     def _lose(self, error: Exception) -> NoReturn:
@@ -124,6 +133,7 @@ class _Turn:
             )
         except WireError as error:
             remote._lose(error)
+        remote._open = True
 
     def is_due(self) -> bool:
         """Whether the other process has to know something now, or is not done with this moment."""
@@ -133,17 +143,23 @@ class _Turn:
     def take(self) -> None:
         """Tell the news, let the other process go on until it waits, and enter what comes from it."""
         run, ledger = self._run, self.ledger
-        ledger.gather()
-        answer = self._remote._exchange(do="go", now=run.now, news=ledger.take_news())
-        ledger.until = self._remote.until
         try:
-            ledger.enter(answer.get("news"))
+            ledger.gather()
+            answer = self._remote._exchange(do="go", now=run.now, news=ledger.take_news())
+            if "news" not in answer:
+                when = f"The process with the nodes broke off at {run.recorder.now:.3g} s"
+                why = "something in it ended the run there, or wrote to its connections"
+                raise RemoteLost(f"{when}: {why}.")
+            ledger.until = self._remote.until
+            ledger.enter(answer["news"])
             ledger.entered()
             claims = answer.get("claims")
             ledger.claims.believe(claims if isinstance(claims, dict) else {})
             self._go_on(answer)
         except Nonsense as nonsense:
-            raise RemoteLost(f"The process with the nodes sent {nonsense}.") from None
+            raise _nonsense(nonsense) from None
+        except Exception as error:
+            raise RemoteLost("Its nodes did what this side can't follow.", True, error) from error
 
     def _go_on(self, answer: dict[str, Any]) -> None:
         run = self._run
@@ -161,7 +177,12 @@ class _Turn:
     def over(self) -> None:
         """Let the other process end its programs."""
         answer = self._remote._exchange(do="over")
+        self._remote._open = False
         try:
             self._run.recorder.complained(text(answer.get("stderr"), "a stderr", MOST_WRITTEN))
         except Nonsense as nonsense:
-            raise RemoteLost(f"The process with the nodes sent {nonsense}.") from None
+            raise _nonsense(nonsense) from None
+
+
+def _nonsense(nonsense: Nonsense) -> RemoteLost:
+    return RemoteLost(f"The process with the nodes sent {nonsense}.", lives=True)

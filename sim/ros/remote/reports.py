@@ -12,22 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from sim.evidence import Call, Goal, Heard
 from sim.ros.messages.codec import encode
+from sim.ros.remote import events
 from sim.ros.remote.checked import packed
-from sim.ros.remote.events import (
-    Ask,
-    CallAnswered,
-    CallMade,
-    CallRaised,
-    CallReceived,
-    CallTaken,
-    GoalAnswered,
-    GoalEvent,
-    GoalFeedback,
-    GoalMade,
-    GoalReceived,
-    GoalResult,
-    GoalTaken,
-)
 from sim.ros.remote.link import Link
 from sim.ros.remote.news import News
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
@@ -53,13 +39,13 @@ class _OpenCall:
         call, key = self.call, self.key
         if self.whose != ASKED_HERE:
             if call.server and self._first("taken"):
-                yield CallTaken(key, call.server)
+                yield events.CallTaken(key, call.server)
             if call.raised and self._first("raised"):
-                yield CallRaised(key, call.raised)
+                yield events.CallRaised(key, call.raised)
         if self.whose is INNER and call.raw_response is not None and self._first("response"):
-            yield CallAnswered(key, packed(call.raw_response))
+            yield events.CallAnswered(key, packed(call.raw_response))
         if self.whose != ASKED_THERE and call.received is not None and self._first("received"):
-            yield CallReceived(key)
+            yield events.CallReceived(key)
 
     def _first(self, word: str) -> bool:
         new = word not in self.told
@@ -86,20 +72,20 @@ class _OpenGoal:
         """What happened to the goal since the last time."""
         goal, key = self.goal, self.key
         if goal.server and self._first("server"):
-            yield GoalTaken(key, goal.server)
+            yield events.GoalTaken(key, goal.server)
         for _, word in goal.events[self.events :]:
-            yield GoalEvent(key, word)
+            yield events.GoalEvent(key, word)
         self.events = len(goal.events)
         if goal.server:
             for heard in goal.feedback[self.feedback :]:
-                yield GoalFeedback(key, packed(heard.raw))
+                yield events.GoalFeedback(key, packed(heard.raw))
             self.feedback = len(goal.feedback)
             if goal.raw_result is not None and self._first("result"):
-                yield GoalResult(key, packed(goal.raw_result))
+                yield events.GoalResult(key, packed(goal.raw_result))
         if goal.answered is not None and self._first("answered"):
-            yield GoalAnswered(key)
+            yield events.GoalAnswered(key)
         if goal.received is not None and self._first("received"):
-            yield GoalReceived(key)
+            yield events.GoalReceived(key)
 
     def _first(self, word: str) -> bool:
         new = word not in self.told
@@ -119,12 +105,14 @@ class Reports(Link):
             "timers": News(graph.timers),
             "logs": News(recording.logs),
             "prints": News(recording.prints),
+            "busy_loops": News(recording.busy_loops),
+            "unheard": News(recording.unheard),
             "errors": News(recording.errors),
             "callbacks": News(recording.callbacks),
         }
         self._calls: list[_OpenCall] = []
         self._goals: list[_OpenGoal] = []
-        self._asks: dict[int, Ask] = {}  # requests to the other side, by the id of their call
+        self._asks: dict[int, events.Ask] = {}  # requests to the other side, by the id of their call
 
     def crosses(self, heard: Heard) -> bool:
         """All do: the other side writes down what is said."""
@@ -143,7 +131,7 @@ class Reports(Link):
         self._gather_goals()
         self.gather_responses()
 
-    def tell_request(self, event: Ask, call: Call | None) -> None:
+    def tell_request(self, event: events.Ask, call: Call | None) -> None:
         """Add a request to the news; one of a service only when its turn comes among the calls."""
         if call is None:
             self.news.append(event)
@@ -155,7 +143,7 @@ class Reports(Link):
             event, whose = self._asks.pop(id(call), None), ASKED_HERE
             if event is None:
                 about = call.service, call.type, call.client, call.asked is not None
-                made = CallMade(next(self.keys), *about, packed(call.raw_request), call.lost)
+                made = events.CallMade(next(self.keys), *about, packed(call.raw_request), call.lost)
                 event, whose = made, INNER
             self.news.append(event)
             self._calls.append(_OpenCall(event.key, call, whose, set()))
@@ -173,7 +161,7 @@ class Reports(Link):
         for goal in self._new_goals.take():
             key = next(self.keys)
             about = goal.action, goal.type, goal.client, goal.id
-            self.news.append(GoalMade(key, *about, packed(goal.raw_request), goal.lost))
+            self.news.append(events.GoalMade(key, *about, packed(goal.raw_request), goal.lost))
             self._goals.append(_OpenGoal(key, goal, set()))
         for kept in self._goals:
             self.news += kept.news()
@@ -195,8 +183,9 @@ class Reports(Link):
     def claims(self) -> dict[str, list[Any]]:
         """What the nodes say of themselves, since the last time; no word where there is nothing."""
         new = {kind: news.take() for kind, news in self._claims.items()}
-        for kind in ("logs", "prints", "errors"):
+        for kind in ("logs", "prints", "errors", "busy_loops", "unheard"):
             new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
+        new["logs"] = [line[:3] for line in new["logs"]]  # it knows whose they are
         new["prints"] = [piece for (piece,) in new["prints"]]
         if len(new["prints"]) > MOST_PIECES:  # a loop that prints without end
             new["prints"] = ["".join(new["prints"])]

@@ -18,6 +18,7 @@ from sim.ros.session import Session
 
 MOST_ROUNDS = 20  # in one turn: the other side waits for its end, and looks after time
 
+
 def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
     """Let the other end of the wire run these nodes, as often as it likes; returns its last message.
 
@@ -46,33 +47,57 @@ def _function(name: str) -> Callable[..., Any]:
 
 
 def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
+    orders = Orders(wire)
     try:
-        prepare = order["preparation"] and _function(order["preparation"])
-        programs = tuple(prepare(node) if prepare else node for node in nodes)
-        session = Follower(wire, programs, order["seconds"], order["seed"])
+        name, *words = order["preparation"] or [""]
+        prepare = _function(name) if name else None
+        programs = tuple(prepare(node, *words) if prepare else node for node in nodes)
+        session = Follower(orders, programs, order["seconds"], order["seed"])
         session.advance()
-        wire.send(stderr=session.recording.stderr[:MOST_WRITTEN])
+        orders.answer(stderr=session.recording.stderr[:MOST_WRITTEN])
     except (WireClosed, WireTimeout):
         raise
-    except Exception as error:
-        wire.send(failed=f"{type(error).__name__}: {error}")
+    except BaseException as error:  # this side goes on to serve, whatever ended the run here
+        # Of the system's errors without the file: its name tells of this machine.
+        words = getattr(error, "strerror", None) or error
+        orders.answer(failed=f"{type(error).__name__}: {words}")
+
+
+class Orders:
+    """What the other side orders in a run, one thing after the other, and an answer to each."""
+
+    def __init__(self, wire: Wire) -> None:
+        self._wire, self._due = wire, False
+
+    def next(self) -> dict[str, Any]:
+        """The next one."""
+        order = self._wire.receive()
+        self._due = True
+        return order
+
+    def answer(self, **message: Any) -> None:
+        """The answer to the last one; to the next, if that has its answer already."""
+        if not self._due:
+            self.next()
+        self._wire.send(**message)
+        self._due = False
 
 
 class Follower(Session):
     """A run whose time is that of the other side."""
 
-    def __init__(self, wire: Wire, nodes: tuple[Any, ...], seconds: float, seed: int) -> None:
+    def __init__(self, orders: Orders, nodes: tuple[Any, ...], seconds: float, seed: int) -> None:
         super().__init__(nodes, None, seconds, seed, None, True, "grade")
-        self._wire = wire
+        self._orders = orders
 
     def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Generator[Nanoseconds, None, Ended]:
         link = Reports(self.engine)
-        while (order := self._wire.receive()).get("do") == "go":
+        while (order := self._orders.next()).get("do") == "go":
             self._move_to(order["now"])
             link.enter(order["news"])
             busy = self._rounds(link)
             link.gather()
-            self._wire.send(**self._answer(link, busy, end))
+            self._orders.answer(**self._answer(link, busy, end))
             yield order["now"]
         return Ended("time", self.engine.recorder.now, "The other side has ended the run.")
 

@@ -6,7 +6,7 @@ import pkgutil
 from typing import Any
 
 from sim.ros.engine.program import Process
-from sim.world import MobileRobot, OtherRobot, Scene, World
+from sim.world import MobileRobot, OtherRobot, RobotModel, Scene, World
 from sim.world.machines import kind_of
 
 # Nodes are imported when they are made: with them come message packages, which takes a while.
@@ -18,7 +18,7 @@ def programs_of(scene: Scene) -> list[Process]:
     if world.machine is not None:
         return [_machine(scene)]
     robots = [_robot(world, robot) for robot in scene.robots.values()]
-    return robots + [_driver(robot, world.robot.radius) for robot in world.robots if robot.route]
+    return robots + [_driver(robot, world.robot) for robot in world.robots if robot.route]
 
 
 def _machine(scene: Scene) -> Process:
@@ -37,10 +37,10 @@ def _robot(world: World, mobile: MobileRobot) -> Process:
     return Process(robot)
 
 
-def _driver(robot: OtherRobot, radius: float) -> Process:
+def _driver(robot: OtherRobot, model: RobotModel) -> Process:
     def driver() -> Any:
         from sim.ros.robots.route_driver import RouteDriver
 
-        return RouteDriver(robot, radius)
+        return RouteDriver(robot, model)
 
     return Process(driver)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import array
 import math
 
-from geometry_msgs.msg import TransformStamped, Twist
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
@@ -28,7 +28,8 @@ TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 class Robot(Node):
     """A differential-drive robot with a lidar, a bumper and, where the world says so, an IMU.
 
-    Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored).
+    Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored), which is
+    geometry_msgs/TwistStamped where the world says so; its stamp and frame are ignored.
     Publishes at 20 Hz odom, scan, joint_states, bumper (std_msgs/Bool) and /tf (odom -> base_link), and
     imu/data at the IMU's rate; all reliable, which best-effort subscriptions can hear too. odom starts at
     zero where the robot starts; lidar and IMU sit at base_link's origin.
@@ -49,7 +50,10 @@ class Robot(Node):
         self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
         self._commands = 0  # since the last sense
         self._make_templates()
-        self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
+        if world.robot.stamped:
+            self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)
+        else:
+            self.create_subscription(Twist, "cmd_vel", self.on_cmd_vel, 10)
         self.clock_pub = self.create_publisher(Clock, "/clock", 1) if self.first else None
         self.odom_pub = self.create_publisher(Odometry, "odom", 10)
         self.tf_pub = self.create_publisher(TFMessage, "/tf", 100)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Point, Quaternion, Twist
+from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
-from sim.world import OtherRobot, Route
+from sim.ros.robots.velocity import VelocityPublisher
+from sim.world import OtherRobot, RobotModel, Route
 from sim.world.robot import wrap
 
 AHEAD = 0.25  # m; it steers for the point of the route this far ahead
@@ -25,16 +26,16 @@ class RouteDriver(Node):
     In the robot's namespace it hears odom and scan, and answers each odom with a cmd_vel.
     """
 
-    def __init__(self, robot: OtherRobot, radius: float) -> None:
+    def __init__(self, robot: OtherRobot, model: RobotModel) -> None:
         super().__init__("driver", namespace=robot.name, start_parameter_services=False)
-        self.speed, self.start, self.width = robot.speed, robot.start, radius + GAP
-        self.first_look = radius
+        self.speed, self.start, self.width = robot.speed, robot.start, model.radius + GAP
+        self.first_look = model.radius
         self.route = Route(robot.route)
         self.place = self.route.nearest(*robot.start[:2])
         self.near: list[tuple[float, float]] = []  # bearing (rad) and distance (m) of all that is near
         self.create_subscription(Odometry, "odom", self.on_odom, 10)
         self.create_subscription(LaserScan, "scan", self.on_scan, 10)
-        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.velocity = VelocityPublisher(self, model.stamped)
 
     def on_scan(self, scan: LaserScan) -> None:
         """Keep what is near; -inf is nearer than the lidar can measure, inf and nan are nothing (REP-117)."""
@@ -54,13 +55,12 @@ class RouteDriver(Node):
             return  # not a number, or not of this world: anybody may publish here
         x, y, yaw = self.in_map(position, turn)
         self.place = self.route.nearest(x, y, self.place, AHEAD) % self.route.length
-        command = Twist()
+        forward = left = 0.0
         if not self.blocked(x, y, yaw):
             ahead_x, ahead_y = self.route.point(self.place + AHEAD)
             off = wrap(math.atan2(ahead_y - y, ahead_x - x) - yaw)
-            command.linear.x = self.speed * max(math.cos(off), 0.0)
-            command.angular.z = STEER * off
-        self.publisher.publish(command)
+            forward, left = self.speed * max(math.cos(off), 0.0), STEER * off
+        self.velocity.send(forward, left)
 
     def in_map(self, position: Point, turn: Quaternion) -> tuple[float, float, float]:
         """Where the robot is in the map frame: it knows where it started."""

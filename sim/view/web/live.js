@@ -4,6 +4,7 @@
 const REPEAT = 100; // ms between commands while something is held
 const SILENCE = 3000; // ms without news, after which the view says so
 const LONGEST_TRAIL = 4000; // points
+const HOW = "Click the picture, then drive with the arrow keys or W A S D. Space stops the robot.";
 const WAYS = { up: [1, 0], down: [-1, 0], left: [0, 1], right: [0, -1] };
 const KEYS = {
   ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right",
@@ -97,7 +98,11 @@ class View {
     this.trails = [];
     this.stage = make("div", { className: "stage" });
     this.topics = make("div");
-    const rows = [make("div", {}, make("div", { className: "head" }, "TOPICS"), this.topics)];
+    this.rows = new Map(); // a topic's name to its row; rows stay, so that a click and the focus do
+    this.numbers = make("dl", { className: "numbers" });
+    this.topic = new Topic();
+    this.head = make("div", { className: "head" });
+    const rows = [this.numbers, make("div", {}, this.head, this.topics), this.topic.root];
     this.root = make("div", { className: "ros2-view live" }, make("style", {}, STYLE));
     this.root.dataset.lmSuppressShortcuts = "true"; // keys are for the robot, not for the notebook
     this.drives = this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
@@ -106,8 +111,10 @@ class View {
       // Above the topics: driving adds one, and the pad must not move away from under the pointer.
       rows.unshift(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
     }
-    this.root.append(make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
-      make("div", { className: "side" }, ...rows)), this.controls());
+    const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
+    const row = make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
+      make("div", { className: "side" }, ...rows));
+    this.root.append(make("div", { className: "how" }, how), this.controls(), row);
     this.tick = setInterval(() => this.showSilence(), SILENCE / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
     this.onStatus = () => this.showStatus();
@@ -121,8 +128,9 @@ class View {
       this.scene = new Scene(this.stage, this.world);
       this.scene.canvas.addEventListener("pointerdown", () => this.scene.canvas.focus());
       if (this.drives) {
-        const hint = make("span", {}, "Click the picture, then drive with the arrow keys");
-        this.stage.append(make("div", { className: "hint" }, hint));
+        // To a screen reader it is a thing that takes keys itself.
+        this.scene.canvas.setAttribute("role", "application");
+        this.scene.canvas.setAttribute("aria-label", `The robot in the world ${this.world.name}. ${HOW}`);
       }
     }
     this.showStatus();
@@ -194,11 +202,32 @@ class View {
     if (!this.scene || paused || ended) this.clock.textContent = stamp.toFixed(2);
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
     this.said.textContent = ended ? ended[1] : "";
-    this.topics.replaceChildren(...topics.map(({ name, type, rate }) => make("div", { className: "topic", title: type },
-      make("span", {}, name), make("span", { className: "rate" }, rate ? `${Number(rate.toPrecision(3))} Hz` : "-"))));
+    for (const { name, type, rate } of topics) this.showTopic(name, type, rate);
+    const { numbers: told, topic = null } = this.status; // a robot that is a program of its own tells neither
+    this.head.textContent = told ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS";
+    this.numbers.replaceChildren(...(told ?? []).flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]));
+    this.topic.show(topic);
+    for (const [name, row] of this.rows) {
+      row.disabled = !told;
+      row.setAttribute("aria-expanded", String(name === topic?.name));
+    }
     if (!this.scene) return;
     this.scene.frame = { ...this.scene.frame, contacts };
     this.scene.ask();
+  }
+
+  showTopic(name, type, rate) {
+    let row = this.rows.get(name);
+    if (!row) {
+      row = make("button", { type: "button", className: "topic", title: type }, make("span", {}, name),
+        make("span", { className: "rate" }));
+      row.addEventListener("click", () => {
+        this.send({ topic: row.getAttribute("aria-expanded") === "true" ? "" : name });
+      });
+      this.rows.set(name, row);
+      this.topics.append(row);
+    }
+    row.lastChild.textContent = rate ? `${Number(rate.toPrecision(3))} Hz` : "-";
   }
 
   showSilence() {

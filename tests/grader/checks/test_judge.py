@@ -51,7 +51,7 @@ def statuses(verdicts):
 
 def failing_at(stamp, type="KeyError"):
     error = CallbackError(stamp, "/talker", "Talker.tick", type, "count", "")
-    return Recording(errors=[error])
+    return Recording(errors=[error], gone=stamp)
 
 
 def test_all_is_well():
@@ -78,7 +78,7 @@ def test_what_an_earlier_miss_explains_is_skipped_down_the_line():
 def test_partial_credit_explains_nothing():
     verdicts = judge([half, more], Recording())
     assert statuses(verdicts) == {"half": "failed", "more": "failed"}
-    assert [verdict.earned for verdict in verdicts] == [1.5, 0.25]
+    assert [verdict.earned for verdict in verdicts] == [1.5, 0.0]
 
 
 def test_a_check_that_raises_leaves_its_points_to_the_instructor():
@@ -111,7 +111,30 @@ def test_who_gets_stuck_has_the_share_of_the_points_in_which_nothing_was_wrong(r
     assert (error.name, error.saw) == ("runs", "It waits.")
     assert (first.status, first.earned) == ("passed", 1.0)
     assert (second.status, second.earned) == ("skipped", 0.5)
-    assert second.hint == "Judged only for 2.5 s: the error above ended the run."
+    then = "nothing went on" if reason == "blocked" else "the error above ended it"
+    assert second.hint == f"Earned for 2.5 of 10 s: then {then}."
+
+
+@check(points=4, after=sends)
+def stays_off(recording):
+    """It hurts nobody."""
+    raise Missed("no contact", "one", unsafe=True)
+
+
+def test_what_is_unsafe_is_told_even_where_an_error_would_explain_it():
+    recording = dataclasses.replace(failing_at(2.0), seed=1)
+    *_, verdict = judge([sends, stays_off], recording)
+    assert (verdict.status, verdict.unsafe, verdict.saw) == ("failed", True, "one")
+
+
+def test_of_several_runs_the_one_that_was_unsafe_is_told():
+    def safe(recording):
+        """It hurts nobody."""
+        raise Missed("a way", "none")
+
+    poor = judge([sends, dataclasses.replace(stays_off, function=safe)], Recording(seed=1))
+    unsafe = judge([sends, stays_off], Recording(seed=1))
+    assert worst([sends, stays_off], [poor, unsafe])[1].unsafe
 
 
 @pytest.mark.parametrize("reason", ["goal", "finished", "time"])

@@ -27,10 +27,26 @@ CAUSES = {
     ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
     "volatile, /listener asks for transient_local, so nothing arrives. Use the same durability at both ends.",
     (
+        misfits.Talker,
+        misfits.ImpatientListener,
+    ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener asks for 0.5 s, so nothing "
+    "arrives. Use the same deadline at both ends.",
+    (
+        misfits.Talker,
+        misfits.ListenerForTheLiving,
+    ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener asks for "
+    "manual_by_topic, so nothing arrives. Use the same liveliness at both ends.",
+    (
         misfits.SleepyTalker,
     ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "
     "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
     "Let the timer do the waiting.",
+    (
+        misfits.Listener,
+        misfits.TalksInItsConstructor,
+    ): "/talker published on /chatter at 0 s, before those who listen there had found it: two programs need a moment "
+    "to discover each other, and what is sent before that is lost. Make the publisher once, in __init__, and publish "
+    "from a timer; or latch it (durability transient_local at both ends).",
     (
         misfits.SilentTalker,
     ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
@@ -125,6 +141,6 @@ def test_a_name_that_one_of_ours_has_is_told():
 
 def test_every_diagnosis_is_earned_by_some_students():
     recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
-    recordings.append(namesakes())
+    recordings += [namesakes(), run(misfits.Talker, companions=[misfits.Talker], quiet=True)]
     unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]
     assert unearned == []

@@ -1,6 +1,7 @@
 """Hangs, livelocks, deadlocks and work that is not started yet, as real runs end with them."""
 
 import pytest
+from std_srvs.srv import Trigger
 
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
@@ -10,9 +11,12 @@ from tests.students import misfits, mistakes
 
 
 class Flooding(misfits.Talker):
+    """Asks and asks, and lets nobody answer."""
+
     def tick(self):
+        client = self.create_client(Trigger, "ask")
         while True:
-            super().tick()
+            client.call_async(Trigger.Request())
 
 
 def fault_of(student):

@@ -21,6 +21,9 @@ SENTENCES = {
     "is no finite number. In the scan of 0.1 s ray 0 says inf (nothing is there).",
     (flaws.Chatter, flaws.SleepsOverMessages): "/sleeper took 9 of 50 messages: SleepsOverMessages.hear held it for "
     "up to 0.5 s each time, and the next ones came meanwhile. A callback should keep what it hears, and return.",
+    (flaws.TalksWithoutAPause,): "A loop without a pause keeps a whole core of the processor busy from 0 s on: thread "
+    "TalksWithoutAPause.talk(), at line 95: while rclpy.ok():. Let a timer do what is in it, or put "
+    "time.sleep(0.01) there.",
     (misfits.SleepyTalker,): "The timer of /talker fired once in 5 s; 5 were due. Most likely SleepyTalker.tick "
     "waits (time.sleep, a long loop, a blocking service call) instead of returning: it held the node for 3 s. "
     "Let the timer do the waiting.",

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from grader.__main__ import main as command_line
 from grader.marking.command.cli import main
 from grader.marking.command.mark_class import Settings
 from grader.marking.errors import SandboxMissing
@@ -128,20 +129,16 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
     assert capsys.readouterr().err.endswith(expected)
 
 
-def grader(folder, *arguments, **options):
-    command = [sys.executable, "-m", "grader", *arguments]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    return subprocess.run(command, cwd=folder, env=environment, text=True, capture_output=True, **options)
-
-
-def test_the_command_says_how_it_is_used(tmp_path):
+def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = "usage: python -m grader mark ASSIGNMENT [--help]\n"
-    asked, wrong = grader(tmp_path, "--help"), grader(tmp_path, "grade")
-    assert (asked.returncode, asked.stdout) == (0, usage)
-    assert (wrong.returncode, wrong.stderr) == (2, usage)
-    outside = grader(tmp_path, "mark", "01_nodes")
+    assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))
+    command = [sys.executable, "-m", "grader", "grade"]
+    wrong = subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
+    assert (wrong.returncode, wrong.stdout, wrong.stderr) == (2, "", usage)
+    monkeypatch.chdir(tmp_path)
+    assert command_line(["mark", "01_nodes"]) == 1
     expected = f"expected nbgrader_config.py in {tmp_path}, saw none: go to the course's folder"
-    assert (outside.returncode, outside.stderr) == (1, f"Not marked: {expected}.\n")
+    assert capsys.readouterr().err == f"Not marked: {expected}.\n"
 
 
 def test_a_full_disk_loses_nothing_that_is_marked(course, command, pool, capsys):

@@ -6,7 +6,8 @@ import pytest
 from grader.marking.command.intake import check_release, find_submissions
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.book import Book
-from tests.marking.classroom import ASSIGNMENT, POINTS, WRITTEN, release_again, tasks
+from grader.marking.release.make_exercises import release
+from tests.marking.classroom import ASSIGNMENT, POINTS, WRITTEN, tasks
 
 REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
 KNOWN = {("nodes", cell): points for cell, points in {**POINTS, WRITTEN: 5.0}.items()}
@@ -93,7 +94,7 @@ def test_a_release_that_is_not_what_its_source_gives_is_named(course):
     edit(course.source(ASSIGNMENT) / "nodes.ipynb", test_line="nodes.line.grade(Line, Counter)")
     file = f"exercises/{ASSIGNMENT}/nodes.ipynb is not what solutions/ gives now"
     assert said(check_release, course, ASSIGNMENT, KNOWN) == f"{file}: {REMAKE}, or take solutions/ back"
-    release_again(course)
+    release(course.root)
     check_release(course, ASSIGNMENT, KNOWN)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from grader.diagnosis.fault import NOT_STARTED
 from grader.marking.command.summary import Concern, Mistake, summarise
-from grader.marking.command.summary_page import as_page
+from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.result import CellResult, NotebookResult, Result
 from tests.marking.classroom import verdict
@@ -109,6 +109,46 @@ def test_a_broken_check_without_words_and_a_stopped_notebook_are_looked_at():
     ]
 
 
+def test_what_was_mended_and_has_few_points_is_looked_at(results):
+    mended = ["It was mended.", "It was moved."]
+    few = student("anna", counted(0.5), lined(0), verdict="repaired", repairs=mended)
+    enough = student("bob", counted(1), lined(0.25), verdict="repaired", repairs=["It was mended."])
+    assert summarise("01_class", WORTH, {"anna": few, "bob": enough}).concerns[1:] == [
+        Concern("anna", "mended, and has 2 of 10 points: It was mended. It was moved."),
+    ]
+
+
+def test_what_a_flag_says_of_a_test_cell_is_not_said_twice():
+    unsure = replace(lined(0), needs_look=True, verdicts=[])
+    found = student("anna", counted(1), unsure, flags=["The test cell `test_line`: it broke.", "Odd."])
+    assert summarise("01_class", WORTH, {"anna": found}).concerns[1:] == [
+        Concern("anna", "The test cell `test_line`: it broke. Set its points by hand."),
+        Concern("anna", "Odd."),
+    ]
+
+
+def test_the_page_links_to_the_students_pages(course, results):
+    for name in ("anna", "eve & co"):
+        page = course.feedback(name, "01_class") / "nodes.html"
+        page.parent.mkdir(parents=True)
+        page.touch()
+    results["eve & co"] = replace(results["eve"], student="eve & co")
+    links = page_links(course, "01_class", results, course.root / "class" / "a.html")
+    assert links == {
+        "anna": "feedback/anna/01_class/nodes.html",
+        "eve & co": "feedback/eve%20%26%20co/01_class/nodes.html",
+    }
+    shown = as_page(summarise("01_class", WORTH, results), links)
+    assert '<td><a href="feedback/eve%20%26%20co/01_class/nodes.html">eve &amp; co</a></td>' in shown
+    assert "<td>bob</td>" in shown
+
+
+def test_a_terminal_obeys_nothing_of_the_table():
+    result = student("\x1b[2Jann", verdict="refused", reason="\t=1\x1b]0;x\x07", flags=["a\x9b2J"])
+    (row,) = csv.DictReader(io.StringIO(as_csv("01_class", {"ann": result})))
+    assert [row[name] for name in ("student", "reason", "flags")] == [" [2Jann", "' =1 ]0;x ", "a 2J"]
+
+
 def test_nobody_marked_is_a_summary_without_times():
     nothing = summarise("01_class", WORTH, {})
     assert nothing.times is None
@@ -174,7 +214,7 @@ def test_the_page_says_the_same_and_loads_and_runs_nothing(results):
         "html", "head", "meta", "title", "style", "body", "h1", "h2", "p",
         "table", "thead", "tbody", "tr", "th", "td",
     }
-    assert page.attributes <= {"lang", "charset", "class"}
+    assert page.attributes <= {"lang", "charset", "class", "name", "content"}
 
 
 def test_what_a_submission_says_is_text_in_the_page(results):

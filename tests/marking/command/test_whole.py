@@ -9,7 +9,7 @@ import pytest
 from nbgrader.api import Gradebook
 
 from grader.exercises import nodes
-from grader.marking.release.make_exercises import copy_of_course
+from grader.marking.release.make_exercises import copy_of_course, release
 from grader.marking.release.nbgrader_command import nbgrader
 from grader.marking.release.samples import submit_samples
 from tests.marking.tiny import ROOT
@@ -23,7 +23,7 @@ HIDDEN = (SECRET, "COURSE_SECRET", "site-packages", str(ROOT), "Traceback (most 
 def marked(tmp_path_factory):
     """A class with a right, a half right, an untouched and a broken submission, and what the command said."""
     course = copy_of_course(ROOT, tmp_path_factory.mktemp("course"))
-    nbgrader(course, "generate_assignment", "01_nodes", "--force")
+    release(course)
     submit_samples(course, "01_nodes")
     broken = course / "class" / "submitted" / "zoe" / "01_nodes"
     broken.mkdir(parents=True)
@@ -54,6 +54,7 @@ def test_the_command_says_what_everybody_has(marked):
     assert "\n4 marked now, 4 of 4 in all, in " in said
 
 
+@pytest.mark.soak
 def test_nbgrader_exports_the_same_points(marked):
     course, _ = marked
     nbgrader(course, "export")
@@ -74,6 +75,7 @@ def test_pages_show_scores_and_verdicts_and_nothing_of_the_instructors(marked):
         assert [word for word in (*HIDDEN, str(course)) if word in page] == []
 
 
+@pytest.mark.soak
 def test_nbgraders_own_feedback_and_autograde_take_it_as_it_is(marked):
     course, _ = marked
     before, points = pages(course), scores(course)

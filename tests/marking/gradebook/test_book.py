@@ -13,9 +13,10 @@ from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.marked_notebooks import marked_notebooks, time_handed_in
+from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
 from grader.marking.result import CellResult
-from tests.marking.classroom import ASSIGNMENT, classroom, gradebook, release_again, result, submit, tasks
+from tests.marking.classroom import ASSIGNMENT, classroom, gradebook, result, submit, tasks
 
 LATE = """
 from nbgrader.plugins import LateSubmissionPlugin
@@ -29,6 +30,28 @@ class Late(LateSubmissionPlugin):
 @pytest.fixture
 def task(course):
     return tasks(course)[0]
+
+
+def test_the_points_of_a_class_are_exported_into_its_folder(course, task):
+    with Book(course) as book:
+        book._gradebook.add_assignment("02_later")
+    write(course, task)
+    with Gradebook(course.database) as book:
+        book.update_or_create_student("bob", first_name="Bob", last_name="Hill")
+    nbgrader(course.root, "export")
+    rows = (course.root / "class" / "grades.csv").read_text().splitlines()
+    told = [[row.split(",")[index] for index in (0, 3, 4, 9)] for row in rows[1:]]
+    score = str(gradebook(course)["anna"]["score"])
+    assert told == [["01_class", "bob", "Hill", "0.0"], ["01_class", "anna", "anna", score]]
+    assert not (course.root / "grades.csv").exists()
+
+
+def test_a_name_that_the_gradebook_has_stays(course, task):
+    with Gradebook(course.database) as book:
+        book.update_or_create_student("anna", first_name="Anna", last_name="Meier")
+    write(course, task)
+    with Gradebook(course.database) as book:
+        assert book.find_student("anna").last_name == "Meier"
 
 
 @pytest.fixture
@@ -79,7 +102,7 @@ def test_it_writes_what_nbgrader_autograde_writes(tmp_path, monkeypatch):
     (course.root / "late.py").write_text(LATE)
     with open(course.root / "nbgrader_config.py", "a") as configuration:
         configuration.write("\nc.AssignLatePenalties.plugin_class = 'late.Late'\n")
-    release_again(course)
+    release(course.root)
     with Gradebook(course.database, course.name) as book:
         book.update_or_create_assignment(ASSIGNMENT, duedate=datetime(2026, 1, 5))
     submit(course, "anna", time="2026-01-06 10:00:00 UTC")

@@ -45,7 +45,11 @@ def test_another_folder_structure_is_understood(course):
 
 @pytest.mark.parametrize(
     ("name", "shown", "saw"),
-    [(b"ann\xff", "ann?", "bytes that are no UTF-8"), (b"a" * 201, "a" * 60 + "...", "201 bytes")],
+    [
+        (b"ann\xff", "ann?", "bytes that are no UTF-8"),
+        (b"a" * 201, "a" * 60 + "...", "201 bytes"),
+        (b"ann\nbob", "ann\nbob", "two lines"),
+    ],
 )
 def test_a_name_that_no_file_can_be_called_after_is_told_before_anything_is_marked(course, name, shown, saw):
     place = course.submitted(os.fsdecode(name), ASSIGNMENT)
@@ -53,7 +57,7 @@ def test_a_name_that_no_file_can_be_called_after_is_told_before_anything_is_mark
     with pytest.raises(CourseError) as failed:
         course.students(ASSIGNMENT)
     assert str(failed.value) == (
-        f"a student's folder has the name {shown!r}, {saw}; expected a text of at most 200 bytes: "
+        f"a student's folder has the name {shown!r}, {saw}; expected one line of at most 200 bytes: "
         f"rename it in {place.parent.parent}"
     )
 

@@ -358,7 +358,7 @@ def test_many_odd_cells_are_told_in_a_few_sentences():
     repairs = rebuilt(damage).repairs
     assert len(repairs) == 6
     assert repairs[4:] == [
-        "Cell 42 of the notebook holds a number for its text; that was left out.",
+        "Cell 44 of the notebook holds a number for its text; that was left out.",
         "The notebook has 295 more such oddities.",
     ]
 
@@ -376,26 +376,62 @@ def test_all_is_found_by_text_and_place_among_cells_of_the_students_own():
     assert result.repairs == [BY_LOOK]
 
 
-def test_cells_run_in_the_students_order():
+def test_words_and_own_cells_stay_where_the_student_had_them():
     def damage(notebook):
-        notebook["cells"].insert(2, notebook["cells"].pop(position(notebook, "counter")))
-        notebook["cells"].append(notebook["cells"].pop(position(notebook, "hello-see")))
+        notebook["cells"].insert(2, notebook["cells"].pop(position(notebook, "counter-task")))
+        notebook["cells"].insert(position(notebook, "hello"), own("x = 1"))
 
     ids = [cell.id for cell in SOLVED.cells]
-    ids.insert(2, ids.pop(ids.index("counter")))
-    ids.append(ids.pop(ids.index("hello-see")))
+    ids.insert(2, ids.pop(ids.index("counter-task")))
+    ids.insert(ids.index("hello"), "f00d")
     result = rebuilt(damage)
     assert [cell.id for cell in result.notebook.cells] == ids
     assert (result.repairs, result.flags) == ([], [])
 
 
-def test_a_test_that_stood_before_its_answer_runs_after_it():
+def move(name, where):
+    return lambda notebook: notebook["cells"].insert(where, notebook["cells"].pop(position(notebook, name)))
+
+
+@pytest.mark.parametrize(
+    ("name", "where"),
+    [
+        ("setup", 100),
+        ("hello", 100),
+        ("hello-points", 0),
+        ("counter", 2),
+        ("main-given", 100),
+        ("hello-see", 9),
+    ],
+)
+def test_a_cell_that_has_left_its_place_runs_there(name, where):
+    result = rebuilt(move(name, where))
+    assert [cell.id for cell in result.notebook.cells] == [cell.id for cell in SOLVED.cells]
+    assert result.repairs == [f"The cell `{name}` had left its place in the assignment; it was run there."]
+
+
+def test_a_missing_cell_has_its_place_though_words_have_left_theirs():
     def damage(notebook):
-        notebook["cells"].append(notebook["cells"].pop(position(notebook, "hello")))
+        move("counter-task", 1)(notebook)
+        delete("hello-points", "setup")(notebook)
 
     result = rebuilt(damage)
-    assert [cell.id for cell in result.notebook.cells[-2:]] == ["hello", "hello-points"]
-    assert result.repairs == ["The test cell `hello-points` stood before its answer; it was run after it."]
+    assert [cell.id for cell in result.notebook.cells] == [cell.id for cell in SOLVED.cells]
+
+
+def test_a_notebook_from_back_to_front_runs_as_it_was_handed_out():
+    def damage(notebook):
+        notebook["cells"].insert(position(notebook, "counter") + 1, own("x = 1"))
+        notebook["cells"].reverse()
+
+    result = rebuilt(damage)
+    ids = [cell.id for cell in SOLVED.cells]
+    ids.insert(ids.index("counter"), "f00d")
+    assert [cell.id for cell in result.notebook.cells] == ids
+    assert result.repairs == [
+        "The cells `hello`, `hello-see`, `hello-points`, `counter`, `counter-see` and 16 more had left their "
+        "places in the assignment; they were run there."
+    ]
 
 
 def test_own_cells_run_before_a_test_that_was_deleted_behind_them():

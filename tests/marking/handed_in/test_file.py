@@ -94,7 +94,7 @@ MENDED = {
     ),
     "cut off in its metadata": (
         WHOLE[: WHOLE.rindex(b'"language_info"')],
-        "The notebook's file is damaged behind cell 37; what stands before was marked.",
+        "The notebook's file is damaged behind cell 39; what stands before was marked.",
     ),
 }
 
@@ -196,8 +196,8 @@ def test_a_file_that_breaks_off_is_marked_as_far_as_it_goes():
         "empty cells took their places.",
         "The test cells `counter-points`, `battery-points`, `heart-points`, `main-points` and "
         "`weather-points` were missing; the instructor's own were run.",
-        "The cells `battery-see`, `heart-see`, `main-given`, `main-see` and `weather-see` were missing; "
-        "those that were handed out were run.",
+        "The cells `battery-see`, `heart-see`, `main-given`, `main-see`, `weather-see` and 1 more were "
+        "missing; those that were handed out were run.",
     ]
 
 

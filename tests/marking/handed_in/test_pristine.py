@@ -26,10 +26,12 @@ def test_an_honest_submission_is_run_as_it_is_and_nothing_is_said(assignment, sh
 def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assignment):
     release = load_release(ROOT / "exercises" / assignment)
     rebuilt = rebuilt_folder(ROOT / "solutions" / assignment, release)
+    beside = ["answers.md"]
     # A cell of 01_nodes writes it, so it lies there where the solution was run.
-    beside = ["Handed in beside the notebook and not used: `my_weather.py`."]
-    written = (ROOT / "solutions" / assignment / "my_weather.py").exists()
-    assert (rebuilt.repairs, rebuilt.flags) == (beside if written else [], [])
+    if (ROOT / "solutions" / assignment / "my_weather.py").exists():
+        beside.append("my_weather.py")
+    said = f"Handed in beside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
+    assert (rebuilt.repairs, rebuilt.flags) == ([said], [])
     for name, starter in release.notebooks.items():
         solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
         assert same(rebuilt.notebooks[name].notebook, submission(solution, starter, 1.0))

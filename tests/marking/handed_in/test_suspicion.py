@@ -30,6 +30,8 @@ ROOT = Path(__file__).parents[3]
             "uses `get_ipython().events`, which runs code around every cell",
         ),
         ("import os\nos._exit(0)", "uses `os._exit`, which ends the process"),
+        ("import os\nos.kill(1, 9)", "uses `os.kill`, which stops processes"),
+        ("import signal\nx = signal.SIGALRM", "uses `signal.SIGALRM`, which interrupts what runs"),
         ("import rclpy\nrclpy.spin = print", "replaces `rclpy.spin`, which is part of rclpy"),
         (
             "from grader.exercises import topics\ntopics.square.checks = ()",

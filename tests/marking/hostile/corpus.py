@@ -37,6 +37,8 @@ ASSIGNMENT, NAME = "02_small", "topics.ipynb"
 SECRET = "a secret of this test"
 HONEST = {"honest_right": 1.0, "honest_half": 0.5, "honest_starter": 0.0}
 KEPT = re.compile(r"setup|(temperature|square)(-points)?")
+# Whom a limit of wall time stops; all others have the usual limits, which no busy machine reaches.
+WITHOUT_END = ("endless_loop", "fake_clock", "leftover_thread", "nodes_without_end", "print_flood")
 QUICK = TimeLimits(cell=4.0, test=15.0)
 
 
@@ -97,8 +99,12 @@ def mark(folder: Path, names: Sequence[str], jobs: int = 2) -> dict[str, Result]
     submitted, released = folder / "class" / "submitted", load_release(folder / "exercises" / ASSIGNMENT)
     read = {name: read_folder(submitted / name / ASSIGNMENT, released) for name in names}
     tasks = [Task(name, released, handed_in, "00") for name, handed_in in read.items()]
-    with Pool(jobs, secret=SECRET, time_limits=QUICK) as pool:
-        found = {result.student: result for result in pool.mark(tasks)}
+    found = {}
+    for limits in (TimeLimits(), QUICK):
+        some = [task for task in tasks if (task.student in WITHOUT_END) == (limits == QUICK)]
+        if some:
+            with Pool(jobs, secret=SECRET, time_limits=limits) as pool:
+                found |= {result.student: result for result in pool.mark(some)}
     return {name: found[name] for name in names}
 
 

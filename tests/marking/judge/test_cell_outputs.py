@@ -153,8 +153,8 @@ def test_what_was_written_can_be_had_alone_as_stdout():
     cell = CellOutputs(Displays())
     for output in (stream("a"), picture("p"), stream("b", "stderr")):
         cell.add({"output": output})
-    assert cell.printed_text == [stream("ab")]
-    assert CellOutputs(Displays()).printed_text == []
+    assert cell.printed_text == "ab"
+    assert CellOutputs(Displays()).printed_text == ""
 
 
 @pytest.mark.parametrize(

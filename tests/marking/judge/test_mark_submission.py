@@ -8,8 +8,11 @@ from grader.exercises import topics
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.result import Result
+from grader.marking.task import TimeLimits
+from sim.ros.remote.events import Message
+from sim.ros.remote.ledger import Ledger
 from tests.marking.assignment import GREETER, RIGHT, hand_in, release, task
-from tests.marking.student_processes import QUICK
+from tests.marking.student_processes import QUICK, USUAL
 
 
 @pytest.fixture
@@ -17,9 +20,9 @@ def marked(tmp_path, start_student, monkeypatch):
     """Marks a submission with these answers."""
     released = release(tmp_path / "02_two")
 
-    def do(secret: str = "", time_limits=QUICK, **answers: str) -> Result:
+    def do(secret: str = "", time_limits=USUAL, student: str = "ann", **answers: str) -> Result:
         texts = {name.replace("_", "-"): text for name, text in answers.items()}
-        task = hand_in(tmp_path / "ann", released, texts)
+        task = hand_in(tmp_path / student, released, texts)
         result = mark_submission(task, secret, lambda: start_student(time_limits, begun=False).student)
         return Result.from_json(result_text(result))
 
@@ -49,6 +52,13 @@ def test_the_secret_gives_other_seeds_and_the_same_points(marked):
     public, private = marked(), marked("a secret")
     assert points(private) == points(public)
     digests = [[cell.digests for cell in result.notebooks[0].cells] for result in (public, private)]
+    assert digests[0][1] != digests[1][1]
+
+
+def test_two_students_have_other_seeds_and_the_same_points(marked):
+    ann, bob = marked("a secret"), marked("a secret", student="bob")
+    assert points(bob) == points(ann)
+    digests = [[cell.digests for cell in result.notebooks[0].cells] for result in (ann, bob)]
     assert digests[0][1] != digests[1][1]
 
 
@@ -98,7 +108,7 @@ def test_an_error_in_another_cell_stops_nothing(marked):
 
 
 def test_an_endless_cell_is_interrupted_and_the_rest_is_marked(marked):
-    result = marked(greeting_see="while True: pass")
+    result = marked(greeting_see="while True: pass", time_limits=QUICK)
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
     assert text(result, "greeting-see") == "This cell was interrupted: it took more than 1 s.\n"
     assert result.verdict == "marked"
@@ -128,11 +138,11 @@ def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
 
 
 def test_nodes_that_take_too_long_are_named_and_keep_what_was_earned_before(marked):
-    slow = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "float(sum(range(10**8)))")
-    result = marked(temperature=slow, time_limits=replace(QUICK, test=0.5))
+    slow = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "float(sum(range(10**10)))")
+    result = marked(temperature=slow, time_limits=TimeLimits(test=4.0))
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
     assert result.reason == (
-        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 0.5 s."
+        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 4 s."
     )
 
 
@@ -277,3 +287,107 @@ def test_of_very_many_tricks_the_first_are_told(marked):
     assert len(result.flags) == 21
     assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
     assert result.flags[-1] == "There are 10 more such things in it."
+
+
+def test_what_is_written_in_private_worlds_is_for_the_instructor(marked):
+    writing = "import os\n" + GREETER.replace("lambda: ", "lambda: os.write(1, b'psst ') and ")
+    public, private = (marked(secret, greeting=writing, greeting_see="") for secret in ("", "a secret"))
+    assert text(public, "greeting-points").startswith("psst psst")
+    assert "psst" not in text(private, "greeting-points")
+    last = cell(private, "greeting-points")["outputs"][-1]
+    assert last["metadata"] == {"for_instructor": True}
+    opening = "Written in private worlds; not on the student's page:\npsst psst"
+    assert last["data"]["text/plain"].startswith(opening)
+
+
+# -- the process lives, and could not serve its nodes ---------------------------------------------------
+
+NO_DESCRIPTORS = """
+import os, resource
+resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40))
+kept = []
+try:
+    while True:
+        kept.append(open(os.devnull))
+except OSError:
+    pass
+"""
+
+
+def test_a_notebook_without_file_descriptors_goes_on(marked):
+    freed = f"[file.close() for file in kept]\n{RIGHT['temperature']}"
+    result = marked(greeting=GREETER + NO_DESCRIPTORS, temperature=freed)
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, False]
+    why = "The nodes could not be run: OSError: Too many open files"
+    assert (result.verdict, result.reason) == ("marked", "")
+    assert result.flags == [
+        f"The test cell `greeting-points`: not judged, and worth a look. {why}.",
+    ]
+    assert text(result, "greeting-points") == (
+        f"No points: this could not be judged. {why}. Your instructor will look at it.\n"
+    )
+
+
+def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked, monkeypatch):
+    def fails(*_):
+        raise RuntimeError("an end that is gone")
+
+    monkeypatch.setattr(Ledger, "_message", fails)
+    monkeypatch.setitem(Ledger.HANDLERS, Message, fails)
+    result = marked()
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
+    assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
+    said = "could not be judged, by a mistake of the course: RuntimeError: an end that is gone."
+    assert result.flags == [f"The test cell `{name}`: {said}" for name in points(result)]
+    assert result.verdict == "marked"
+    assert text(result, "greeting-points") == (
+        "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"
+    )
+
+
+def test_who_sends_nonsense_loses_that_exercise(marked):
+    forging = f"""
+from sim.ros.remote.reports import Reports
+honest = Reports.take_news
+Reports.take_news = lambda self: [["dance"]]
+{GREETER}"""
+    honest = f"Reports.take_news = honest\n{RIGHT['temperature']}"
+    result = marked(greeting=forging, temperature=honest, greeting_see="")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert result.flags[-1] == (
+        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The process with the nodes sent an event of no known kind."
+    )
+
+
+def test_a_run_that_ends_over_there_before_its_time_is_named(marked):
+    leaving = f"""
+from sim.ros.remote.serving import Follower
+honest = Follower._rounds
+def _rounds(self, link):
+    raise KeyboardInterrupt("past the node")
+Follower._rounds = _rounds
+{GREETER}"""
+    honest = f"Follower._rounds = honest\n{RIGHT['temperature']}"
+    result = marked(greeting=leaving, temperature=honest, greeting_see="")
+    assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
+    assert result.flags[-1] == (
+        "The test cell `greeting-points`: not judged, and worth a look. "
+        "The nodes could not be run: KeyboardInterrupt: past the node."
+    )
+
+
+def test_a_side_thread_that_crashes_at_once_is_named_and_costs_nothing_that_went_out(marked):
+    crashing = f"""
+import threading
+{GREETER}
+        threading.Thread(target=self.watch).start()
+
+    def watch(self):
+        raise ValueError("nobody listens")
+"""
+    result = marked(greeting=crashing)
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    named = result.notebooks[0].cells[0].verdicts[0]
+    assert named["saw"] == "ValueError: nobody listens (in thread Greeter.watch, line 11, at 0 s)"

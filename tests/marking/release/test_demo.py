@@ -1,6 +1,7 @@
 import re
 from pathlib import Path
 
+import nbformat
 import pytest
 from nbgrader.apps import NbGrader
 from nbgrader.validator import Validator
@@ -12,11 +13,20 @@ from grader.marking.release.nbgrader_command import assignments
 from grader.marking.release.samples import SHARES
 from tests.marking.tiny import ROOT, course, grade, tiny
 
+STEPS: list[str] = []
+TABLE = "<table><caption>a table</caption></table>"
+SHOW = f"from IPython.display import HTML, display\ndisplay(HTML('{TABLE}<script>steal()</script>'))"
+
 
 @pytest.fixture(scope="module")
 def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
-    folder = tiny(tmp_path_factory.mktemp("class"))
-    return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny")}
+    """The samples of a tiny course, marked by nbgrader; its notebook shows a table and has scripts in it."""
+    folder = tiny(
+        tmp_path_factory.mktemp("class"),
+        nbformat.v4.new_code_cell(SHOW, id="show"),
+        nbformat.v4.new_markdown_cell("A *word* <script>steal()</script>", id="words"),
+    )
+    return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny", STEPS.append)}
 
 
 def names(folder: Path) -> set[str]:
@@ -45,6 +55,14 @@ def test_marks_are_full_for_right_part_for_half_right_and_none_for_the_starter(m
     }
 
 
+def test_each_step_is_told(marked_course):
+    assert STEPS == [
+        "1 of 1: exercises/01_tiny",
+        "Running the notebooks of right, half_right, wrong ...",
+        "Writing their pages of feedback ...",
+    ]
+
+
 def test_what_a_test_cell_writes_to_stderr_costs_nothing_and_shows_in_the_feedback(marked_course):
     right = marked_course[1]["right"]
     assert right.points["test_warn"] == (1, 1)
@@ -52,10 +70,17 @@ def test_what_a_test_cell_writes_to_stderr_costs_nothing_and_shows_in_the_feedba
     assert "from C" in text(right.feedback)
 
 
+def test_feedback_shows_a_score_table_and_runs_no_script(marked_course):
+    page = marked_course[1]["right"].feedback.read_text()
+    assert TABLE in page
+    assert "<p>A <em>word</em> </p>" in page
+    assert "steal()</script>" not in page
+
+
 def test_everything_about_a_class_lies_in_the_ignored_folder(marked_course):
     folder, _ = marked_course
     assert names(folder) == {"class", "exercises", "nbgrader_config.py", "solutions"}
-    assert names(folder / "class") == {"autograded", "feedback", "gradebook.db", "submitted"}
+    assert names(folder / "class") == {"autograded", "exchange", "feedback", "gradebook.db", "submitted"}
     assert "/class/\n" in (ROOT / ".gitignore").read_text()
 
 
@@ -100,6 +125,7 @@ def test_the_demo_outside_a_course_says_where_to_go(tmp_path, monkeypatch, capsy
     assert capsys.readouterr().err.endswith(expected)
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("assignment", assignments(ROOT)[:1])  # tests/exercises runs the others' notebooks
 def test_the_courses_own_solutions_earn_everything_and_its_starters_nothing(assignment, tmp_path):
     marks = {marked.student: marked for marked in mark_samples(copy_of_course(ROOT, tmp_path), assignment)}

@@ -41,9 +41,12 @@ def test_plain_nbgrader_releases_notebooks_in_the_one_form(tiny_course):
     assert normalise([tiny_course / "exercises"], check=True) == []
 
 
-def test_a_release_made_twice_is_the_same(tiny_course):
-    release(tiny_course)
+def test_a_release_made_twice_is_the_same_and_says_what_it_is_at(tiny_course, monkeypatch, capfd):
+    monkeypatch.chdir(tiny_course)
+    assert main([]) == 0
+    assert capfd.readouterr().out == "1 of 1: exercises/01_tiny\n"
     assert differences(tiny_course) == []
+    assert capfd.readouterr().out == ""
 
 
 def test_answer_files_stay_and_data_files_go_along(tiny_course):

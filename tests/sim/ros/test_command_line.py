@@ -2,6 +2,8 @@
 
 import sys
 
+import pytest
+
 from sim import Process, run
 from tests.sim.ros.evidence import raised, said
 from tests.students.engine import command_line
@@ -87,3 +89,14 @@ def test_stdin_can_be_read_as_a_file():
         (0.0, "reads", "'a\\n'"),
         (0.0, "reads", "'b\\n'"),
     ]
+
+
+@pytest.mark.parametrize("lines", [None, ["w"]])
+def test_single_keys_are_refused(lines):
+    ((*_, kind, words),) = raised(run(Process(command_line.reads_keys, stdin=lines), seconds=1, quiet=True))
+    assert (kind, words) == (
+        "UnsupportedOperation",
+        "a run has no terminal whose keys can be read one by one; give the program lines, as in "
+        'run(Process(main, stdin=["first line", "second line"])) for input(), or drive in the picture of '
+        "play()",
+    )

@@ -179,7 +179,7 @@ def test_outside_a_run_threads_and_locks_are_real():
     def work():
         seen.append(threading.get_ident())
         with lock:
-            event.wait(5)
+            event.wait(60)
 
     thread = threading.Thread(target=work)
     thread.start()
@@ -188,7 +188,7 @@ def test_outside_a_run_threads_and_locks_are_real():
     assert thread.is_alive() and thread.ident == seen[0] != threading.get_ident()
     assert not lock.acquire(timeout=0.02)
     event.set()
-    thread.join(5)
+    thread.join(60)
     assert not thread.is_alive()
     assert type(lock) is type(threading._allocate_lock())
     assert type(queue.SimpleQueue()).__module__ == "_queue"
@@ -228,9 +228,9 @@ def test_outside_a_run_rclpy_waits_in_real_time(node):
     ticks = []
     start = time.monotonic()
     node.create_timer(0.02, lambda: ticks.append(node.get_clock().now().nanoseconds))
-    while len(ticks) < 3 and time.monotonic() - start < 5:
+    while len(ticks) < 3 and time.monotonic() - start < 60:
         rclpy.spin_once(node, timeout_sec=0.5)
-    assert 0.05 < time.monotonic() - start < 5
+    assert 0.05 < time.monotonic() - start < 60
     assert ticks[0] > 1.7e18
     assert wait_for_message(Int32, node, "nothing", time_to_wait=0.02) == (False, None)
     assert node.get_clock().sleep_for(rclpy.duration.Duration(seconds=0.01))
@@ -240,7 +240,7 @@ def test_outside_a_run_executors_use_threads(node):
     idents, barrier = set(), threading.Barrier(2)
 
     def meet():
-        barrier.wait(5)
+        barrier.wait(60)
         idents.add(threading.get_ident())
         timers.pop().cancel()
 
@@ -248,7 +248,7 @@ def test_outside_a_run_executors_use_threads(node):
     timers = [node.create_timer(0.01, meet, callback_group=group) for _ in range(2)]
     executor = MultiThreadedExecutor(2)
     executor.add_node(node)
-    end = time.monotonic() + 5
+    end = time.monotonic() + 60
     while len(idents) < 2 and time.monotonic() < end:
         executor.spin_once(timeout_sec=0.1)
     executor.shutdown()
@@ -280,6 +280,6 @@ def test_in_a_run_a_thread_of_the_users_stays_in_real_time():
     thread.start()
     run(timing.Timers, seconds=400, quiet=True)
     stop.set()
-    thread.join(5)
+    thread.join(60)
     assert len(seen) > 3
-    assert all(0.01 <= duration < 5 for duration in seen)
+    assert all(0.01 <= duration < 60 for duration in seen)

@@ -168,7 +168,7 @@ def test_the_users_executor_spins_in_a_thread_during_a_run(users_node):
     thread.start()
     usual = run(mains.classic, world="room", seconds=20, quiet=True)
     executor.shutdown()
-    thread.join(10)
+    thread.join(120)
     assert not thread.is_alive()
     assert len(ticks) > 3 and set(ticks) == {thread.ident}
     assert usual.digest == run(mains.classic, world="room", seconds=20, quiet=True).digest

@@ -94,6 +94,7 @@ def test_a_late_joiner_gets_the_last_latched_messages():
     (publisher,) = recording.graph.publishers("/map")
     assert publisher.qos == {
         "reliability": "reliable", "durability": "transient_local", "history": "keep_last", "depth": 3,
+        "liveliness": "automatic", "deadline": None, "lifespan": None, "liveliness_lease_duration": None,
     }  # fmt: skip
 
 

@@ -47,7 +47,7 @@ def shown():
     """What each cell shows on stdout."""
     cells = [nbformat.v4.new_code_cell(dedented(source)) for source in CELLS.values()]
     notebook = nbformat.v4.new_notebook(cells=cells)
-    NotebookClient(notebook, timeout=60, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
     return {
         name: "".join(o.text for o in cell.outputs if o.output_type == "stream" and o.name == "stdout")
         for name, cell in zip(CELLS, notebook.cells, strict=True)
@@ -78,7 +78,7 @@ def test_the_stop_button_stops_a_run_and_the_kernel_lives_on():
         client.execute_interactive("from sim import run\nfrom tests.students.engine import mains")
         threading.Timer(1.0, manager.interrupt_kernel).start()
         began = time.monotonic()
-        reply = client.execute_interactive("run(mains.Counter, seconds=900_000, quiet=True)", timeout=60)
+        reply = client.execute_interactive("run(mains.Counter, seconds=900_000, quiet=True)", timeout=300)
         content = reply["content"]
         assert (content["ename"], content["evalue"]) == ("KeyboardInterrupt", "The run was interrupted.")
         assert time.monotonic() - began < 30

@@ -9,6 +9,7 @@ import pytest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 
 from sim import Process, Recording, World, run
@@ -88,6 +89,17 @@ def test_a_driver_stays_on_the_route_at_its_speed(three):
     assert 0.9 < way / (0.3 * 30) <= 1.0
     laps = [p for p in track if math.dist((p.x, p.y), (2, 0.5)) < 0.05]
     assert max(p.stamp for p in laps) - min(p.stamp for p in laps) > 12  # it came there again, a lap later
+
+
+def test_a_driver_commands_as_its_robot_takes_it():
+    convoy = World.load("convoy")
+    stamped = dataclasses.replace(convoy, robot=dataclasses.replace(convoy.robot, stamped=True))
+    usual, recording = (run(world=world, seconds=4, quiet=True) for world in (convoy, stamped))
+    assert recording.topics["/leader/cmd_vel"] == "geometry_msgs/msg/TwistStamped"
+    assert recording.tracks == usual.tracks
+    heard = recording.messages("/leader/cmd_vel")[-1]
+    assert heard.message.header.frame_id == "base_link"
+    assert Time.from_msg(heard.message.header.stamp).nanoseconds == round(heard.stamp * 1e9)
 
 
 def test_a_driver_speaks_as_often_as_it_hears_and_smoothly(three):

@@ -1,11 +1,12 @@
 """The robot as a ROS node: topics, types, frames, stamps, units, and the world behind them."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from rclpy.time import Time
 
-from sim import Process, run
+from sim import Process, World, run
 from sim.world import DT, RobotModel
 from tests.sim.ros.evidence import said, values
 from tests.students.engine import drivers
@@ -130,6 +131,15 @@ def test_wheels_roll_as_far_as_the_robot_drives(straight):
         way, speed = pose.pose.pose.position.x, pose.twist.twist.linear.x
         assert list(joint.position) == [pytest.approx(way / MODEL.wheel_radius)] * 2
         assert list(joint.velocity) == [pytest.approx(speed / MODEL.wheel_radius)] * 2
+
+
+def test_where_its_world_says_so_the_robot_takes_stamped_commands(straight):
+    yard = World.load("yard")
+    stamped = replace(yard, robot=replace(yard.robot, stamped=True))
+    recording = run(drivers.StampedDriver, world=stamped, seconds=2, quiet=True)
+    (command,) = recording.graph.subscriptions("/cmd_vel")
+    assert command.type == "geometry_msgs/msg/TwistStamped"
+    assert recording.path == straight.path
 
 
 def test_without_commands_the_robot_stops_after_half_a_second():

@@ -111,3 +111,8 @@ def test_parameters_are_declared_set_and_refused():
 def test_parameters_are_reached_over_services():
     recording = run(services.Wheel, services.parameter_services, seconds=2, quiet=True)
     assert said(recording) == [(0.0, "0.1 left"), (0.0, "radius 0.1"), (0.0, "set True")]
+
+
+def test_a_call_that_is_watched_is_told_in_four_events():
+    recording = run(services.WatchesItself, seconds=2, quiet=True)
+    assert (recording.errors, sorted(said(recording))) == ([], [(1.0, str(kind)) for kind in range(4)])

@@ -12,7 +12,8 @@ from tests.students.engine import topics
 PROGRAMS = [
     *([found(module, name)] for module, names in ALONE.items() for name in names),
     *([found(*one), found(*other)] for one, other in TOGETHER),
-    *([getattr(observers, one), getattr(observers, other)] for one, other in LOOKING),
+    # The middleware has one program here, and carries what is said before two would have found each other.
+    *([getattr(observers, one), getattr(observers, other)] for one, other in LOOKING if one != "Gossip"),
     [topics.EveryProfile],
     [topics.ForgetsEnds],
     [topics.SpeaksAfterItsEnd],
@@ -69,3 +70,35 @@ def test_a_destroyed_publisher_refuses_to_publish():
     (error,) = run(topics.SpeaksAfterItsEnd, seconds=1, quiet=True).errors
     assert error.type == "RCLError"
     assert "Failed to publish: publisher pointer is invalid" in error.text
+
+
+@pytest.mark.parametrize("programs", [
+    [topics.Hears, topics.SaysItAtOnce], [topics.SaysItAtOnce, topics.Hears],
+], ids=["heard before", "heard after"])  # fmt: skip
+def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs):
+    recording = run(*programs, seconds=3, quiet=True)
+    assert [(line.stamp, line.text) for line in recording.logs] == [
+        (stamp, "from a timer") for stamp in (1.0, 2.0, 3.0)
+    ]
+    lost = [(0.0, "/hasty", "/words"), (1.0, "/hasty", "/more_words")]
+    assert [tuple(row) for row in recording.unheard] == (lost if programs[0] is topics.Hears else lost[1:])
+    assert len(recording.messages("/more_words")) == 3
+
+
+def test_what_is_latched_is_not_lost():
+    recording = run(topics.HearsWhatIsLatched, topics.SaysItAtOnceAndLatches, seconds=1, quiet=True)
+    assert said(recording) == ["in __init__", "from a timer", "in a new one"]
+    assert recording.unheard == []
+
+
+def test_nodes_of_one_program_know_each_other_at_once():
+    recording = run(topics.both_in_one_program, seconds=1, quiet=True)
+    assert said(recording) == ["in __init__", "from a timer", "in a new one"]
+    assert recording.unheard == []
+
+
+def test_a_subscription_that_is_as_new_hears_nothing_of_that_moment():
+    recording = run(topics.Hears, topics.LateHearer, topics.SaysItAtOnce, seconds=2, quiet=True)
+    assert [(line.stamp, line.node) for line in recording.logs] == [
+        (1.0, "hears"), (2.0, "hears"), (2.0, "late"),
+    ]  # fmt: skip

@@ -6,9 +6,10 @@ import sys
 import time
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.parameter_client import AsyncParameterClient
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Float64, String
@@ -45,17 +46,28 @@ def listen(seconds):
     }))  # fmt: skip
 
 
-def command(seconds, v, w, period):
+def parameters(seconds):
+    """Ask the robot for the names of its parameters, as `ros2 param list` does."""
+    node = node_of("curious")
+    client = AsyncParameterClient(node, "robot")
+    client.wait_for_services(20.0)
+    future = client.list_parameters()
+    rclpy.spin_until_future_complete(node, future, timeout_sec=20.0)
+    print(json.dumps(future.result().result.names))
+
+
+def command(seconds, v, w, period, kind=Twist):
     node = node_of("commander")
-    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+    publisher = node.create_publisher(kind, "cmd_vel", 10)
     twist = Twist()
     twist.linear.x, twist.angular.z = v, w
+    message = twist if kind is Twist else TwistStamped(twist=twist)
     end = time.time() + 30
     while not publisher.get_subscription_count() and time.time() < end:  # until they have found each other
         time.sleep(0.1)
     sent, end = 0, time.time() + seconds
     while time.time() < end:
-        publisher.publish(twist)
+        publisher.publish(message)
         sent += 1
         time.sleep(period)
     print(json.dumps({"sent": sent}))
@@ -63,6 +75,10 @@ def command(seconds, v, w, period):
 
 def drive(seconds):
     command(seconds, 0.5, 0.0, 0.1)
+
+
+def drive_stamped(seconds):
+    command(seconds, 0.5, 0.0, 0.1, TwistStamped)
 
 
 def flood(seconds):

@@ -53,6 +53,10 @@ def test_other_processes_hear_and_drive_it(yard):
     assert after["v"] == 0.0  # nobody commands any more
 
 
+def test_its_parameters_can_be_asked_for(yard):
+    assert "use_sim_time" in json.loads(finish(yard.client("parameters", 1)))
+
+
 @pytest.mark.parametrize("client", ["flood", "huge", "wrong_type", "broken_bytes", "impostor", "crowd"])
 def test_it_goes_on_while_a_client_misbehaves(yard, client):
     misbehaving = yard.client(client, 4)
@@ -115,6 +119,17 @@ def test_other_robots_and_machines_stand_alone_too():
     with robot("--world", "joint", "--headless") as running:
         assert "  gives /joint_states  [sensor_msgs/msg/JointState]\n" in running.offer
         assert json.loads(finish(running.client("joint", 30)))["angle"] == pytest.approx(0.5, abs=0.01)
+        assert running.stop() == (0, "")
+
+
+def test_where_the_world_says_so_it_takes_stamped_commands(tmp_path):
+    world = tmp_path / "stamped.toml"
+    text = (REPOSITORY / "sim/world/worlds/yard.toml").read_text(encoding="utf-8")
+    world.write_text(text.replace("[card]", "[robot]\nstamped = true\n[card]"), encoding="utf-8")
+    with robot("--headless", "--world", str(world)) as running:
+        assert "  takes /cmd_vel  [geometry_msgs/msg/TwistStamped]\n" in running.offer
+        finish(running.client("drive_stamped", 2))
+        assert running.listen()["x"] > 0.3
         assert running.stop() == (0, "")
 
 

@@ -204,7 +204,7 @@ def test_text_is_no_signal():
 def test_a_figure_shows_itself_and_equal_figures_have_equal_bytes():
     first, second = plot_path(driven()), plot_path(driven())
     assert isinstance(first, Figure)
-    assert first._repr_png_() == png(second)
+    assert first._repr_png_()[0] == png(second)
     assert Image.open(io.BytesIO(png(first))).size == (640, 480)
 
 
@@ -241,7 +241,7 @@ def test_twenty_seconds_are_a_small_picture_that_is_always_the_same():
     ]
     moving = animate(recording)
     assert len(bytes(moving)) < 200_000
-    assert bytes(moving) == bytes(animate(recording)) == moving._repr_png_()
+    assert bytes(moving) == bytes(animate(recording)) == moving._repr_png_()[0]
     assert repr(moving) == "<MovingPicture of 20 s>"
 
 

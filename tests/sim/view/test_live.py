@@ -30,8 +30,8 @@ class Place:
 def place(monkeypatch):
     place = Place()
 
-    def display(item, display_id):
-        assert display_id
+    def display(item, raw, display_id):
+        assert raw and display_id
         place.shown.append(item)
         return place
 
@@ -156,9 +156,11 @@ def test_messages_that_come_when_nobody_listens_are_dropped(view):
 
 
 def test_at_the_end_a_replay_takes_the_place_of_the_view(view, place):
+    model = view.model_id
     view.finish(Recording(world=World.load("room"), path=[Pose(0.0, 0.0, 0.0, 0.0)], stamp=1.0))
     first, instead = place.shown
-    assert first is view
+    assert first[live.WIDGET]["model_id"] == model
+    assert live.BESIDE in first  # for a page that shows it beside the notebook
     assert isinstance(instead, Replay)
     assert (view.comm, view.on_command) == (None, None)
 

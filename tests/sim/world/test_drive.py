@@ -1,6 +1,7 @@
 """The drive against closed forms: ramps, lines, arcs, limits, timeout, odometry."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -31,6 +32,15 @@ def test_nothing_moves_without_a_command():
     assert simulation.robot.pose == YARD.start
     assert simulation.robot.odometry == (0, 0, 0, 0, 0)
     assert simulation.robot.wheels == (0, 0, 0, 0)
+
+
+def test_the_odometry_of_a_robot_that_has_driven_before_goes_on_where_it_was():
+    start = (1.0, -2.0, 0.5)
+    simulation = Simulation(replace(YARD, start=start, robot=RobotModel(odometry=start)))
+    assert simulation.robot.odometry == (*start, 0, 0)
+    assert simulation.robot.wheels == (0, 0, 0, 0)
+    keep_driving(simulation, 0.4, 0.6, until=2)
+    assert simulation.robot.odometry[:3] == pytest.approx(simulation.robot.pose, abs=1e-6)
 
 
 def test_speed_ramps_up_at_the_greatest_acceleration():

@@ -8,6 +8,7 @@ from nav2_msgs.action import DriveOnHeading
 from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
+from rclpy.task import Future
 
 
 class Courier(Node):
@@ -210,3 +211,9 @@ class NeverAsksForTheResult(Courier):
     def hear_response(self, future):
         self.goal_handle = future.result()
         self.timer = self.create_timer(self.patience, self.give_up)
+
+
+def main_that_asks_and_ends():
+    rclpy.init()
+    rclpy.spin_until_future_complete(Courier(), Future(), timeout_sec=2.0)
+    rclpy.shutdown()

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import termios
 
 import rclpy
 from example_interfaces.srv import AddTwoInts
@@ -73,3 +74,8 @@ def reads_stdin():
     node = Node("reads")
     for line in sys.stdin:
         node.get_logger().info(repr(line))
+
+
+def reads_keys():
+    """As teleop programs do."""
+    termios.tcgetattr(sys.stdin)

@@ -3,7 +3,7 @@
 import math
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
@@ -14,10 +14,11 @@ class Driver(Node):
     """Commands one velocity, ten times a second, from 0.1 s on."""
 
     v, w = 0.5, 0.0
+    kind = Twist
 
     def __init__(self):
         super().__init__("driver")
-        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.publisher = self.create_publisher(self.kind, "cmd_vel", 10)
         self.create_timer(0.1, self.drive)
 
     def drive(self):
@@ -32,6 +33,18 @@ class Turner(Driver):
 
 class Circler(Driver):
     v, w = 0.4, 0.8
+
+
+class StampedDriver(Driver):
+    """The same velocity, with a header."""
+
+    kind = TwistStamped
+
+    def drive(self):
+        command = TwistStamped()
+        command.header.stamp = self.get_clock().now().to_msg()
+        command.twist.linear.x, command.twist.angular.z = self.v, self.w
+        self.publisher.publish(command)
 
 
 class CommandsNoNumber(Driver):

@@ -9,8 +9,10 @@ import threading
 import time
 
 import rclpy
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
 
 
 class Hanging(Node):
@@ -57,15 +59,6 @@ class LoopInMain:
             pass
 
 
-class LoopInThread(Hanging):
-    def tick(self):
-        threading.Thread(target=self.work).start()
-
-    def work(self):
-        while True:
-            pass
-
-
 class LoopInInit(Node):
     def __init__(self):
         super().__init__("hanging")
@@ -83,12 +76,6 @@ class LoopWithLog(Hanging):
     def tick(self):
         while True:
             self.get_logger().info("still here")
-
-
-class LoopWithPublish(Hanging):
-    def tick(self):
-        while True:
-            self.publisher.publish(Int32())
 
 
 class Recursion(Hanging):
@@ -199,15 +186,26 @@ class ZeroTimer(Hanging):
         self.create_timer(0.0, lambda: None)
 
 
-class SpinsWithoutWaiting:
-    """A spin_once() loop that never lets time go on."""
+class AsksForEver(Hanging):
+    """Waits for an answer that doesn't come, in a loop that no exception leaves."""
 
-    @staticmethod
-    def main():
-        rclpy.init()
-        node = Node("hanging")
+    def __init__(self):
+        super().__init__()
+        self.client = self.create_client(Trigger, "nobody")
+
+    async def tick(self):
         while True:
-            rclpy.spin_once(node, timeout_sec=0)
+            with contextlib.suppress(BaseException):
+                await self.client.call_async(Trigger.Request())
+
+
+def asks_in_a_program_that_ends():
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    executor.add_node(AsksForEver())
+    end = time.monotonic() + 1.5
+    while time.monotonic() < end:
+        executor.spin_once(timeout_sec=0.5)
 
 
 class Allocates(Hanging):

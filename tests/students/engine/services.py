@@ -11,6 +11,8 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
+from rclpy.qos import qos_profile_services_default
+from rclpy.service_introspection import ServiceIntrospectionState
 
 
 class Adder(Node):
@@ -229,3 +231,25 @@ def parameter_services():
     future = parameters.set_parameters([Parameter("radius", value=0.5)])
     rclpy.spin_until_future_complete(node, future)
     node.get_logger().info(f"set {future.result().results[0].successful}")
+
+
+class WatchesItself(Node):
+    """Listens to what its own service and client publish of each call."""
+
+    def __init__(self):
+        super().__init__("watched")
+        service = self.create_service(AddTwoInts, "add", lambda request, response: response)
+        self.client = self.create_client(AddTwoInts, "add")
+        for end in (service, self.client):
+            end.configure_introspection(
+                self.get_clock(), qos_profile_services_default, ServiceIntrospectionState.METADATA
+            )
+        self.create_subscription(AddTwoInts.Event, "add/_service_event", self.hear, 10)
+        self.timer = self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        self.timer.cancel()
+        self.client.call_async(AddTwoInts.Request())
+
+    def hear(self, event):
+        self.get_logger().info(str(event.info.event_type))

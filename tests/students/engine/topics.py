@@ -2,6 +2,8 @@
 
 from itertools import product
 
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -108,3 +110,61 @@ class SpeaksAfterItsEnd(Node):
         out = self.create_publisher(String, "chat", 10)
         self.destroy_publisher(out)
         out.publish(String(data="too late"))
+
+
+class SaysItAtOnce(Node):
+    """Publishes as soon as it has a publisher: in its constructor, and with a new publisher at each tick."""
+
+    profile = QoSProfile(depth=10)
+
+    def __init__(self):
+        super().__init__("hasty")
+        self.say("in __init__", "words")
+        self.create_timer(1.0, lambda: self.say("in a new one", "more_words"))
+        publisher = self.create_publisher(String, "words", self.profile)
+        self.create_timer(1.0, lambda: publisher.publish(String(data="from a timer")))
+
+    def say(self, text, topic):
+        self.create_publisher(String, topic, self.profile).publish(String(data=text))
+
+
+class SaysItAtOnceAndLatches(SaysItAtOnce):
+    profile = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Hears(Node):
+    """Logs what is said on both topics."""
+
+    profile = QoSProfile(depth=10)
+
+    def __init__(self):
+        super().__init__("hears")
+        for topic in ("words", "more_words"):
+            self.create_subscription(String, topic, self.hear, self.profile)
+
+    def hear(self, message):
+        self.get_logger().info(message.data)
+
+
+class HearsWhatIsLatched(Hears):
+    profile = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def both_in_one_program():
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    for node in (Hears(), SaysItAtOnce()):
+        executor.add_node(node)
+    executor.spin()
+
+
+class LateHearer(Node):
+    """Begins to listen at 1 s."""
+
+    def __init__(self):
+        super().__init__("late")
+        self.timer = self.create_timer(1.0, self.listen)
+
+    def listen(self):
+        self.timer.cancel()
+        self.create_subscription(String, "words", lambda message: self.get_logger().info(message.data), 10)

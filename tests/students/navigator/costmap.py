@@ -241,6 +241,13 @@ class NoWholeNumbers(Costmap):
         return (x - corner.x) / width, (y - corner.y) / width
 
 
+class BeginsWithNothing(Costmap):
+    """An empty array in place of a copy."""
+
+    def inflate(self, cells, reach):
+        return np.zeros_like(cells)
+
+
 class OneIsOccupied(Costmap):
     def inflate(self, cells, reach):
         return np.where(super().inflate(cells, reach) == 100, 1, cells)

@@ -166,6 +166,16 @@ class OnlyAtTheEnd(Gyro):
         return math.degrees(yaw) if self.get_clock().now().nanoseconds > 19e9 else 0.0
 
 
+class SmoothsTooMuch(Gyro):
+    """Comes near to the right heading in 2 s, and goes on turning when the robot stands."""
+
+    smooth = 0.0
+
+    def tell(self, yaw):
+        self.smooth += 0.005 * (yaw - self.smooth)
+        return math.degrees(self.smooth)
+
+
 class WaitsTooLong(Gyro):
     """Says nothing until the bias is known, for 5 s."""
 

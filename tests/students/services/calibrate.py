@@ -203,6 +203,14 @@ class PublishesNothing(Gyro):
         self.readings.append(msg.data)
 
 
+class AlwaysZero(Gyro):
+    """Knows that a robot at rest doesn't turn."""
+
+    def hear(self, msg):
+        self.readings.append(msg.data)
+        self.publisher.publish(Float64(data=0.0))
+
+
 class NeverComesBack(Gyro):
     """A loop without end in the callback."""
 

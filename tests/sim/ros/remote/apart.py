@@ -34,7 +34,7 @@ class Apart:
         self.wire = Wire(ours)
 
     @contextlib.contextmanager
-    def serving(self, module: str, *names: str, patience: float = 30.0) -> Iterator[Remote]:
+    def serving(self, module: str, *names: str, patience: float = 120.0) -> Iterator[Remote]:
         """What stands here for nodes of a module; after an error there is a new process."""
         self.wire.send(module=module, names=names)
         remote = Remote(self.wire, patience)

@@ -55,20 +55,25 @@ def test_the_secret_changes_what_the_nodes_draw(apart):
 @pytest.mark.parametrize(
     ("name", "patience", "reason"),
     [
-        ("Killed", 30.0, "The process with the nodes has ended."),
+        ("Killed", 120.0, "The process with the nodes has ended."),
         ("Stopped", 1.0, "The process with the nodes gave no answer for 1 s."),
         (
             "Garbage",
-            30.0,
+            120.0,
             "The process with the nodes sent a message on /chat that is no std_msgs/msg/String.",
         ),
         (
             "Heavy",
-            30.0,
+            120.0,
             "The nodes could not be run: WireBroken: a message of 80000243 bytes is too long: "
             "64000000 are allowed.",
         ),
-        ("Scribbler", 30.0, "The process with the nodes sent events that are no list."),
+        (
+            "Scribbler",
+            120.0,
+            "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
+            "or wrote to its connections.",
+        ),
     ],
 )
 def test_a_process_that_is_lost_midway_is_named(lost, name, patience, reason):

@@ -70,8 +70,9 @@ def test_it_tells_whether_there_is_something_to_run(wires, nodes):
 
 def test_nodes_that_can_t_be_run_are_told_of(wires):
     wires[0].send(do="run", seconds=1.0, seed=0, preparation="")
+    wires[0].send(do="go", now=0, news=[])
     Remote(wires[0]).end()
-    serve(wires[1], [5])
+    assert serve(wires[1], [5]) == {"do": "end"}
     assert wires[0].receive(1) == {
         "failed": "TypeError: grade() takes Node classes, functions that return a node, or main() functions;"
         " this is 5."

@@ -1,0 +1,108 @@
+"""The server that the lesson builds piece by piece, as one node: drive a distance, as Nav2 offers it."""
+
+import math
+import signal
+
+import rclpy
+from geometry_msgs.msg import Twist
+from nav2_msgs.action import DriveOnHeading
+from nav_msgs.msg import Odometry
+from rclpy.action import ActionServer, CancelResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+
+
+class DriveServer(Node):
+    """Serves /drive_on_heading. A newer goal replaces an older one."""
+
+    def __init__(self):
+        super().__init__("drive_server")
+        self.position, self.current = (0.0, 0.0), None
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_subscription(Odometry, "/odom", self.hear_odometry, 10)
+        self.server = ActionServer(
+            self,
+            DriveOnHeading,
+            "/drive_on_heading",
+            self.execute,
+            handle_accepted_callback=self.hear_accepted,
+            cancel_callback=lambda goal_handle: CancelResponse.ACCEPT,
+        )
+
+    def hear_odometry(self, msg):
+        """Keep where the robot is."""
+        self.position = (msg.pose.pose.position.x, msg.pose.pose.position.y)
+
+    def hear_accepted(self, goal_handle):
+        """From now on this goal is the one that counts."""
+        self.current = goal_handle
+        goal_handle.execute()
+
+    async def execute(self, goal_handle):
+        """Drive until the distance is done, or until there is a reason to end early."""
+        goal, start, metres = goal_handle.request, self.position, 0.0
+        begin = self.get_clock().now()
+        while metres < goal.target.x:
+            seconds = (self.get_clock().now() - begin).nanoseconds / 1e9
+            result = self.ends_early(goal_handle, metres, seconds)
+            if result is not None:
+                return result
+            self.send(goal.speed)
+            await self.pause(0.05)
+            metres = math.dist(start, self.position)
+            goal_handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=metres))
+        self.send(0.0)
+        goal_handle.succeed()
+        return DriveOnHeading.Result()
+
+    def ends_early(self, goal_handle, metres, seconds):
+        """The result of a goal that has to end now; None if it may go on."""
+        allowed = goal_handle.request.time_allowance.sec  # 0: as long as it takes
+        if goal_handle is not self.current:  # the robot belongs to the newer goal: don't stop it
+            goal_handle.abort()
+            return DriveOnHeading.Result(error_msg=f"replaced after {metres:.2f} m")
+        if goal_handle.is_cancel_requested:
+            self.send(0.0)
+            goal_handle.canceled()
+            return DriveOnHeading.Result(error_msg=f"canceled after {metres:.2f} m")
+        if seconds > allowed > 0:
+            self.send(0.0)
+            goal_handle.abort()
+            reason = f"only {metres:.2f} m in {allowed} s"
+            return DriveOnHeading.Result(error_code=DriveOnHeading.Result.TIMEOUT, error_msg=reason)
+        return None
+
+    def send(self, speed):
+        """Command a speed, in m/s."""
+        msg = Twist()
+        msg.linear.x = speed
+        self.publisher.publish(msg)
+
+    async def pause(self, seconds):
+        """Wait, and let other callbacks run meanwhile."""
+        done = Future()
+        group = ReentrantCallbackGroup()
+        timer = self.create_timer(seconds, lambda: done.set_result(None), callback_group=group)
+        await done
+        self.destroy_timer(timer)
+
+
+def main(args=None):
+    """Serve until told to end, and stop the robot then."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = DriveServer()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.send(0.0)
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

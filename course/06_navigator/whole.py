@@ -1,0 +1,193 @@
+"""The navigator that the lesson builds piece by piece, as one node. What it computes is in planning.py."""
+
+import math
+import signal
+import time
+
+import rclpy
+from geometry_msgs.msg import PoseStamped, Twist
+from nav2_msgs.action import NavigateToPose
+from nav_msgs.msg import OccupancyGrid, Path
+from planning import carrot, cells_of, inflate, rest_of, search, steer, to_cell, to_point, yaw_of
+from rclpy.action import ActionServer, CancelResponse
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+SPEED, NEAR = 0.4, 0.1  # m/s; m from the goal that are near enough
+MARGIN = 0.15  # m that the path keeps from walls
+
+
+class Navigator(Node):
+    """Serves navigate_to_pose: plans, follows the plan, and plans again when something is in the way."""
+
+    def __init__(self):
+        super().__init__("navigator")
+        self.frames = {}  # where each frame lies in the one above: x, y, yaw
+        self.grid, self.path, self.goal = None, [], None
+        self.plan_publisher = self.create_publisher(Path, "/plan", 10)
+        self.command_publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_subscription(TFMessage, "/tf", self.on_tf, 10)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.create_timer(0.1, self.follow)
+        self.server = ActionServer(
+            self,
+            NavigateToPose,
+            "navigate_to_pose",
+            self.execute,
+            cancel_callback=lambda goal_handle: CancelResponse.ACCEPT,
+        )
+
+    # -- what it hears ---------------------------------------------------------------------------------
+
+    def on_tf(self, msg):
+        """Keep where the frames lie."""
+        for transform in msg.transforms:
+            place, turn = transform.transform.translation, transform.transform.rotation
+            self.frames[transform.child_frame_id] = place.x, place.y, yaw_of(turn)
+
+    def on_map(self, msg):
+        """Keep the map, and a second copy for what the lidar sees beside it."""
+        self.grid, self.known, self.cells = msg, cells_of(msg), cells_of(msg)
+
+    def on_scan(self, scan):
+        """Mark what is near, where the map has nothing."""
+        if not self.is_ready:
+            return
+        x, y, yaw = self.pose
+        for ray, distance in enumerate(scan.ranges):
+            if scan.range_min < distance < 1.5 and ray % 3 == 0:
+                angle = yaw + scan.angle_min + ray * scan.angle_increment
+                self.mark(x + distance * math.cos(angle), y + distance * math.sin(angle))
+
+    # -- where it is -----------------------------------------------------------------------------------
+
+    @property
+    def is_ready(self):
+        """Whether somebody has published the map, and where the robot is in it."""
+        return self.grid is not None and {"odom", "base_link"} <= self.frames.keys()
+
+    @property
+    def pose(self):
+        """x, y and yaw in the frame map."""
+        (x0, y0, yaw0), (x, y, yaw) = self.frames["odom"], self.frames["base_link"]
+        cos, sin = math.cos(yaw0), math.sin(yaw0)
+        return x0 + cos * x - sin * y, y0 + sin * x + cos * y, yaw0 + yaw
+
+    # -- obstacles and plans ---------------------------------------------------------------------------
+
+    def mark(self, x, y):
+        """Mark a point as occupied, and forget the path if it leads past there."""
+        column, row = to_cell(self.grid.info, x, y)
+        inside = 0 <= row < len(self.cells) and 0 <= column < len(self.cells[0])
+        if inside and self.cells[row, column] == 0 and not self.is_explained(row, column):
+            self.cells[row, column] = 100
+            if any(math.dist((x, y), point) < MARGIN for point in self.path):
+                self.path = []
+
+    def is_explained(self, row, column):
+        """Whether the map has something near: a wall is never measured exactly."""
+        return (self.known[max(row - 4, 0) : row + 5, max(column - 4, 0) : column + 5] == 100).any()
+
+    def plan(self, goal):
+        """Find a path from the robot to the goal, and publish it."""
+        info = self.grid.info
+        rows = inflate(self.cells, MARGIN / info.resolution).tolist()
+        here, there = to_cell(info, *self.pose[:2]), to_cell(info, *goal)
+        self.path = [to_point(info, *cell) for cell in search(rows, here, there)]
+        self.plan_publisher.publish(path_message(self.path))
+
+    # -- driving ---------------------------------------------------------------------------------------
+
+    def drive(self, speed, turn):
+        """Command a velocity: m/s and rad/s."""
+        command = Twist()
+        command.linear.x, command.angular.z = speed, turn
+        self.command_publisher.publish(command)
+
+    def follow(self):
+        """Ten times a second: drive a bit further along the path."""
+        goal = self.goal  # once: another thread may take it away at any moment
+        if goal is None or not self.is_ready:
+            return
+        if not self.path:
+            self.plan(goal)
+        path = self.path
+        if path and math.dist(self.pose[:2], goal) > NEAR:
+            self.drive(*steer(self.pose, carrot(path, self.pose)))
+        else:
+            self.drive(0.0, 0.0)
+
+    # -- the action ------------------------------------------------------------------------------------
+
+    def execute(self, goal_handle):
+        """Set the goal, watch, and say how it ended. The timer drives."""
+        position = goal_handle.request.pose.pose.position
+        self.path, self.goal = [], (position.x, position.y)
+        while not self.is_ready or math.dist(self.pose[:2], (position.x, position.y)) > NEAR:
+            if goal_handle.is_cancel_requested:
+                return self.finish(goal_handle.canceled)
+            path = self.path  # once: another thread may empty self.path at any moment
+            if path:
+                goal_handle.publish_feedback(self.feedback(path))
+            time.sleep(0.5)
+        return self.finish(goal_handle.succeed)
+
+    def feedback(self, path):
+        """How far it still is."""
+        feedback = NavigateToPose.Feedback(current_pose=stamped(*self.pose))
+        feedback.distance_remaining = len(rest_of(path, self.pose)) * self.grid.info.resolution  # nearly
+        feedback.estimated_time_remaining.sec = int(feedback.distance_remaining / SPEED)
+        return feedback
+
+    def finish(self, how):
+        """Stop the robot first, and then say how the goal ended."""
+        self.goal = None
+        self.drive(0.0, 0.0)
+        how()
+        return NavigateToPose.Result()
+
+
+# -- messages ------------------------------------------------------------------------------------------
+
+
+def stamped(x, y, yaw=0.0):
+    """A pose in the frame map."""
+    pose = PoseStamped()
+    pose.header.frame_id = "map"
+    pose.pose.position.x, pose.pose.position.y = x, y
+    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return pose
+
+
+def path_message(points):
+    """A path in the frame map."""
+    path = Path(poses=[stamped(*point) for point in points])
+    path.header.frame_id = "map"
+    return path
+
+
+def main(args=None):
+    """Run the navigator until it is told to end, and stop the robot then."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node = Navigator()
+    executor = MultiThreadedExecutor(num_threads=4)  # one waits in execute, the others hear
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.drive(0.0, 0.0)
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

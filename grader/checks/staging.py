@@ -1,0 +1,32 @@
+"""What is evidence: what the world, the robot and our nodes did, and what a student's program did to them.
+
+Messages of a student's program on a topic that another program publishes on, and calls and goals between a
+student's own nodes, are staged: checks never see them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from grader.diagnosis.owners import KINDS, owned
+from sim.evidence import Call, Goal, Recording
+
+
+def evidence_of(recording: Recording) -> Recording:
+    """The recording without what was staged."""
+    ours = {kind: owned(recording, kind) for kind in KINDS}
+    ends = [
+        end for end in recording.graph.endpoints if end.ours or end.name not in ours.get(end.kind, ())
+    ]
+    return replace(
+        recording,
+        heard=[heard for heard in recording.heard if heard.ours or heard.topic not in ours["publisher"]],
+        calls=[call for call in recording.calls if not _among_themselves(call)],
+        goals=[goal for goal in recording.goals if not _among_themselves(goal)],
+        graph=replace(recording.graph, endpoints=ends),
+    )
+
+
+def _among_themselves(exchange: Call | Goal) -> bool:
+    """Whether a student's node asked, and a student's node took it."""
+    return bool(exchange.server) and not (exchange.asked_by_us or exchange.served_by_us)

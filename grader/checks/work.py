@@ -1,0 +1,45 @@
+"""How long a student's programs were at work: what ended, crashed, got stuck or hung earns no more time."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from sim.evidence import Recording, Seconds
+
+CUT_SHORT = "hang", "livelock", "blocked"  # ends of a run that are the student's
+_WAITS = re.compile(r"has waited since t = (\S+) s")
+LIVES = "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown."
+
+
+class Work(NamedTuple):
+    """The part of a run's time, from 0 to 1, in which the student's programs were at work; why not all."""
+
+    share: float
+    why: str = ""
+
+
+def worked_until(recording: Recording) -> Seconds:
+    """When the last of the student's programs had ended or was stuck; else when the run ended."""
+    ended = recording.ended
+    waits = _WAITS.search(ended.detail) if ended.reason == "blocked" else None
+    moments = [ended.stamp, recording.gone, float(waits[1]) if waits else None]
+    return min(moment for moment in moments if moment is not None)
+
+
+def work_of(recording: Recording, *, may_end: bool = False) -> Work:
+    """How much of its time a run has for the checks. may_end: a program that has ended may be done."""
+    until, ended = worked_until(recording), recording.ended
+    whole = ended.stamp if ended.reason in ("goal", "interrupted") else recording.seconds
+    if not whole or until >= whole - 1e-6:
+        return Work(1.0)
+    if ended.reason not in CUT_SHORT and (may_end or recording.gone is None):
+        return Work(1.0)
+    if not (recording.errors or ended.reason in CUT_SHORT):
+        return Work(until / whole, f"{_for(until, whole)}: then your program had ended. {LIVES}")
+    what = "nothing went on" if ended.reason == "blocked" else "the error above ended it"
+    return Work(until / whole, f"{_for(until, whole)}: then {what}.")
+
+
+def _for(until: Seconds, whole: Seconds) -> str:
+    return f"Earned for {until:.3g} of {whole:.3g} s"

@@ -1,0 +1,149 @@
+"""The map of the course: its notebooks with times, what is done and the points so far, and what comes next.
+
+All of it is read from the notebooks as they were saved last, so there is nothing else to keep in step.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader.page import number
+
+PART = re.compile(r"(\d\d)_(\w+)")
+# What a notebook's first cell says of itself.
+TIME = re.compile(r"\*\*Time:\*\* ([^.\n]+)\.")
+NEEDS = re.compile(r"\*\*Before you begin:\*\* ([^.\n]+)\.")
+DONE = 0.9  # of a lesson's cells; who leaves out the rest has read it, too
+NEW_VERSION = "-new"  # ends the name of a newer version that came to lie beside the student's own
+
+
+@dataclass(frozen=True)
+class Notebook:
+    """A lesson or an assignment, as its file says. The points are 0 of 0 in a lesson."""
+
+    path: Path
+    title: str
+    time: str
+    needs: str
+    cells: int
+    run: int
+    points: float
+    most: float
+
+    @property
+    def done(self) -> bool:
+        """Whether there is nothing left to run, or to earn."""
+        return self.points >= self.most if self.most else self.run >= DONE * self.cells > 0
+
+
+class CourseMap:
+    """Shows itself in Jupyter as a table with links, in a terminal as lines. Made by `course_map`."""
+
+    def __init__(self, root: Path, here: Path) -> None:
+        self._root, self._here = root, here
+        self.notebooks = list(_notebooks(root))
+
+    @property
+    def next(self) -> Notebook | None:
+        """The first notebook that is not done; None after the last."""
+        return next((notebook for notebook in self.notebooks if not notebook.done), None)
+
+    def __repr__(self) -> str:
+        lines = [f"{self._name(item)}, {self._state(item)}" for item in self.notebooks]
+        return "\n".join([*lines, self._points(), *([f"Next: {self._name(self.next)}"] if self.next else [])])
+
+    def _repr_html_(self) -> str:
+        cell = "text-align: left; vertical-align: top"
+        heads = ("Notebook", "Time", "Needs", "So far")
+        head = "".join(f'<th scope="col" style="{cell}">{word}</th>' for word in heads)
+        rows = ""
+        for item in self.notebooks:
+            words = (html.escape(item.time), html.escape(item.needs), self._state(item))
+            rows += f'<tr><td style="{cell}">{self._link(item)}</td>'
+            rows += "".join(f'<td style="{cell}">{word}</td>' for word in words) + "</tr>"
+        return (
+            f"<p>{self._next_step()}</p><table><caption>{self._points()}</caption>"
+            f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+        )
+
+    def _next_step(self) -> str:
+        if self.next is None:
+            return "<b>You have done all of it.</b>"
+        time = f", {html.escape(self.next.time)}" if self.next.time else ""
+        return f"<b>Next step: {self._link(self.next)}</b>{time}."
+
+    def _points(self) -> str:
+        earned, most = (sum(getattr(item, name) for item in self.notebooks) for name in ("points", "most"))
+        return f"Your points so far: {number(earned)} of {number(most)}"
+
+    def _link(self, item: Notebook) -> str:
+        up = len(self._here.relative_to(self._root).parts)
+        address = "../" * up + item.path.relative_to(self._root).as_posix()
+        return f'<a href="{html.escape(address)}">{html.escape(self._name(item))}</a>'
+
+    def _name(self, item: Notebook) -> str:
+        kind = "exercises" if item.most else "lesson"
+        return f"{int(item.path.parent.name[:2])} {item.title} ({kind})"
+
+    def _state(self, item: Notebook) -> str:
+        if item.most:
+            return f"{number(item.points)} of {number(item.most)} points"
+        return "✔ done" if item.done else f"{item.run} of {item.cells} cells run"
+
+
+def course_map(here: Path | str | None = None) -> CourseMap:
+    """The map of the course that `here` lies in; the folder of the notebook when left out.
+
+    Raises LookupError when that is no folder of the course.
+    """
+    here = Path(here or Path.cwd()).resolve()
+    for root in (here, *here.parents):
+        if (root / "course").is_dir() and (root / "exercises").is_dir():
+            return CourseMap(root, here)
+    raise LookupError(f"{here} is not in the course: expected a folder with course/ and exercises/ above it.")
+
+
+def _notebooks(root: Path) -> Iterator[Notebook]:
+    """Lessons and assignments in the order in which one learns."""
+    found = [path for folder in ("course", "exercises") for path in (root / folder).glob("*/*.ipynb")]
+    found = [path for path in found if PART.fullmatch(path.parent.name) and NEW_VERSION not in path.stem]
+    for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
+        try:
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+            yield _notebook(path, [cell | {"source": "".join(cell["source"])} for cell in cells])
+        except (AttributeError, KeyError, OSError, TypeError, ValueError):
+            continue  # damaged; JupyterLab says so when it is opened
+
+
+def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
+    text = "\n".join(cell["source"] for cell in cells if cell["cell_type"] == "markdown")
+    code = [cell for cell in cells if cell["cell_type"] == "code" and cell["source"].strip()]
+    tests = [cell for cell in code if cell["metadata"].get("nbgrader", {}).get("grade")]
+    title = next(iter(re.findall(r"^# (?:.*?: )?(.+)$", text, re.MULTILINE)), path.stem)
+    needs = f"lesson {int(path.parent.name[:2])}" if tests else ""
+    return Notebook(
+        path=path,
+        title=title,
+        time=next(iter(TIME.findall(text)), ""),
+        needs=next(iter(NEEDS.findall(text)), needs),
+        cells=len(code),
+        run=sum(cell.get("execution_count") is not None for cell in code),
+        points=sum(map(_earned, tests)),
+        most=sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in tests),
+    )
+
+
+def _earned(cell: dict[str, Any]) -> float:
+    """The points that a check's output shows; 0 without any."""
+    most = cell["metadata"]["nbgrader"].get("points", 0)
+    for output in cell.get("outputs", []):
+        text = "".join(output.get("data", {}).get("text/plain", ""))
+        if output["output_type"] == "execute_result" and re.fullmatch(r"\d+(\.\d+)?", text):
+            return min(float(text), most)
+    return 0.0

@@ -1,0 +1,49 @@
+"""Whose a topic, service or action is: what our programs publish on or serve is left to them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
+
+# Many publish here, each for frames of its own.
+COMMON_TOPICS = INFRASTRUCTURE_TOPICS | {"/tf", "/tf_static"}
+KINDS = {"publisher": "publisher on", "service": "server of", "action server": "server of"}
+LEAVE_IT = "Who listens there can't tell the two apart: take a name of your own, or only listen."
+
+
+class Intrusion(NamedTuple):
+    """A student's end where only another program should have one: full names of the nodes, and the words."""
+
+    name: str  # of the topic, service or action
+    owner: str
+    student: str
+    what: str  # "publisher on"
+
+
+def owned(recording: Recording, kind: str) -> dict[str, str]:
+    """Names that programs of ours publish on or serve, each with its node. kind: as in `Endpoint`."""
+    ends = (end for end in recording.graph.ends(kind) if end.ours and end.name not in COMMON_TOPICS)
+    return {end.name: end.node for end in ends}
+
+
+def intrusions(recording: Recording) -> list[Intrusion]:
+    """Where a student's program publishes or serves what another program does, one for each name."""
+    found: dict[str, Intrusion] = {}
+    sent = {heard.topic for heard in recording.heard if not heard.ours}
+    for kind, what in KINDS.items():
+        owners = owned(recording, kind)
+        for end in recording.graph.ends(kind):
+            silent = kind == "publisher" and end.name not in sent
+            if not end.ours and end.name in owners and not silent:
+                found.setdefault(end.name, Intrusion(end.name, owners[end.name], end.node, what))
+    return list(found.values())
+
+
+def two_owners(recording: Recording) -> str:
+    """A topic, service or action that a program of ours and one of the student's own."""
+    found = intrusions(recording)
+    if not found:
+        return ""
+    name, owner, student, what = found[0]
+    return f"Two {what.replace(' ', 's ', 1)} {name}: {owner}, and {student} of yours. {LEAVE_IT}"

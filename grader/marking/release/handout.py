@@ -1,0 +1,131 @@
+"""Makes what students get, as a folder and as a ZIP: lessons, starters, the robot and the checks.
+
+    python -m grader.marking.release.handout [--to FOLDER]      default: dist
+
+No solutions, no tests, no marking. Equal courses give equal bytes.
+"""
+import argparse
+import hashlib
+import re
+import shutil
+import sys
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.marking.errors import CommandFailed
+from grader.marking.release.make_exercises import differences
+from grader.notebooks import normalised
+from grader.workplace import given_files
+
+NAME = "ros2-course"
+# What students get besides lessons and exercises, and what of that they don't.
+PARTS = (
+    *("LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
+    *(".ci/setup", ".ci/slim", ".ci/uv.txt"),
+    *("jupyter", "sim", "grader", "interfaces", ".binder", ".devcontainer"),
+)
+KEPT_BACK = ("grader/marking", "grader/__main__.py", "jupyter/teach", "course/README.md")
+TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile
+LEFT_BY_TOOLS = {"__pycache__", ".ipynb_checkpoints", "build"}
+LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
+RULE = re.compile(r"^([a-z]+):", re.M)
+
+
+def contents(course: Path) -> dict[str, bytes]:
+    """Every file of the handout by its path in it, sorted."""
+    files = [*given_files(course), *_files(course)]
+    found = {path.relative_to(course).as_posix(): path for path in files}
+    texts = {name: _content(path) for name, path in found.items() if not _is_kept_back(name)}
+    texts["README.md"] = (course / "course" / "README.md").read_bytes()
+    texts["Makefile"] = makefile((course / "Makefile").read_text(encoding="utf-8")).encode()
+    return dict(sorted(texts.items()))
+
+
+def _files(course: Path) -> Iterator[Path]:
+    for part in PARTS:
+        path = course / part
+        below = path.rglob("*") if path.is_dir() else [path]
+        for file in below:
+            inside = file.relative_to(course).parts
+            left = LEFT_BY_TOOLS.intersection(inside) or any(part.endswith(".egg-info") for part in inside)
+            if file.is_file() and not left:
+                yield file
+
+
+def _is_kept_back(name: str) -> bool:
+    return any(name == part or name.startswith(f"{part}/") for part in KEPT_BACK)
+
+
+def _content(path: Path) -> bytes:
+    if path.suffix == ".ipynb":  # an instructor may have run it
+        return normalised(path.read_text(encoding="utf-8"), str(path)).encode()
+    return path.read_bytes()
+
+
+def makefile(text: str) -> str:
+    """The Makefile with the targets that students have; blank lines part its rules."""
+    parts = []
+    for part in text.split("\n\n"):
+        rule = RULE.search(part)
+        if not rule or rule[1] in TARGETS:
+            parts.append(part)
+    return "\n\n".join(parts).rstrip() + "\n"
+
+
+def write_folder(files: dict[str, bytes], folder: Path) -> None:
+    """Write the files into a folder; what of another handout lay there goes, a student's work stays."""
+    for name in {Path(name).parts[0] for name in files}:
+        old = folder / name
+        if old.is_dir():
+            shutil.rmtree(old)
+    for name, content in files.items():
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+        target.chmod(_mode(name))
+
+
+def write_zip(files: dict[str, bytes], path: Path) -> str:
+    """Write the files into a ZIP; return its SHA-256."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in files.items():
+            entry = zipfile.ZipInfo(f"{NAME}/{name}", LONG_AGO)
+            entry.create_system = 3  # Unix, so that the mode counts
+            entry.external_attr = (0o100000 | _mode(name)) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content)
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _mode(name: str) -> int:
+    return 0o755 if name == ".ci/setup" else 0o644
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line in the course's folder; returns the exit status."""
+    parser = argparse.ArgumentParser(
+        "python -m grader.marking.release.handout", description="Make what students get."
+    )
+    parser.add_argument("--to", type=Path, default=Path("dist"), metavar="FOLDER", help="default: dist")
+    to = parser.parse_args(arguments).to
+    course = Path.cwd()
+    try:
+        stale = differences(course)
+    except CommandFailed as error:
+        print(error, file=sys.stderr)
+        return 1
+    if stale:
+        print("\n".join([*stale, "Run `make exercises` first."]), file=sys.stderr)
+        return 1
+    to.mkdir(parents=True, exist_ok=True)
+    files = contents(course)
+    write_folder(files, to / NAME)
+    digest = write_zip(files, to / f"{NAME}.zip")
+    size = (to / f"{NAME}.zip").stat().st_size
+    print(f"{to / NAME}/ and {to / NAME}.zip: {len(files)} files, {size / 1e6:.1f} MB, SHA-256 {digest}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,111 @@
+"""Runs notebooks as they are, each in a copy of its folder, and says what they earned and what went wrong."""
+import html
+import os
+import re
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from nbclient.exceptions import DeadKernelError
+from nbformat import NotebookNode
+from nbgrader.utils import determine_grade, is_grade
+
+SECONDS_PER_CELL = 300  # only against hanging: a busy machine is slow
+QUIET = ["--IPKernelApp.log_level=40"]  # else each kernel warns that this machine could listen
+
+
+@dataclass(frozen=True)
+class Marks:
+    """What a test cell gave. missed: the lines of its score that are not right."""
+
+    cell: str
+    points: float
+    most: float
+    missed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class NotebookRun:
+    """A notebook that was run. problems: errors, each with the cell where it was raised."""
+
+    path: Path
+    seconds: float
+    marks: tuple[Marks, ...] = ()
+    problems: tuple[str, ...] = ()
+
+    @property
+    def points(self) -> float:
+        """What all of its test cells gave."""
+        return sum(marks.points for marks in self.marks)
+
+    @property
+    def most(self) -> float:
+        """What they could give."""
+        return sum(marks.most for marks in self.marks)
+
+    @property
+    def is_right(self) -> bool:
+        """Whether it ran without an error and has all points."""
+        return not self.problems and all(marks.points >= marks.most for marks in self.marks)
+
+
+def run_notebooks(paths: Sequence[Path]) -> Iterator[NotebookRun]:
+    """Run the notebooks, as many at once as there are cores; yield each in its turn."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        yield from pool.map(run_notebook, paths)
+
+
+def run_notebook(path: Path) -> NotebookRun:
+    """Run a notebook to its end, whatever its cells raise. The file and its folder stay as they are."""
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory() as place:
+        # Lessons write files, and read others that lie beside them.
+        folder = Path(shutil.copytree(path.resolve().parent, Path(place, path.resolve().parent.name)))
+        notebook = nbformat.read(folder / path.name, 4)
+        client = NotebookClient(
+            notebook,
+            timeout=SECONDS_PER_CELL,
+            kernel_name="python3",
+            allow_errors=True,
+            interrupt_on_timeout=True,
+            extra_arguments=QUIET,
+        )
+        try:
+            client.execute(cwd=str(folder))
+            stopped = ()
+        except DeadKernelError:
+            stopped = ("its kernel died.",)
+    problems = [problem for cell in notebook.cells for problem in _problems(cell)]
+    marks = tuple(_marks(cell) for cell in notebook.cells if is_grade(cell) and cell.cell_type == "code")
+    return NotebookRun(path, time.monotonic() - begin, marks, (*problems, *stopped))
+
+
+def _problems(cell: NotebookNode) -> Iterator[str]:
+    for output in cell.get("outputs", ()):
+        if output.output_type == "error":
+            late = output.ename == "KeyboardInterrupt"
+            said = f"stopped after {SECONDS_PER_CELL} s" if late else f"{output.ename}: {output.evalue}"
+            yield f"cell {cell.id}: {said}".splitlines()[0]
+
+
+def _marks(cell: NotebookNode) -> Marks:
+    points, most = determine_grade(cell)
+    if cell.execution_count is None:
+        points = 0.0  # the notebook was stopped before; to nbgrader no output means all points
+    pages = [output.get("data", {}).get("text/html", "") for output in cell.outputs]
+    missed = tuple(line for page in pages for line in missed_lines(page)) if points < most else ()
+    return Marks(cell.metadata.nbgrader.grade_id, points, most, missed)
+
+
+def missed_lines(page: str) -> list[str]:
+    """The lines of a score's table that are neither passed nor headings, as text; "" has none."""
+    rows = (re.sub(r"</div>|</td>", "\n", row) for row in page.split("<tr>")[2:])
+    texts = (html.unescape(re.sub(r"<[^>]+>", "", row)).strip() for row in rows)
+    wrong = "\n".join(text for text in texts if not text.startswith("✔"))
+    return [line.strip() for line in wrong.splitlines() if line.strip()]

@@ -1,0 +1,17 @@
+"""What every kernel of `make lab` does first: explain a name that is not there, also before any import."""
+
+
+def _explain_missing_names() -> None:
+    import builtins
+
+    def explain(shell, kind, error, trace, tb_offset=None):
+        from sim.notebook import show_error  # here, for it takes a while
+
+        show_error(shell, kind, error, trace, tb_offset)
+
+    if hasattr(builtins, "get_ipython"):
+        builtins.get_ipython().set_custom_exc((NameError,), explain)
+
+
+_explain_missing_names()
+del _explain_missing_names

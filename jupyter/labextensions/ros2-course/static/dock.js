@@ -1,0 +1,79 @@
+// The panel beside the notebook that shows its robot: what plays now, and its replay when it is over.
+
+export const ROBOT = "application/vnd.ros2-course.robot+json";
+const NARROW = 900; // px of a notebook; below that the robot has its place under the code
+let count = 0;
+
+export class Dock {
+  constructor(lab, app, panel) {
+    Object.assign(this, { lab, app, panel, shown: {} });
+    panel.disposed.connect(() => this.widget?.dispose());
+  }
+
+  /** A button for the notebook's toolbar. */
+  button() {
+    return new this.lab.ToolbarButton({
+      label: "Robot", tooltip: "Show the robot beside the notebook", onClick: () => this.open(),
+    });
+  }
+
+  /** Show what the kernel says; a robot that begins to play opens the panel. */
+  show(bundle) {
+    const plays = !("text/html" in bundle);
+    this.shown = bundle;
+    if (plays && Object.keys(bundle).length) this.open();
+    else if (this.widget) this.fill();
+  }
+
+  open() {
+    if (this.widget?.isDisposed !== false) {
+      this.content = new this.lab.BoxPanel();
+      this.content.addClass("ros2-course-robot");
+      this.widget = new this.lab.MainAreaWidget({ content: this.content });
+      this.widget.id = `ros2-course-robot-${++count}`;
+      this.widget.title.label = "Robot";
+      this.widget.title.closable = true;
+      this.widget.title.caption = `The robot of ${this.panel.title.label}`;
+      // A closed panel is put aside with its picture: of one that is thrown away no second picture can be made.
+      this.widget.onCloseRequest = () => { this.widget.parent = null; };
+      this.filled = undefined;
+    }
+    if (!this.widget.isAttached) this.app.shell.add(this.widget, "main", { ...this.place(), activate: false });
+    if (this.filled !== this.shown) this.fill();
+  }
+
+  /** Beside the notebook, or among the robots of other notebooks. */
+  place() {
+    const others = [...this.app.shell.widgets("main")].filter(({ id }) => id.startsWith("ros2-course-robot-"));
+    if (others.length) return { mode: "tab-after", ref: others[0].id };
+    return { mode: this.panel.node.clientWidth < NARROW ? "split-bottom" : "split-right", ref: this.panel.id };
+  }
+
+  async fill() {
+    const bundle = this.filled = this.shown;
+    const { rendermime } = this.panel.content;
+    const kind = rendermime.preferredMimeType(bundle, "any");
+    let view;
+    if (kind) {
+      view = rendermime.createRenderer(kind);
+      await view.renderModel(rendermime.createModel({ data: bundle, trusted: true }));
+    } else {
+      view = new this.lab.Widget();
+      view.node.textContent = "No robot plays yet. Run a cell with play(...), and it drives here.";
+    }
+    if (bundle !== this.shown || this.content.isDisposed) { view.dispose(); return; }
+    for (const old of [...this.content.widgets]) old.dispose();
+    this.content.addWidget(view);
+  }
+}
+
+/** What stands in the cell's output instead of the picture; dockOf gives the panel of the notebook that a node is in. */
+export function robotRenderer(lab, dockOf) {
+  const view = new lab.Widget();
+  view.addClass("ros2-course-beside");
+  const button = Object.assign(document.createElement("button"), { textContent: "Show the robot", className: "jp-Button" });
+  button.addEventListener("click", () => dockOf(view.node)?.open());
+  view.node.append("The robot plays in the panel “Robot”. ", button);
+  view.renderModel = async () => {};
+  return view;
+}

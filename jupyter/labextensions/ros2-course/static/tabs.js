@@ -1,0 +1,54 @@
+// Tabs with names that differ, for each lesson is a file of the same name; and the ways back and on.
+
+import { START } from "./start.js";
+
+const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)_(\w+)\/(\w+)\.ipynb$/;
+
+export function tabName(path) {
+  if (path === START) return "Course";
+  const [, , number, topic, file] = FILE.exec(path) ?? [];
+  if (!number) return "";
+  const subject = topic[0].toUpperCase() + topic.slice(1).replaceAll("_", " ");
+  return `${Number(number)} ${subject}: ${file === "lesson" ? "lesson" : "exercises"}`;
+}
+
+export function nameTab(panel) {
+  // JupyterLab takes a new title for a new name of the file, and renames it: it must not hear of ours.
+  if (!panel._onTitleChanged || !panel.title.changed.disconnect(panel._onTitleChanged, panel)) return;
+  const name = () => {
+    const label = tabName(panel.context.path);
+    if (label && panel.title.label !== label) panel.title.label = label;
+  };
+  name();
+  panel.context.ready.then(name);
+  panel.title.changed.connect(name); // JupyterLab sets the file's name, at first and whenever it changes
+}
+
+/** The notebook that comes after this one: a lesson's exercises, then the next lesson; undefined after the last. */
+async function following(contents, path) {
+  const [, folder, number, topic] = FILE.exec(path) ?? [];
+  if (!number) return undefined;
+  const first = async (place) => {
+    const { content } = await contents.get(place).catch(() => ({ content: [] }));
+    return content.find(({ type }) => type === "notebook")?.path;
+  };
+  const own = folder === "course" ? await first(`exercises/${number}_${topic}`) : undefined;
+  if (own) return own;
+  const { content } = await contents.get("course");
+  const later = content.filter(({ type, name }) => type === "directory" && /^\d\d_/.test(name) && name.slice(0, 2) > number);
+  const next = later.map((each) => each.path).sort()[0];
+  return next && first(next);
+}
+
+/** Buttons for a notebook's toolbar: back to the map of the course, and on to what comes next. */
+export function ways(lab, app, panel) {
+  const open = (path) => app.commands.execute("docmanager:open", { path });
+  const button = (label, tooltip, onClick) => new lab.ToolbarButton({ label, tooltip, onClick });
+  if (!FILE.test(panel.context.path)) return [];
+  return [
+    button("Course", "Back to the map of the course", () => open(START)),
+    button("Next", "On to the notebook that comes next", async () => {
+      open(await following(app.serviceManager.contents, panel.context.path) ?? START);
+    }),
+  ];
+}

@@ -1,0 +1,55 @@
+"""Messages that take 1 for 1.0, and 2.0 for 2: to see what a program with this slip would have done."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import sys
+from collections.abc import Iterator
+from numbers import Integral, Real
+from typing import Any
+
+_INTERFACES = re.compile(r"\w+\.(msg|srv|action)\._\w+")
+_FLOATS = {"float", "double"}
+_INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+_lenient: set[type] = set()  # classes whose fields can be lenient, and are as long as somebody wants it
+_wanted: list[object] = []  # one for each of those
+
+
+@contextlib.contextmanager
+def whole_numbers() -> Iterator[None]:
+    """While it lasts, fields of all messages that are loaded take numbers of the other kind, if equal."""
+    for name, module in list(sys.modules.items()):
+        if _INTERFACES.fullmatch(name):
+            for item in list(vars(module).values()):
+                if isinstance(item, type) and item.__module__ == name and item not in _lenient:
+                    _make_lenient(item)
+    _wanted.append(object())
+    try:
+        yield
+    finally:
+        _wanted.pop()
+
+
+def _make_lenient(message_class: type) -> None:
+    _lenient.add(message_class)
+    for name, kind in vars(message_class).get("_fields_and_field_types", {}).items():
+        strict = vars(message_class).get(name)
+        if isinstance(strict, property) and kind in _FLOATS | _INTEGERS:
+            setattr(message_class, name, _lenient_property(strict, kind in _FLOATS))
+
+
+def _lenient_property(strict: property, is_float: bool) -> property:
+    def put(message: Any, value: Any) -> None:
+        strict.fset(message, _fitting(value, is_float) if _wanted else value)
+
+    return property(strict.fget, put, doc=strict.__doc__)
+
+
+def _fitting(value: Any, is_float: bool) -> Any:
+    """The value as a number of the field's kind, where it is one; else as it is: the field refuses it."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return value
+    if is_float:
+        return float(value)
+    return int(value) if isinstance(value, Integral) or float(value).is_integer() else value

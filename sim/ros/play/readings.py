@@ -1,0 +1,167 @@
+"""What a player shows in words and numbers: the robot's, and those of one topic that somebody looks at."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+from sim.evidence import Heard
+from sim.ros.session import Session
+
+PLOT_OVER, POINTS = 10.0, 400  # s of simulated time, and points, of a topic's plot
+LINES, ITEMS = 40, 6  # of a message: as many are shown
+CURVES = 2
+NO_NUMBERS = ("header", "covariance", "stamp")
+
+
+class Readings:
+    """Goes through the messages of a run as they come; each is looked at once."""
+
+    def __init__(self) -> None:
+        self.topic = ""  # what somebody looks at
+        self._next = 0
+        self._newest: dict[str, Heard] = {}
+        self._recent: deque[Heard] = deque(maxlen=POINTS)
+
+    def look(self, topic: str) -> None:
+        """Show this topic from now on; "" for none."""
+        self.topic = topic
+        self._recent.clear()
+
+    def update(self, session: Session) -> dict[str, Any]:
+        """Numbers, rows of a label and a text; topic, None or what is known of the one looked at."""
+        heard = session.recording.heard
+        for item in heard[self._next :]:
+            self._newest[item.topic] = item
+            if item.topic == self.topic:
+                self._recent.append(item)
+        self._next = len(heard)
+        return {"numbers": list(self._numbers(session)), "topic": self._topic(session)}
+
+    def _numbers(self, session: Session) -> Iterator[tuple[str, str]]:
+        world, truth = session.recording.world, session.truth
+        names = [body.name for body in world.bodies] if world is not None else []
+        if truth is None or "robot" not in names:
+            return
+        x, y, yaw = truth.scene.poses[names.index("robot")]
+        yield "Pose", f"x {x:.2f} m, y {y:.2f} m, yaw {yaw:.2f} rad"
+        odom = self._message("/odom", "nav_msgs/msg/Odometry")
+        if odom is not None:
+            yield "Speed", _twist(odom.twist.twist)
+        command = self._message("/cmd_vel", "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+        ago = f", {session.stamp - self._newest['/cmd_vel'].stamp:.1f} s ago" if command is not None else ""
+        yield "Last command", _twist(command) + ago if command is not None else "none yet"
+        yield from self._surroundings(truth.scene.last_scan, world)
+        if world.goal is not None:
+            yield "Goal", f"{math.dist((x, y), world.goal):.2f} m away"
+
+    def _surroundings(self, scan: Any, world: Any) -> Iterator[tuple[str, str]]:
+        if scan is not None:
+            met = [(float(reach), ray) for ray, reach in enumerate(scan.ranges) if math.isfinite(reach)]
+            reach, ray = min(met, default=(math.inf, 0))
+            angle = math.remainder(ray * world.lidar.angle_increment, math.tau)
+            yield "Nearest", f"{reach:.2f} m, at {angle:.2f} rad" if met else "nothing in reach"
+        bumper = self._message("/bumper", "std_msgs/msg/Bool")
+        if bumper is not None:
+            yield "Bumper", "pressed" if bumper.data else "free"
+
+    def _message(self, topic: str, *kinds: str) -> Any:
+        item = self._newest.get(topic)
+        return _decoded(item) if item is not None and item.type in kinds else None
+
+    def _topic(self, session: Session) -> dict[str, Any] | None:
+        kind = session.recording.topics.get(self.topic)
+        if kind is None:
+            return None
+        item = self._newest.get(self.topic)
+        message = _decoded(item) if item is not None else None
+        told = {"name": self.topic, "type": kind, "text": "No message yet.", "stamp": None, "curves": []}
+        if message is not None:
+            lines = list(_lines(message))
+            more = [f"... and {len(lines) - LINES} more lines"] if len(lines) > LINES else []
+            told |= {"text": "\n".join(lines[:LINES] + more), "stamp": item.stamp}
+            told["curves"] = list(self._curves(message, item.stamp))
+        return told
+
+    def _curves(self, message: Any, now: float) -> Iterator[dict[str, Any]]:
+        """What there is to draw: the numbers of a long list, or single numbers over time."""
+        fields = dict(_single_numbers(message))
+        rows = next(_long_lists(message), None)
+        if rows is not None:
+            name, values = rows
+            step = max(1, len(values) // POINTS)
+            points = [[i, float(v)] for i, v in enumerate(values) if i % step == 0 and math.isfinite(v)]
+            yield {"name": name, "along": "item", "points": points}
+            return
+        while self._recent and self._recent[0].stamp < now - PLOT_OVER:
+            self._recent.popleft()
+        seen = [(item.stamp, dict(_single_numbers(_decoded(item)))) for item in self._recent]
+        changing = [name for name in fields if len({values.get(name) for _, values in seen}) > 1]
+        for name in (changing or list(fields))[:CURVES]:
+            points = [
+                [stamp, values[name]] for stamp, values in seen if math.isfinite(values.get(name, math.nan))
+            ]
+            yield {"name": name, "along": "s", "points": points}
+
+
+def _decoded(item: Heard) -> Any:
+    try:
+        return item.message
+    except Exception:  # bytes that are no such message
+        return None
+
+
+def _twist(twist: Any) -> str:
+    twist = getattr(twist, "twist", twist)  # of a TwistStamped
+    return f"{twist.linear.x:.2f} m/s, turning {twist.angular.z:.2f} rad/s"
+
+
+def _parts(message: Any) -> Iterator[tuple[str, Any]]:
+    for name in message.get_fields_and_field_types():
+        yield name, getattr(message, name)
+
+
+def _lines(value: Any, indent: str = "") -> Iterator[str]:
+    """A message as `ros2 topic echo` prints it, long lists cut short."""
+    for name, part in _parts(value):
+        if hasattr(part, "get_fields_and_field_types"):
+            yield f"{indent}{name}:"
+            yield from _lines(part, indent + "  ")
+        elif hasattr(part, "__len__") and not isinstance(part, str | bytes):
+            yield from _list(name, list(part), indent)
+        else:
+            yield f"{indent}{name}: {_word(part)}"
+
+
+def _list(name: str, items: list[Any], indent: str) -> Iterator[str]:
+    if items and hasattr(items[0], "get_fields_and_field_types"):
+        yield f"{indent}{name}: {len(items)} of these:"
+        yield from _lines(items[0], indent + "- ")
+        return
+    rest = f", ... {len(items)} in all" if len(items) > ITEMS else ""
+    yield f"{indent}{name}: [{', '.join(map(_word, items[:ITEMS]))}{rest}]"
+
+
+def _word(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)[:200]
+
+
+def _single_numbers(message: Any, before: str = "") -> Iterator[tuple[str, float]]:
+    for name, part in _parts(message) if message is not None else ():
+        if name in NO_NUMBERS:
+            continue
+        if hasattr(part, "get_fields_and_field_types"):
+            yield from _single_numbers(part, f"{before}{name}.")
+        elif isinstance(part, numbers.Real):
+            yield f"{before}{name}", float(part)
+
+
+def _long_lists(message: Any) -> Iterator[tuple[str, list[float]]]:
+    for name, part in _parts(message):
+        if hasattr(part, "__len__") and not isinstance(part, str | bytes) and len(part) > ITEMS:
+            values = [float(value) for value in part if isinstance(value, numbers.Real)]
+            if len(values) == len(part):
+                yield name, values

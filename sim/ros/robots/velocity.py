@@ -1,0 +1,28 @@
+"""Velocities as a robot wants them: Twist, or TwistStamped as most robots on Jazzy do."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.node import Node
+
+
+class VelocityPublisher:
+    """A node's publisher on cmd_vel, of the type that the robot takes.
+
+    With `stamped` it is geometry_msgs/TwistStamped, with the time of sending and the frame base_link.
+    """
+
+    def __init__(self, node: Node, stamped: bool) -> None:
+        self._node, self._stamped = node, stamped
+        self._publisher = node.create_publisher(TwistStamped if stamped else Twist, "cmd_vel", 10)
+
+    def send(self, forward: float, left: float) -> None:
+        """Publish a velocity: m/s ahead, rad/s counter-clockwise."""
+        command = Twist()
+        command.linear.x, command.angular.z = forward, left
+        if not self._stamped:
+            self._publisher.publish(command)
+            return
+        message = TwistStamped(twist=command)
+        message.header.stamp, message.header.frame_id = self._node.get_clock().now().to_msg(), "base_link"
+        self._publisher.publish(message)

@@ -1,0 +1,117 @@
+"""What ran and what stands there: the page tells the kernel, so that nothing old is judged or shown."""
+
+import pytest
+
+from tests.browser.lab import write_notebook
+
+pytestmark = pytest.mark.browser
+SETUP = """
+from rclpy.node import Node
+from std_msgs.msg import String
+from grader.exercises import topics
+from sim import play, run
+"""
+ANSWER = """
+class Greeter(Node):
+    def __init__(self):
+        super().__init__("greeter")
+        self.publisher = self.create_publisher(String, "/greeting", 10)
+        self.create_timer(0.5, self.greet)
+
+    def greet(self):
+        self.publisher.publish(String(data="Hello!"))
+"""
+SEE = "run(Greeter, seconds=2).ended.reason"
+CHECK = "topics.greeting.grade(Greeter)"
+EDIT = """([index, text]) => window.notebook().content.model.cells.get(index).sharedModel.setSource(text)"""
+CHANGED = "the cell with Greeter was changed, and has not run since"
+
+
+@pytest.fixture
+def greeter(request, students_folder, open_lab):
+    """JupyterLab with a notebook of four cells, none run: set-up, answer, see it, check."""
+    name = f"cells/{request.node.originalname}.ipynb"
+    write_notebook(students_folder / name, SETUP, ANSWER, SEE, CHECK)
+    with open_lab(name) as lab:
+        yield lab
+
+
+def says(lab, index: int) -> str:
+    """Run a cell, and return the text of its last output."""
+    lab.run_cell(index)
+    output = lab.outputs(index)[-1]  # before it may be a picture
+    if output["output_type"] == "error":
+        return "\n".join(output["traceback"])
+    data = output["data"]
+    return data["text/html"] if "text/html" in data else data["text/plain"]
+
+
+def test_an_edit_that_was_not_run_is_not_judged_and_neither_is_what_was_before(greeter):
+    lab = greeter
+    lab.run_all()
+    assert "8 of 8 points" in lab.output()
+    lab.page.evaluate(EDIT, [1, ANSWER.replace("0.5", "5.0")])
+    assert says(lab, 2) == (
+        f"Your last version did not run: {CHANGED}. Run that cell (Shift+Enter); then run this one again."
+    )
+    judged = says(lab, 3)
+    assert "0 of 8 points" in judged and "Your last version did not run." in judged and CHANGED in judged
+    lab.cell(3).evaluate("cell => cell.scrollIntoView({block: 'center'})")
+    lab.screenshot("last-version")
+    lab.run_cell(1)
+    assert says(lab, 2) == "'time'"
+    assert "5 of 8 points" in says(lab, 3)
+
+
+def test_a_comment_changes_nothing(greeter):
+    greeter.run_all()
+    greeter.page.evaluate(EDIT, [1, f"# mine\n\n{ANSWER}"])
+    assert "8 of 8 points" in says(greeter, 3)
+
+
+def test_a_page_that_is_loaded_again_tells_of_edits_too(greeter):
+    greeter.run_all()
+    greeter.save()
+    greeter.page.reload()
+    greeter.wait_for_kernel()
+    assert "8 of 8 points" in says(greeter, 3)
+    greeter.page.evaluate(EDIT, [1, ANSWER.replace("0.5", "5.0")])
+    assert CHANGED in says(greeter, 3)
+
+
+def test_a_restarted_kernel_is_told_to_run_what_is_above(greeter):
+    lab = greeter
+    lab.run_all()
+    lab.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
+    lab.wait_for_kernel()
+    assert says(lab, 3) == (
+        "NameError: A cell above defines `topics`, and it has not run: "
+        "choose Run > Run All Above Selected Cell, then run this cell again."
+    )
+    lab.cell(3).evaluate("cell => cell.scrollIntoView({block: 'center'})")
+    lab.screenshot("after-a-restart")
+    lab.run_cell(0)
+    assert "defines `Greeter`, and it has not run" in says(lab, 2)
+    lab.page.evaluate(EDIT, [1, ANSWER.replace("):", ")", 1)])
+    lab.run_cell(1)
+    assert says(lab, 3) == (
+        "NameError: The cell above that defines `Greeter` ended with SyntaxError: expected ':' (line 1). "
+        "Mend that cell and run it first."
+    )
+    lab.page.evaluate(EDIT, [1, ANSWER])
+    lab.run_cell(1)
+    assert "8 of 8 points" in says(lab, 3)
+
+
+def test_an_interrupted_run_says_so_in_one_line(greeter):
+    lab = greeter
+    lab.run_cell(0)
+    lab.run_cell(1)
+    lab.page.evaluate(EDIT, [2, "run(Greeter, seconds=100_000)"])
+    lab.run_cell(2, wait=False)
+    lab.page.wait_for_function("() => window.notebook().sessionContext.session.kernel.status === 'busy'")
+    lab.page.wait_for_timeout(1000)
+    lab.page.evaluate("window.notebook().sessionContext.session.kernel.interrupt()")
+    lab.wait_for_cell(2)
+    (output,) = lab.outputs(2)
+    assert output["traceback"] == ["KeyboardInterrupt: The run was interrupted."]

@@ -1,0 +1,17 @@
+import pytest
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A node's tests are neighbours, so that its runs are made once: see `Evidence`."""
+    first: dict[object, int] = {}
+    for number, item in enumerate(items):
+        first.setdefault(_node(item), number)
+    items.sort(key=lambda item: first[_node(item)])
+
+
+def _node(item: pytest.Item) -> object:
+    """What tests of the same node have in common; any other test is alone."""
+    asked = getattr(item, "callspec", None)
+    if asked is None or "node" not in asked.params or "exercise" not in asked.params:
+        return item
+    return item.path, asked.params["exercise"], asked.params["node"]

@@ -1,0 +1,44 @@
+"""Time that a student's programs were not at work earns nothing, for whatever reason."""
+
+import pytest
+
+from grader.checks.work import LIVES, Work, work_of, worked_until
+from sim import Recording
+from sim.evidence import CallbackError, Ended
+
+ERROR = CallbackError(2.5, "/talker", "Talker.tick", "KeyError", "", "")
+STUCK = "tick of node /talker has waited since t = 2.5 s and never returned"
+
+
+def of(reason, stamp=10.0, detail="", **more):
+    return Recording(seconds=10.0, ended=Ended(reason, stamp, detail), **more)
+
+
+@pytest.mark.parametrize(
+    ("recording", "then"),
+    [
+        (of("time", gone=2.5), f"your program had ended. {LIVES}"),
+        (of("finished", 3.5, gone=2.5), f"your program had ended. {LIVES}"),
+        (of("error", gone=2.5, errors=[ERROR]), "the error above ended it."),
+        (of("hang", 2.5), "the error above ended it."),
+        (of("livelock", 2.5), "the error above ended it."),
+        (of("blocked", detail=STUCK), "nothing went on."),
+    ],
+)
+def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):
+    assert worked_until(recording) == 2.5
+    assert work_of(recording) == Work(0.25, f"Earned for 2.5 of 10 s: then {then}")
+
+
+@pytest.mark.parametrize(
+    "recording",
+    [of("time"), of("goal", 4.0), of("interrupted", 4.0), of("error", errors=[ERROR]), of("time", gone=10.0)],
+)
+def test_who_was_at_work_to_the_end_has_all_of_it(recording):
+    assert work_of(recording) == Work(1.0)
+
+
+def test_where_a_program_may_end_what_it_has_done_until_then_counts():
+    assert work_of(of("finished", 3.5, gone=2.5), may_end=True) == Work(1.0)
+    assert work_of(of("error", gone=2.5, errors=[ERROR]), may_end=True) == Work(1.0)
+    assert work_of(of("hang", 2.5), may_end=True).share == 0.25

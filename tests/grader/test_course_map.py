@@ -1,0 +1,77 @@
+import json
+
+import pytest
+
+from grader import course_map
+
+POINTS = {"nbgrader": {"grade": True, "points": 8}}
+
+
+def code(*, run=None, metadata=None, result=None):
+    outputs = [{"output_type": "execute_result", "data": {"text/plain": [result]}}] if result else []
+    return {
+        "cell_type": "code",
+        "source": ["1"],
+        "execution_count": run,
+        "metadata": metadata or {},
+        "outputs": outputs,
+    }
+
+
+def write(path, title, *cells):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    words = "**Time:** about an hour. **Before you begin:** Python & lesson 0. More is in the glossary."
+    head = {"cell_type": "markdown", "metadata": {}, "source": [f"# {title}\n\n", words]}
+    path.write_text(json.dumps({"cells": [head, *cells]}))
+
+
+@pytest.fixture
+def course(tmp_path):
+    write(tmp_path / "course/01_nodes/lesson.ipynb", "Lesson 1: nodes", *[code(run=n + 1) for n in range(10)])
+    checks = [code(run=3, metadata=POINTS, result="6.5"), code(metadata=POINTS)]
+    write(tmp_path / "exercises/01_nodes/nodes.ipynb", "Assignment 1: nodes", *checks)
+    write(tmp_path / "course/02_topics/lesson.ipynb", "Lesson 2: <topics>", code(run=1), code())
+    (tmp_path / "course/02_topics/broken.ipynb").write_text("<<<<<<<")
+    write(tmp_path / "course/02_topics/lesson-new.ipynb", "Lesson 2: a new version", code())
+    return tmp_path
+
+
+def test_the_map_has_times_what_is_done_the_points_and_the_next_step(course):
+    assert repr(course_map(course / "course")).splitlines() == [
+        "1 nodes (lesson), ✔ done",
+        "1 nodes (exercises), 6.5 of 16 points",
+        "2 <topics> (lesson), 1 of 2 cells run",
+        "Your points so far: 6.5 of 16",
+        "Next: 1 nodes (exercises)",
+    ]
+    first = course_map(course).notebooks[0]
+    assert (first.time, first.needs) == ("about an hour", "Python & lesson 0")
+
+
+def test_as_html_it_has_links_from_where_it_is_shown(course):
+    page = course_map(course / "course")._repr_html_()
+    link = '<a href="../exercises/01_nodes/nodes.ipynb">1 nodes (exercises)</a>'
+    assert f"<b>Next step: {link}</b>, about an hour." in page
+    assert '<a href="../course/02_topics/lesson.ipynb">2 &lt;topics&gt; (lesson)</a>' in page
+    assert ">Python &amp; lesson 0</td>" in page and "Your points so far: 6.5 of 16</caption>" in page
+    assert 'href="exercises/01_nodes/nodes.ipynb"' in course_map(course)._repr_html_()
+
+
+def test_all_done_is_said(course):
+    for path in course.rglob("*.ipynb"):
+        path.unlink()
+    write(course / "course/01_nodes/lesson.ipynb", "Lesson 1: nodes", code(run=1))
+    assert "You have done all of it." in course_map(course)._repr_html_()
+    assert "Next" not in repr(course_map(course))
+
+
+@pytest.mark.parametrize("result", ["'8'", "nan", "-1", "True", "1e9", "99"])
+def test_no_output_gives_more_than_the_checks_points(course, result):
+    path = course / "exercises/01_nodes/nodes.ipynb"
+    write(path, "Assignment 1: nodes", code(run=1, metadata=POINTS, result=result))
+    assert course_map(course).notebooks[1].points == (8 if result == "99" else 0)
+
+
+def test_outside_the_course_it_says_what_it_looked_for(tmp_path):
+    with pytest.raises(LookupError, match="is not in the course: expected a folder with course/ and exercises/"):
+        course_map(tmp_path)

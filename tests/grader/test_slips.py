@@ -1,0 +1,142 @@
+"""A slip of a number's type or of a name costs half of what the program would have earned."""
+
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Float32, Int32
+
+from grader import Exercise, grade
+from grader.checks import keeps_clear, publishes, rate, within
+from grader.slips import MENDED, slips_of
+from sim import Process, Recording
+from sim.evidence import CallbackError
+from tests.exercises.score_tables import students
+
+warm = Exercise("warm", "A thermometer", seconds=5)
+
+
+@warm.check(4)
+def is_published(run):
+    """It is published."""
+    publishes(run, "/sensor/warm", "std_msgs/msg/Float32")
+
+
+@warm.check(4, after=is_published)
+def once_a_second(run):
+    """It comes once a second."""
+    rate(run, "/sensor/warm", 1.0)
+
+
+@warm.check(4, after=is_published)
+def is_warm(run):
+    """It is warm."""
+    within(run, "/sensor/warm", "data", 20.0, 25.0)
+
+
+class Warm(Node):
+    topic, value, type = "/sensor/warm", 20.0, Float32
+
+    def __init__(self):
+        super().__init__("warm")
+        self.publisher = self.create_publisher(self.type, self.topic, 10)
+        self.create_timer(1.0, self.tell)
+
+    def tell(self):
+        self.publisher.publish(self.type(data=self.value))
+
+
+class WholeNumber(Warm):
+    value = 20
+
+
+class WholeAndCold(Warm):
+    value = 10
+
+
+class Misspelt(Warm):
+    topic = "/sensor/wram"
+
+
+class MisspeltAndWhole(Misspelt):
+    value = 20
+
+
+class AnotherType(Warm):
+    type, value = Int32, 20
+
+
+class Text(Warm):
+    value = "20"
+
+
+@pytest.mark.parametrize(
+    ("student", "points"),
+    [
+        (Warm, 12.0), (WholeNumber, 6.0), (WholeAndCold, 4.0), (Misspelt, 6.0), (MisspeltAndWhole, 6.0),
+        (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
+    ],
+)  # fmt: skip
+def test_a_slip_costs_half(student, points):
+    score = warm.grade(student)
+    assert score.broken == []
+    assert float(score) == points
+
+
+def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
+    *_, pace, value = warm.grade(Misspelt).verdicts
+    assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, MENDED)] * 2
+    assert MENDED == "Judged as if the slip above were mended, for half of the points."
+    assert warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
+
+
+def test_only_numbers_of_the_other_kind_and_names_are_slips():
+    def failing(text, type="AssertionError"):
+        return Recording(errors=[CallbackError(1.0, "/a", "A.b", type, text, "")])
+
+    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["whole numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["whole numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'str'"), []) == []
+    assert slips_of(failing("The 'data' field must be of type 'int'", "ValueError"), []) == []
+
+
+@pytest.mark.parametrize(
+    ("assignment", "exercise", "student"),
+    [
+        ("services", "add", "MisspeltService"),
+        ("nodes", "counter", "OtherName"),
+        ("actions", "fibonacci", "MisspeltName"),
+    ],
+)
+def test_names_of_services_nodes_and_actions_can_be_mended_too(assignment, exercise, student):
+    score = grade(exercise, students(assignment, exercise)[student])
+    missed = next(verdict for verdict in score.verdicts if verdict.status == "failed")
+    assert missed.earned == missed.points / 2
+
+
+def test_who_is_unsafe_without_a_slip_is_unsafe():
+    drive = Exercise("drives", "A driver", world="room", seconds=20)
+
+    @drive.check(8)
+    def goes(run):
+        """It goes."""
+        publishes(run, "/cmd_vel", at_least=5)
+
+    @drive.check(2, after=goes)
+    def touches_nothing(run):
+        """It touches nothing."""
+        keeps_clear(run)
+
+    score = drive.grade(WholeSpeed)
+    assert (float(score), score.verdicts[-1].unsafe) == (4.0, True)
+
+
+class WholeSpeed(Node):
+    def __init__(self):
+        super().__init__("fast")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = 1
+        self.publisher.publish(msg)

@@ -1,0 +1,89 @@
+"""In a real kernel, without a page: what it knows by itself."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from jupyter_client.manager import start_new_kernel
+
+from tests.browser.lab import ROOT
+
+ROBOT = "class Robot(Node):\n    def __init__(self):\n        super().__init__('robot')\n"
+NOT_RUN = (
+    "NameError: A cell above defines `Robot`, and it has not run: "
+    "choose Run > Run All Above Selected Cell, then run this cell again."
+)
+SETUP = "from rclpy.node import Node\nfrom sim import play, run"
+
+
+class Kernel:
+    """A kernel with the notebook's file beside it, as `make lab` starts one."""
+
+    def __init__(self, notebook) -> None:
+        start = {"PYTHONSTARTUP": str(ROOT / "jupyter/kernel_start.py"), "JPY_SESSION_NAME": str(notebook)}
+        self.manager, self.client = start_new_kernel(kernel_name="python3", env={**os.environ, **start})
+
+    def run(self, code: str, cell: str) -> str:
+        """Run a cell; what it says."""
+        session, content = self.client.session, {"code": code, "silent": False, "store_history": True}
+        message = session.msg("execute_request", content, metadata={"cellId": cell})
+        self.client.shell_channel.send(message)
+        said = []
+        while True:
+            came = self.client.get_iopub_msg(timeout=120)
+            if came["parent_header"].get("msg_id") != message["header"]["msg_id"]:
+                continue
+            content = came["content"]
+            if came["msg_type"] == "status" and content["execution_state"] == "idle":
+                return "\n".join(said)
+            said += [*content.get("traceback", []), content.get("data", {}).get("text/plain", "")]
+
+
+@pytest.fixture
+def kernel(tmp_path):
+    code = {"setup": SETUP, "answer": ROBOT, "use": "run(Robot, seconds=1).ended.reason"}
+    cells = [{"id": name, "cell_type": "code", "source": [text]} for name, text in code.items()]
+    path = tmp_path / "robot.ipynb"
+    path.write_text(json.dumps({"cells": cells}))
+    kernel = Kernel(path)
+    yield kernel
+    kernel.client.stop_channels()
+    kernel.manager.shutdown_kernel(now=True)
+
+
+def test_a_name_from_a_cell_above_is_explained_before_anything_is_imported(kernel):
+    assert kernel.run("Robot", "use").strip() == NOT_RUN
+    assert "name 'nowhere' is not defined" in kernel.run("nowhere", "use")
+
+
+def test_a_cell_that_failed_is_not_run_in_its_older_version(kernel):
+    for cell, code in {"setup": SETUP, "answer": ROBOT}.items():
+        kernel.run(code, cell)
+    assert "'time'" in kernel.run("run(Robot, seconds=1).ended.reason", "use")
+    assert "SyntaxError" in kernel.run(ROBOT.replace("):", ")", 1), "answer")
+    words = (
+        "Your last version did not run: the cell with Robot ended with SyntaxError: expected ':' (line 1). "
+        "Mend that cell and run it; then run this one again."
+    )
+    for door in ("run", "play"):
+        assert kernel.run(f"{door}(Robot, seconds=1)", "use").strip() == words
+
+
+def test_an_interrupt_in_our_own_code_is_one_line_and_in_the_users_it_shows_where(kernel):
+    kernel.run(SETUP, "setup")
+    raises = """
+import sim.nearest
+def stop(*more): raise KeyboardInterrupt
+sim.nearest.nearest = stop
+sim.nearest.unknown("a", "b", ["c"])"""
+    assert kernel.run(raises, "use").strip() == "KeyboardInterrupt: You interrupted this cell."
+    own = kernel.run("def mine():\n    raise KeyboardInterrupt\nmine()", "use")
+    assert "mine" in own and "You interrupted" not in own
+
+
+def test_outside_a_notebook_nothing_is_watched():
+    code = "from sim import notebook as n; print(n.in_notebook(), n.outdated([n]), n.missing('n') == '')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=True)
+    assert done.stdout.split() == ["False", "None", "True"]

@@ -1,0 +1,36 @@
+"""A terminal: reads lines, a list of words as JSON each, and writes what ros2 says to them, as JSON."""
+
+import json
+import sys
+
+from sim.ros2 import words
+from sim.ros2.live import Live
+
+
+class Kept:
+    """One node for all commands, for finding the others takes a while."""
+
+    def __init__(self, system):
+        self.system = system
+
+    def __enter__(self):
+        return self.system
+
+    def __exit__(self, *exception):
+        return None
+
+
+def main():
+    reader = words.parser()
+    said, complained = [], []
+    with Live(said.append, complained.append) as system:
+        for line in sys.stdin:
+            asked = json.loads(line)
+            status = words.obey(reader, asked, lambda: Kept(system), said.append, complained.append)
+            print(json.dumps({"said": said, "complained": complained, "status": status}), flush=True)
+            said.clear()
+            complained.clear()
+
+
+if __name__ == "__main__":
+    main()

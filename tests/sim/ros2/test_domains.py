@@ -1,0 +1,41 @@
+"""The ROS domains of this machine, read off the sockets that are open."""
+
+import pytest
+
+from sim.ros2 import domains
+
+HEAD = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
+LINE = "  12: 00000000:{:04X} 00000000:0000 07 00000000:00000000 00:00000000 00000000     0        0 99 2\n"
+
+
+@pytest.fixture
+def sockets(tmp_path, monkeypatch):
+    file = tmp_path / "udp"
+    monkeypatch.setattr(domains, "_SOCKETS", file)
+    return lambda *ports: file.write_text(HEAD + "".join(LINE.format(port) for port in ports))
+
+
+def test_each_participant_has_two_ports_of_its_domain(sockets):
+    sockets(7410, 7411, 7400 + 250 * 42 + 12, 7400 + 250 * 42 + 13, 53, 7400, 40000)
+    assert domains.here() == {0, 42}
+    assert domains.ports(42) == {17912, 17913}
+
+
+def test_the_domain_where_somebody_is_gets_named(sockets):
+    sockets(17910, 17911, 7410, 7411)
+    assert domains.note(7) == (
+        "Nobody is on ROS domain 7 of this machine; there are nodes on 0 and 42."
+        " To speak with them: export ROS_DOMAIN_ID=42"
+    )
+    sockets(7410, 7411)
+    assert domains.note(42) == (
+        "Nobody is on ROS domain 42 of this machine; there are nodes on 0. To speak with them: export"
+        " ROS_DOMAIN_ID=0 (runs in notebooks are there, too, and hear nobody)"
+    )
+    sockets()
+    assert domains.note(42) == ""
+
+
+def test_a_machine_that_does_not_tell_its_sockets_has_none(tmp_path, monkeypatch):
+    monkeypatch.setattr(domains, "_SOCKETS", tmp_path / "none")
+    assert domains.here() == set()

@@ -1,0 +1,28 @@
+"""%ros2 in a real kernel: about the play that goes on while the cell waits, and about the last run."""
+
+import pytest
+from jupyter_client.manager import start_new_kernel
+
+from tests.sim.ros.test_play_in_notebook import Kernel
+from tests.sim.ros2.official import OFFICIAL
+
+
+@pytest.fixture(scope="module")
+def kernel():
+    manager, client = start_new_kernel(kernel_name="python3")
+    yield Kernel(manager, client)
+    client.stop_channels()
+    manager.shutdown_kernel(now=True)
+
+
+def test_it_speaks_to_the_play_and_then_to_its_recording(kernel):
+    kernel("from tests.sim.ros2.nodes import NODES, Listener")
+    assert kernel("%ros2 node list").startswith("Nothing has run yet")
+    kernel("data = 3\nplayer = play(*NODES, seconds=60, speed=20, quiet=True)")
+    assert kernel("%ros2 node list") == OFFICIAL["node list"]
+    assert kernel("%ros2 topic hz /place").startswith("average rate: 10.000\n")
+    said = kernel("%ros2 topic pub --once /level std_msgs/msg/Float64 '{data: 2.0}'")
+    assert "publishing #1: std_msgs.msg.Float64(data=2.0)\n" in said
+    assert kernel("player.stop()\n%ros2 topic echo --field data /level") == "2.0\n---\n"
+    assert kernel("%ros2 topic pub --once /level std_msgs/msg/Float64").startswith("Nothing runs any more")
+    assert not kernel.errors

@@ -1,0 +1,173 @@
+"""ros2 in a terminal: about nodes in another process, in real time."""
+
+import json
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from sim.ros2.terminal import official_command
+from tests.sim.ros2.official import OFFICIAL, plain
+from tests.sim.ros2.test_played import OURS as PLAYED
+from tests.sim.ros2.test_played import PARAMETERS
+from tests.sim.ros2.test_recorded import MEASURED
+from tests.sim.ros2.test_recorded import OURS as READ
+from tests.sim.standalone.programs import REPOSITORY, environment, free_domain, robot
+
+OURS = READ | PLAYED
+FAILS = re.compile(
+    r"nobody|[Nn]othing|dat:|c: 3|hello$|9\.0|label ''|fixed false|speed fast|activate|lifecycle get /talker"
+)
+ROS2 = [sys.executable, "-m", "sim.ros2.terminal"]
+
+
+def start(words, domain, **more):
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    told = environment(ROS_DOMAIN_ID=str(domain), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", **more)
+    return subprocess.Popen(words, cwd=REPOSITORY, text=True, env=told, **pipes)
+
+
+def ended(words, domain, **more):
+    """Status, stdout and stderr of a program that was run to its end."""
+    process = start(words, domain, **more)
+    out, err = process.communicate(timeout=300)
+    return process.returncode, out, err
+
+
+@pytest.fixture(scope="module")
+def system():
+    """The nodes in a process of their own; the domain."""
+    domain = free_domain()
+    process = start([sys.executable, "-m", "tests.sim.ros2.nodes"], domain)
+    assert process.stdout.readline() == "ready\n"
+    yield domain
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=300)
+
+
+@pytest.fixture(scope="module")
+def terminal(system, tmp_path_factory):
+    """What ros2 in another process says to some words, and its status."""
+    file = tmp_path_factory.mktemp("parameters") / "params.yaml"
+    file.write_text(PARAMETERS)
+    process = start([sys.executable, "-m", "tests.sim.ros2.client"], system)
+
+    def say(line):
+        words = [str(file) if word == file.name else word for word in shlex.split(line)]
+        process.stdin.write(json.dumps(words) + "\n")
+        process.stdin.flush()
+        answer = json.loads(process.stdout.readline())
+        return "".join(f"{text}\n" for text in answer["said"] + answer["complained"]), answer["status"]
+
+    yield say
+    process.communicate(timeout=300)
+
+
+@pytest.mark.parametrize("command", [command for command in OFFICIAL if command not in MEASURED])
+def test_nodes_in_another_process_are_described_as_by_the_official_tools(terminal, command):
+    said, status = terminal(command)
+    expected = plain(OURS.get(command, OFFICIAL[command]))
+    if "--feedback" in command:  # the first may come before the acceptance, or after it
+        assert sorted(plain(said).split("\n\n")) == sorted(expected.split("\n\n"))
+    else:
+        assert plain(said) == expected
+    assert status == (1 if FAILS.search(command) else 0)
+
+
+@pytest.mark.parametrize("command", MEASURED)
+def test_what_comes_is_measured_until_ctrl_c(system, command):
+    process = start([*ROS2, *command.split()], system)
+    lines = [process.stdout.readline() for _ in range(4)]
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=300)[1] == ""
+    assert process.returncode == 2
+    form = re.compile(r"-?[0-9.]+( K?B)?")
+    known = {form.sub("N", line) for line in OFFICIAL[command].splitlines(keepends=True)}
+    assert {form.sub("N", line) for line in lines} <= known
+
+
+def test_the_command_itself_says_what_is_wrong_on_stderr(system):
+    assert ended([*ROS2, "param", "get", "/talkr", "speed"], system) == (
+        1, "", "Node not found. Did you mean /talker?\n",
+    )  # fmt: skip
+    status, out, err = ended([*ROS2, "tpic", "list"], system)
+    assert (status, out) == (2, "")
+    assert err.endswith("Did you mean topic?\n")
+
+
+def test_doctor_looks_at_the_same_as_in_a_recording(terminal):
+    assert terminal("doctor") == (
+        "UserWarning: Publisher without subscriber detected on /greeting.\n"
+        "UserWarning: Publisher without subscriber detected on /lamp/transition_event.\n"
+        "UserWarning: Subscriber without publisher detected on /level.\n"
+        "UserWarning: Publisher without subscriber detected on /place.\n"
+        "\nAll 3 checks passed\n\n",
+        0,
+    )
+
+
+def test_a_bag_is_recorded_until_ctrl_c_and_played_again(terminal, system, tmp_path):
+    folder = tmp_path / "kept"
+    process = start([*ROS2, "bag", "record", "-o", str(folder), "/place"], system)
+    while "Subscribed" not in process.stdout.readline():
+        assert process.poll() is None
+    for _ in range(3):  # meanwhile some come
+        terminal("topic echo --once /place")
+    process.send_signal(signal.SIGINT)
+    last = process.communicate(timeout=300)[0].splitlines(keepends=True)[-1]
+    count = int(re.fullmatch(rf"Recording stopped: (\d+) messages in {folder}\n", last)[1])
+    row = f"Topic: /place | Type: geometry_msgs/msg/PointStamped | Count: {count} | Serialization"
+    assert row in terminal(f"bag info {folder}")[0]
+    assert terminal(f"bag play -r 100 {folder}") == (f"Played {count} messages from {folder}\n", 0)
+
+
+def test_a_topic_of_the_robot_is_measured_beside_it():
+    with robot("--headless") as running:
+        process = start([*ROS2, "topic", "hz", "/scan"], running.domain)
+        first = process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=300)
+    assert re.fullmatch(r"average rate: \d+\.\d{3}\n", first)
+
+
+def test_a_domain_where_nobody_is_names_the_one_where_somebody_is(system):
+    elsewhere = next(domain for domain in range(60, 101) if domain != system)
+    status, out, err = ended([*ROS2, "node", "list"], elsewhere)
+    assert (status, out) == (0, "")
+    assert err.startswith(f"Nobody is on ROS domain {elsewhere} of this machine; there are nodes on ")
+    assert str(system) in err
+
+
+def test_a_domain_that_can_not_be_is_said():
+    told = "ROS_DOMAIN_ID is 'lab', and a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
+    assert ended([*ROS2, "node", "list"], "lab") == (1, "", told)
+
+
+def test_the_shell_completes_verbs_and_names(system):
+    def offered(line):
+        told = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_SHELL": "bash", "_ARGCOMPLETE_IFS": " "}
+        told |= {"_ARGCOMPLETE_STDOUT_FILENAME": "/dev/stderr", "COMP_TYPE": "9"}
+        told |= {"COMP_LINE": line, "COMP_POINT": str(len(line))}
+        program = "import sys; from sim.ros2.terminal import main; sys.exit(main())"
+        return ended([sys.executable, "-c", program], system, **told)[2].split()
+
+    assert offered("ros2 topic e") == ["echo"]
+    while offered("ros2 topic hz /pl") != ["/place"]:  # a busy machine may be late
+        pass
+
+
+def test_where_the_official_command_is_installed_that_one_is_run(tmp_path):
+    ours, theirs = tmp_path / "ours", tmp_path / "theirs"
+    texts = {ours: "from sim.ros2.terminal import main", theirs: 'echo official "$@"; exit 3'}
+    for folder, text in texts.items():
+        folder.mkdir()
+        (folder / "ros2").write_text(f"#!/bin/sh\n{text}\n")
+        (folder / "ros2").chmod(0o755)
+    assert official_command(str(ours)) is None
+    assert official_command(f"{ours}:{tmp_path / 'none'}::{theirs}") == theirs / "ros2"
+    path = f"{ours}:{theirs}:{os.environ['PATH']}"
+    assert ended([*ROS2, "topic", "list"], 0, PATH=path) == (3, "official topic list\n", "")

@@ -1,0 +1,192 @@
+"""A lesson's programs as real processes: what its cells define, without sim, in a domain that a robot shares.
+
+    python -m tests.tooling.lesson_programs JSON
+
+Runs as a process of its own: together() is told what to run, and what it returns is printed as one line of
+JSON. Each program is a fork, for a fresh interpreter would take a second to import the messages.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import importlib
+import json
+import operator
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+OURS = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
+PATIENCE = 20.0  # s of wall clock until a program that was told to end counts as hung
+
+
+def definitions(lesson: str) -> str:
+    """What the cells of a lesson define, as a module: no runs, and nothing that needs our packages."""
+    notebook = json.loads((ROOT / "course" / lesson / "lesson.ipynb").read_text(encoding="utf-8"))
+    cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
+    missing, kept = {"print", "display", *written}, []
+    for cell in cells:
+        for statement in ast.parse(cell).body if not cell.startswith("%%") else ():
+            if _is_ours(statement) or missing & set(_needed(statement)):
+                missing |= set(_defined(statement))
+            elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With):
+                kept.append(statement)
+    return ast.unparse(ast.Module(kept, []))
+
+
+def _is_ours(statement: ast.stmt) -> bool:
+    if isinstance(statement, ast.ImportFrom):
+        return (statement.module or "").split(".")[0] in OURS
+    return False
+
+
+def _needed(statement: ast.stmt) -> Iterator[str]:
+    """The names that a statement looks up when it runs; what functions look up comes later."""
+    pending: list[ast.AST] = [statement]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            pending += [*node.decorator_list, *node.args.defaults]
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
+            yield node.id
+        elif isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        else:
+            pending += ast.iter_child_nodes(node)
+
+
+def _defined(statement: ast.stmt) -> Iterator[str]:
+    if isinstance(statement, ast.ImportFrom):
+        yield from (name.asname or name.name for name in statement.names)
+    elif isinstance(statement, ast.FunctionDef | ast.ClassDef):
+        yield statement.name
+    else:
+        yield from (
+            node.id
+            for node in ast.walk(statement)
+            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+        )
+
+
+def lesson(name: str) -> dict[str, Any]:
+    """The names that a lesson defines, in this process."""
+    folder = ROOT / "course" / name
+    os.chdir(folder)
+    sys.path.insert(0, str(folder))
+    found: dict[str, Any] = {"__name__": "lesson"}
+    exec(compile(definitions(name), f"{name}/lesson.ipynb", "exec"), found)
+    return found
+
+
+def started(found: dict[str, Any], program: dict[str, Any], errors: Path) -> int:
+    """Fork, and run one program there: a main() or a node class. The process's number."""
+    child = os.fork()
+    if child:
+        return child
+    os.dup2(os.open(errors, os.O_WRONLY | os.O_CREAT | os.O_APPEND), 2)
+    os.dup2(2, 1)
+    status = 1
+    try:
+        _run(_named(found, program["name"]), program.get("arguments"))
+        status = 0
+    except BaseException:
+        import traceback
+
+        traceback.print_exc()
+    finally:
+        sys.stderr.flush()
+        os._exit(status)
+
+
+def _named(found: dict[str, Any], name: str) -> Any:
+    first, *rest = name.split(".")
+    thing = found[first] if first in found else importlib.import_module(first)
+    for attribute in rest:
+        thing = getattr(thing, attribute)
+    return thing
+
+
+def _run(thing: Any, arguments: list[str] | None) -> None:
+    """Run a main(), or a node class as the main() of lesson 1 does."""
+    import rclpy
+    from rclpy.executors import ExternalShutdownException
+
+    if not isinstance(thing, type):
+        thing(*([["", "--ros-args", *arguments]] if arguments else []))
+        return
+    rclpy.init(args=["", "--ros-args", *arguments] if arguments else None)
+    node = thing()  # and from here on as the main() of lesson 1
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def ended(child: int, number: int) -> int | str:
+    """Tell a process to end; its exit status, or that it hung."""
+    os.kill(child, number)
+    until = time.monotonic() + PATIENCE
+    while time.monotonic() < until:
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            return os.waitstatus_to_exitcode(status)
+        time.sleep(0.05)
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    return "hung"
+
+
+class Listener:
+    """Hears topics, in this process: of each message, one number."""
+
+    def __init__(self, topics: dict[str, tuple[str, str]]) -> None:
+        import rclpy
+
+        rclpy.init()
+        self._node = rclpy.create_node("lesson_listener")
+        self.heard: dict[str, list[float]] = {topic: [] for topic in topics}
+        for topic, (kind, field) in topics.items():
+            package, _, name = kind.split("/")
+            message_type = getattr(importlib.import_module(f"{package}.msg"), name)
+            keep = functools.partial(self._keep, topic, operator.attrgetter(field))
+            self._node.create_subscription(message_type, topic, keep, 10)  # reliable, as the robot's
+
+    def _keep(self, topic: str, number_of: Callable[[Any], float], message: Any) -> None:
+        self.heard[topic].append(number_of(message))
+
+    def listen(self, done: Callable[[], bool], seconds: float) -> None:
+        """Until it is done, but no longer than that."""
+        import rclpy
+
+        until = time.monotonic() + seconds
+        while time.monotonic() < until and not done():
+            rclpy.spin_once(self._node, timeout_sec=0.05)
+
+
+def together(spec: dict[str, Any]) -> dict[str, Any]:
+    """Run programs side by side; how each of them ended, what they complained of, and what was heard."""
+    found, errors = lesson(spec["lesson"]), Path(spec["errors"])
+    children = [started(found, program, errors) for program in spec["programs"]]
+    listener = Listener(spec["listen"])
+    listener.listen(lambda: all(listener.heard.values()), PATIENCE)
+    listener.listen(lambda: all(words in errors.read_text("utf-8") for words in spec["says"]), PATIENCE)
+    listener.listen(lambda: False, spec["seconds"])
+    number = signal.Signals[spec["signal"]]
+    statuses = [ended(child, number) for child in children]
+    listener.listen(lambda: False, 0.5)
+    return {"ended": statuses, "errors": errors.read_text(encoding="utf-8"), "heard": listener.heard}
+
+
+if __name__ == "__main__":
+    wanted = json.loads(sys.argv[1])
+    print(json.dumps(together(wanted)))

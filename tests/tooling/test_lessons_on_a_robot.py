@@ -1,0 +1,129 @@
+"""The lessons' programs as real processes beside `python -m sim`: what runs in a notebook runs on a robot."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from tests.sim.standalone.programs import LIMIT, REPOSITORY, environment, robot
+
+COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
+BOTH = pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+
+
+@pytest.fixture(scope="module")
+def yard():
+    """One robot for all."""
+    with robot("--world", "yard", "--headless") as running:
+        yield running
+
+
+def asked(running, errors, **spec):
+    """Run lesson_programs in the robot's domain; what it found."""
+    words = json.dumps(spec | {"errors": str(errors)})
+    domain = {"ROS_DOMAIN_ID": str(running.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.tooling.lesson_programs", words],
+        cwd=REPOSITORY, env=environment(**domain), capture_output=True, text=True, timeout=LIMIT, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def told(yard, errors, lesson, names, number="SIGINT", seconds=1.0, listen=None, says=(), **arguments):
+    programs = [{"name": name, "arguments": arguments.get(name)} for name in names]
+    listen = listen or {"/odom": ("nav_msgs/msg/Odometry", "pose.pose.position.x")}
+    return asked(
+        yard, errors,
+        lesson=lesson, programs=programs, seconds=seconds, signal=number, listen=listen, says=says,
+    )  # fmt: skip
+
+
+@BOTH
+def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
+    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, says=["]: on", "]: off"])
+    assert found["ended"] == [0]
+    assert {line.split("]: ")[1] for line in found["errors"].splitlines()} == {"on", "off"}
+
+
+@BOTH
+def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
+    found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS)
+    assert found["ended"] == [0]
+    assert found["heard"]["/cmd_vel"][-2:] == [0.3, 0.0]
+    assert found["errors"] == ""
+
+
+def test_the_server_of_lesson_4_drives(yard, tmp_path):
+    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], says=["canceled after"])
+    assert found["ended"] == [0, 0]
+    assert "canceled after" in found["errors"]
+    assert max(found["heard"]["/odom"]) - found["heard"]["/odom"][0] > 0.5
+
+
+@BOTH
+@pytest.mark.soak
+def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
+    found = told(yard, tmp_path / "errors", "06_navigator", ["whole.main"], number)
+    assert (found["ended"], found["errors"]) == ([0], "")
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("listener", "hears"), [("Listener", False), ("EasyListener", True)])
+def test_a_best_effort_publisher_is_heard_with_the_profile_for_sensors_only(yard, tmp_path, listener, hears):
+    found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], seconds=3)
+    assert found["ended"] == [0, 0]
+    assert ("I heard: Hello" in found["errors"]) == hears
+    assert ("incompatible QoS" in found["errors"]) == (not hears)
+
+
+@pytest.mark.soak
+def test_between_two_processes_a_wrong_type_is_silence(yard, tmp_path):
+    found = told(yard, tmp_path / "errors", "02_topics", ["Listener", "NumberTalker"], seconds=2)
+    assert (found["ended"], found["errors"]) == ([0, 0], "")
+
+
+@pytest.mark.soak
+def test_two_nodes_of_one_name_start_without_a_warning(yard, tmp_path):
+    found = told(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], seconds=2)
+    assert found["ended"] == [0, 0]
+    assert "WARN" not in found["errors"]
+
+
+@pytest.mark.soak
+def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
+    found = told(yard, tmp_path / "one", "03_services", ["Adder", "Awaiting"], seconds=3)
+    assert "1 + 2 + 3 = 6" in found["errors"]
+    found = told(yard, tmp_path / "other", "03_services", ["Adder", "StillFrozen"], seconds=3)
+    assert "The sum is" not in found["errors"]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("circler", "words"), [
+    ("CarefulCircler", "a radius is 0.2 m or more"),
+    ("RangedCircler", "Parameter radius out of range"),
+    ("Circler", "ZeroDivisionError"),
+])  # fmt: skip
+def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path, circler, words):
+    radius = {circler: ["-p", "radius:=0.0"]}
+    found = told(yard, tmp_path / "errors", "03_services", [circler], seconds=1, **radius)
+    assert found["ended"] == [1]
+    assert words in found["errors"].splitlines()[-1]
+
+
+@pytest.mark.soak
+def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
+    names = ["whole.main", "SpinServer", "Patrol"]
+    found = told(yard, tmp_path / "errors", "04_actions", names, seconds=20)
+    assert found["ended"] == [0, 0, 0]
+    assert found["errors"].count(": done") == 4
+
+
+@pytest.mark.soak
+def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
+    raw = {"Blind": ["-r", "/cmd_vel:=/cmd_vel_raw"]}
+    names = ["WholeGuard", "Blind"]
+    found = told(yard, tmp_path / "errors", "05_sensing", names, seconds=2, listen=COMMANDS, **raw)
+    assert (found["ended"], found["errors"]) == ([0, 0], "")
+    assert found["heard"]["/cmd_vel"][-1] == 0.4
