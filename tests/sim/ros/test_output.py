@@ -19,7 +19,7 @@ def test_each_way_to_write_is_kept_in_its_place(capfd):
     recording = run(output.writes_everywhere, seconds=1)
     assert "".join(text for _, text in recording.prints) == "printed\nwritten\n"
     assert recording.stderr == "complained\nbelow python\n"  # pytest takes the warnings and Python's logging
-    assert [tuple(line) for line in recording.logs] == [(0.0, "WARN", "writer", "logged")]
+    assert [tuple(line) for line in recording.logs] == [(0.0, "WARN", "writer", "logged", False)]
     out, err = capfd.readouterr()
     assert err == ""
     assert out.startswith("printed\nwritten\ncomplained\n")
