@@ -1,6 +1,6 @@
 """Exceptions as rclpy and Python word them, and what a beginner does about each.
 
-The patterns are those of rclpy 7.1 and CPython 3.11 to 3.13. `{0}`, `{1}` ... stand for the pattern's groups.
+The patterns are those of rclpy 7.1 and CPython 3.11 to 3.14. `{0}`, `{1}` ... stand for the pattern's groups.
 """
 
 from __future__ import annotations

@@ -18,10 +18,11 @@ from sim.evidence import Endpoint
 from sim.evidence.qos import settings
 from sim.ros.messages.codec import message_class
 from sim.ros2 import domains
-from sim.ros2.system import POLL, Arrived, System, T, Voice, Work, with_node
+from sim.ros2.system import POLL, Arrived, Known, System, T, Voice, Work, with_node
 
 SETTLED = 0.5  # s without news, as the official tools wait: then the graph is known
 LOOK = 0.05  # s, between two looks at it
+AGAIN = 30  # looks for a name that isn't there yet: another process may be slow
 PATIENCE = 5.0  # s, while somebody is there of whom nothing is known yet
 
 
@@ -102,6 +103,16 @@ class Live(System):
     def now(self) -> float:
         """As `System`: of the wall clock."""
         return time.time()
+
+    def look_for(self, name: str, look: Callable[[], Known]) -> Known:
+        """As `System`."""
+        found = look()
+        for _ in range(AGAIN):
+            if name in found:
+                break
+            rclpy.spin_once(self._node, timeout_sec=LOOK)
+            found = look()
+        return found
 
     def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
         """As `System`, until Ctrl-C."""

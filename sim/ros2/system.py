@@ -6,7 +6,7 @@ Stamps are seconds: of the wall clock in a terminal, of the run in a notebook.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
@@ -26,6 +26,7 @@ _numbers = count(1)
 PATIENCE = 5.0  # s, until a service that should be there is given up, as by the official tools
 POLL = 0.1  # s between two looks at whether something has come
 T = TypeVar("T")
+Known = TypeVar("Known", bound=Collection[str])
 
 
 class Wrong(Exception):
@@ -92,6 +93,10 @@ class System(ABC):
         seconds: it may take so long. Raises Wrong where nothing runs.
         """
 
+    def look_for(self, name: str, look: Callable[[], Known]) -> Known:
+        """What a look finds; where things are found one by one, the last of some looks for this name."""
+        return look()
+
     def names(self, *kinds: str, hidden: bool = False) -> dict[str, list[str]]:
         """Name to types of all topics, services or actions that have an end of these kinds, sorted."""
         found: dict[str, set[str]] = {}
@@ -107,7 +112,7 @@ class System(ABC):
     def node(self, name: str, *, hidden: bool = True) -> str:
         """The full name of a node that there is. Raises Wrong for none."""
         full = name if name.startswith("/") else f"/{name}"
-        known = [node for node in self.nodes if hidden or not is_hidden(node)]
+        known = self.look_for(full, lambda: [node for node in self.nodes if hidden or not is_hidden(node)])
         if full not in known:
             raise Wrong(f"Node not found{guess(full, known)}")
         return full

@@ -9,7 +9,7 @@ from pathlib import Path
 import install
 import pytest
 
-OTHERS = [minor for minor in ("3.11", "3.12", "3.13") if minor != f"3.{sys.version_info.minor}"]
+OTHERS = [minor for minor in ("3.11", "3.12", "3.13", "3.14") if minor != f"3.{sys.version_info.minor}"]
 UV = shutil.which("uv", path=str(Path(sys.executable).parent))
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SUPPORTED = ("3.11", "3.12", "3.13")
+SUPPORTED = ("3.11", "3.12", "3.13", "3.14")
 RUNS = """#!/bin/sh
 case "$*" in *ensurepip*) exit {venv};; *Python.h*) exit {headers};; esac
 echo {version}
@@ -100,7 +100,7 @@ def test_with_wheels_no_compiler_is_asked_for(machine):
 def test_without_a_supported_python_it_says_which_to_install(machine):
     machine.has_python("python3", "3.10")
     assert machine.complaint() == (
-        "No Python 3.11, 3.12 or 3.13 runs here: "
+        "No Python 3.11 to 3.14 runs here: "
         "install one, or name one with `make PYTHON=/path/to/python3.12`.\n"
     )
 
@@ -108,7 +108,7 @@ def test_without_a_supported_python_it_says_which_to_install(machine):
 def test_a_named_python_that_does_not_run_is_named(machine):
     machine.has_python("python3", "3.12")
     assert machine.complaint(PYTHON="/nowhere/python") == (
-        "PYTHON=/nowhere/python is not a Python 3.11, 3.12 or 3.13 that runs: "
+        "PYTHON=/nowhere/python is not a Python 3.11 to 3.14 that runs: "
         "name another one, or leave PYTHON out.\n"
     )
 

@@ -78,6 +78,10 @@ class FiberRLock:
             self._owner = None
             self._lock.release()
 
+    def locked(self) -> bool:
+        """As `threading.RLock.locked`, which Python has since 3.14: its Condition asks for it."""
+        return self._lock.locked()
+
     def __enter__(self) -> bool:
         return self.acquire()
 

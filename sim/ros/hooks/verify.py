@@ -12,7 +12,7 @@ from typing import Any
 
 from sim.ros.hooks.table import Hook
 
-WRITTEN_FOR = {"rclpy": "7.1.6", "numpy": "2.4.6", "Python": "3.11 to 3.13"}
+WRITTEN_FOR = {"rclpy": "7.1.6", "numpy": "2.4.6", "Python": "3.11 to 3.14"}
 _DISTRIBUTIONS = {"rclpy": "ros-jazzy-rclpy", "numpy": "numpy"}
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 

@@ -30,7 +30,7 @@ def managed(system: System, *, hidden: bool) -> list[str]:
 
 def _node(system: System, asked: Namespace) -> str:
     full = asked.node_name if asked.node_name.startswith("/") else f"/{asked.node_name}"
-    known = managed(system, hidden=asked.include_hidden_nodes)
+    known = system.look_for(full, lambda: managed(system, hidden=asked.include_hidden_nodes))
     if full not in known:
         raise Wrong(f"Node not found{guess(full, known)}")
     return full

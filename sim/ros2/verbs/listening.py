@@ -76,7 +76,7 @@ def _silence(system: System, name: str) -> str:
 def _awaited(system: System, name: str) -> tuple[str, str]:
     """The full name and the type of a topic, for which this waits where it may still come."""
     name = name if name.startswith("/") else f"/{name}"
-    known = system.topics(hidden=True)
+    known = system.look_for(name, lambda: system.topics(hidden=True))
     if name not in known:
         system.say(f"WARNING: topic [{name}] does not appear to be published yet{guess(name, known)}")
         for _ in system.listen({}):
@@ -114,10 +114,9 @@ def _only_type(name: str, known: dict[str, list[str]]) -> str:
 def echo(system: System, asked: Namespace) -> None:
     """Output messages from a topic."""
     name = asked.topic_name if asked.topic_name.startswith("/") else f"/{asked.topic_name}"
-    known = system.topics(hidden=True)
-    if asked.message_type:
-        known = {name: [asked.message_type]}
-    elif name not in known:
+    given = {name: [asked.message_type]} if asked.message_type else {}
+    known = given or system.look_for(name, lambda: system.topics(hidden=True))
+    if name not in known:
         system.say(f"WARNING: topic [{name}] does not appear to be published yet{guess(name, known)}")
     type_ = _only_type(name, known)
     profile = asked_profile(asked, "sensor_data")

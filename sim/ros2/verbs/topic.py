@@ -55,7 +55,7 @@ def list_(system: System, asked: Namespace) -> None:
 )
 def info(system: System, asked: Namespace) -> None:
     """Print information about a topic."""
-    found = system.topics(hidden=True)
+    found = system.look_for(asked.topic_name, lambda: system.topics(hidden=True))
     if asked.topic_name not in found:
         raise Wrong(f"Unknown topic '{asked.topic_name}'{guess(asked.topic_name, found)}")
     gap = "\n" if asked.verbose else ""
@@ -107,7 +107,7 @@ def _type_hash(type_: str) -> str:
 @topic.verb("type", NAME, HIDDEN)
 def type_(system: System, asked: Namespace) -> None:
     """Print a topic's type."""
-    found = system.topics(hidden=True)
+    found = system.look_for(asked.topic_name, lambda: system.topics(hidden=True))
     if asked.topic_name not in found:
         near = guess(asked.topic_name, found)
         raise Wrong(f"Unknown topic '{asked.topic_name}'{near}")

@@ -137,7 +137,7 @@ def test_a_place_of_pythons_own_is_named_with_pythons_versions():
         fit(Hook(time, "sleeps", "sleeping takes simulated time", lambda original: None))
     assert str(caught.value) == (
         f"A run reaches into time.sleeps, which Python {platform.python_version()} does not have: "
-        "this course was written for Python 3.11 to 3.13."
+        "this course was written for Python 3.11 to 3.14."
     )
 
 

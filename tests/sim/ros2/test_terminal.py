@@ -91,9 +91,8 @@ def test_what_comes_is_measured_until_ctrl_c(system, command):
 
 
 def test_the_command_itself_says_what_is_wrong_on_stderr(system):
-    assert ended([*ROS2, "param", "get", "/talkr", "speed"], system) == (
-        1, "", "Node not found. Did you mean /talker?\n",
-    )  # fmt: skip
+    said = ended([*ROS2, "param", "get", "/talkr", "speed"], system)
+    assert said == (1, "", "Node not found. Did you mean /talker?\n")
     status, out, err = ended([*ROS2, "tpic", "list"], system)
     assert (status, out) == (2, "")
     assert err.endswith("Did you mean topic?\n")

@@ -120,7 +120,7 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(address)
         expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"), timeout=300_000)
-        page.locator("canvas").click()
+        page.get_by_role("application").click()
         page.keyboard.down("ArrowUp")
         running.hear_until(lambda heard: heard["x"] > 0.2 and heard["v"] > 0.0)
         page.keyboard.up("ArrowUp")

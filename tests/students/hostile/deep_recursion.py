@@ -7,7 +7,7 @@ for _ in range(10_000_000):
 del nested
 import sys
 
-sys.setrecursionlimit(10**9)
+sys.setrecursionlimit(10**6)
 
 
 def deeper(depth):
