@@ -31,7 +31,10 @@ from tests.exercises.evidence import Evidence
 
 ROOT = Path(__file__).parents[2]
 # What Python 3.11 says of an error, and 3.12 and later: a student reads the words of the one that runs.
-REWORDED = {"min() arg is an empty sequence": "min() iterable argument is empty"}
+REWORDED = {
+    "min() arg is an empty sequence": "min() iterable argument is empty",
+    "float division by zero": "division by zero",
+}
 NOT_STARTED = "This exercise is not started yet"
 
 
