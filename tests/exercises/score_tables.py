@@ -30,7 +30,7 @@ from sim import Process
 from tests.exercises.evidence import Evidence
 
 ROOT = Path(__file__).parents[2]
-# What Python 3.11 says of an error, and 3.12 and later: a student reads the words of the one that runs.
+# What one Python says of an error, and another one: a student reads the words of the one that runs.
 REWORDED = {
     "min() arg is an empty sequence": "min() iterable argument is empty",
     "float division by zero": "division by zero",
