@@ -131,7 +131,7 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
         path=path,
         title=title,
         time=next(iter(TIME.findall(text)), ""),
-        needs=next(iter(NEEDS.findall(text)), needs),
+        needs=next(iter(NEEDS.findall(text)), needs).replace("`", ""),
         cells=len(code),
         run=sum(cell.get("execution_count") is not None for cell in code),
         points=sum(map(_earned, tests)),

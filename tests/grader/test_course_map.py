@@ -20,7 +20,7 @@ def code(*, run=None, metadata=None, result=None):
 
 def write(path, title, *cells):
     path.parent.mkdir(parents=True, exist_ok=True)
-    words = "**Time:** about an hour. **Before you begin:** Python & lesson 0. More is in the glossary."
+    words = "**Time:** about an hour. **Before you begin:** Python & `lesson` 0. More is in the glossary."
     head = {"cell_type": "markdown", "metadata": {}, "source": [f"# {title}\n\n", words]}
     path.write_text(json.dumps({"cells": [head, *cells]}))
 
