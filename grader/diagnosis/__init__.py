@@ -1,6 +1,6 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
-from grader.diagnosis import actions, activity, connections, driving, names, owners, services
+from grader.diagnosis import actions, activity, connections, driving, names, owners, parameters, services
 from grader.diagnosis.faults import find_fault
 from sim.evidence import Recording
 
@@ -13,6 +13,7 @@ DIAGNOSES = (
     owners.two_owners,
     names.typing_slip,
     names.service_slip,
+    parameters.unknown_parameter,
     connections.incompatible_qos,
     connections.said_too_early,
     services.nobody_offers,

@@ -78,6 +78,15 @@ class Unheard(NamedTuple):
     topic: str
 
 
+class ParameterName(NamedTuple):
+    """A parameter of a node that was started with values: one that was given there, or one it declares."""
+
+    stamp: Seconds
+    node: str
+    name: str
+    declared: bool
+
+
 class Pose(NamedTuple):
     """Where the robot really was (ground truth, map frame)."""
 

@@ -9,8 +9,9 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.action import ActionServer
 from rclpy.node import Node
 
+from sim import Process
 from tests.students.engine.actions import Server
-from tests.students.engine.services import Adder, Customer
+from tests.students.engine.services import Adder, Customer, Wheel
 
 
 class MisspeltService(Adder):
@@ -71,3 +72,39 @@ def asks_another_node():
     client = node.create_client(GetParameters, "/wheels/get_parameters")
     client.call_async(GetParameters.Request(names=["radius"]))
     rclpy.spin(node)
+
+
+class TakesAllParameters(Node):
+    def __init__(self):
+        super().__init__("taker", allow_undeclared_parameters=True)
+        self.get_logger().info("Here")
+
+
+class DeclaresWhatIsGiven(Node):
+    def __init__(self):
+        super().__init__("declarer", automatically_declare_parameters_from_overrides=True)
+        self.get_logger().info("Here")
+
+
+def launch_with_a_slip():
+    return Process(Wheel, parameters={"name": "right", "radios": 0.2})
+
+
+def launch_with_another_parameter():
+    return Process(Wheel, arguments=["--ros-args", "-p", "mass:=2.0"])
+
+
+def launch_with_a_parameter_for_none():
+    return Process(Adder, parameters={"mass": 2.0})
+
+
+def launch_with_parameters():
+    return Process(Wheel, parameters={"radius": 0.2, "start_type_description_service": False})
+
+
+def launch_of_a_taker():
+    return Process(TakesAllParameters, parameters={"mass": 2.0})
+
+
+def launch_of_a_declarer():
+    return Process(DeclaresWhatIsGiven, parameters={"mass": 2.0})

@@ -101,7 +101,7 @@ def _is_cut(run: Recording, call: Call) -> bool:
     return accepted(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
 
 
-def _begins_with(run: Recording, speed: float, expected: float, hint: str) -> None:
+def _begins_with(run: Recording, speed: float, expected: float, hint: str = "") -> None:
     """The parameter has the expected value at the start, and the commands, too."""
     if not math.isclose(speed, expected):
         raise Missed(f"speed {expected} from the start", f"{speed:g}", hint)
@@ -135,10 +135,9 @@ def launches_the_cruiser(run: Recording) -> float:
     return declares_speed(run)
 
 
-@launch.check(2, after=launches_the_cruiser)
+@launch.check(
+    2, after=launches_the_cruiser, guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).'
+)
 def is_launched_with_a_speed(run: Recording, speed: float) -> None:
     """It is started with a speed of 0.3, and drives with that."""
-    hint = 'In launch: return Process(Cruiser, parameters={"speed": 0.3}).'
-    if math.isclose(speed, DEFAULT):
-        hint += " A name that the node doesn't declare is dropped without a word: is yours `speed`, as there?"
-    _begins_with(run, speed, LAUNCHED, hint)
+    _begins_with(run, speed, LAUNCHED)

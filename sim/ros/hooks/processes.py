@@ -10,6 +10,7 @@ from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from sim.ros.engine.callbacks import recorded
 from sim.ros.engine.processes import SharedContext
@@ -86,9 +87,23 @@ def node_init(original: Callable) -> Callable:
         process.nodes.append(self)
         run.eager |= isinstance(self, LifecycleNodeMixin)  # its state machine publishes from C++
         run.recorder.node(self)
+        if not self._allow_undeclared_parameters:
+            run.recorder.parameters(self, self._parameter_overrides, declared=False)
         return None
 
     return __init__
+
+
+@hook(Node, "declare_parameters", "the recording knows which values that a start gives are meant for nobody")
+def declare_parameters(original: Callable) -> Callable:
+    def declare_parameters(self: Node, *arguments: Any, **keywords: Any) -> list[Parameter]:
+        made = original(self, *arguments, **keywords)
+        run = engine() if self._parameter_overrides else None
+        if run is not None:
+            run.recorder.parameters(self, [parameter.name for parameter in made], declared=True)
+        return made
+
+    return declare_parameters
 
 
 @hook(

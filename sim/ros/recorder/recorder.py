@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import greenlet
@@ -15,6 +16,7 @@ from sim.evidence import (
     Endpoint,
     Heard,
     LogLine,
+    ParameterName,
     Recording,
     TimerInfo,
     Unheard,
@@ -200,6 +202,12 @@ class Recorder:
             self._unheard.add((sender, topic))
             if self.open and topic not in INFRASTRUCTURE_TOPICS:
                 self.recording.unheard.append(Unheard(self.now, sender, topic))
+
+    def parameters(self, node: Any, names: Iterable[str], *, declared: bool) -> None:
+        """A node was given these parameters as it started, or declares them."""
+        if self.open:
+            of = self.name_of(node)
+            self.recording.parameters += [ParameterName(self.now, of, name, declared) for name in names]
 
     def busy_loop(self, fiber: Fiber, line: str) -> None:
         """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""

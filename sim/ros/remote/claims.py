@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, TimerInfo, Unheard
+from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, ParameterName, TimerInfo, Unheard
 from sim.nanoseconds import SECOND
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.checked import MOST_NAME, Nonsense, Texts, number, rows
@@ -48,6 +48,9 @@ class Claims:
             self._recording.busy_loops.append(loop)
         for node, topic in self._claimed(claims, "unheard", 2):
             self._recording.unheard.append(Unheard(self._now, self._node(node), self._node(topic)))
+        for node, name, declared in self._claimed(claims, "parameters", 3):
+            named = ParameterName(self._now, self._node(node), self._name(name), bool(declared))
+            self._recording.parameters.append(named)
         for began, lasted, node, callback, kind in self._claimed(claims, "callbacks", 5):
             self._callback(began, lasted, node, callback, kind)
 

@@ -107,6 +107,7 @@ class Reports(Link):
             "prints": News(recording.prints),
             "busy_loops": News(recording.busy_loops),
             "unheard": News(recording.unheard),
+            "parameters": News(recording.parameters),
             "errors": News(recording.errors),
             "callbacks": News(recording.callbacks),
         }
@@ -183,7 +184,7 @@ class Reports(Link):
     def claims(self) -> dict[str, list[Any]]:
         """What the nodes say of themselves, since the last time; no word where there is nothing."""
         new = {kind: news.take() for kind, news in self._claims.items()}
-        for kind in ("logs", "prints", "errors", "busy_loops", "unheard"):
+        for kind in ("logs", "prints", "errors", "busy_loops", "unheard", "parameters"):
             new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
         new["logs"] = [line[:3] for line in new["logs"]]  # it knows whose they are
         new["prints"] = [piece for (piece,) in new["prints"]]

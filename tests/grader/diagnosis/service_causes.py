@@ -18,8 +18,12 @@ LOOK = (
     "Look at goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
     "the result."
 )
+DROPPED = "was started with a value for the parameter {}, which it doesn't declare, and ROS drops that without a word."
 
 SERVICE_CAUSES = {
+    (misfits.launch_with_a_slip,): f"/wheel {DROPPED.format('`radios`')} Did you mean `radius`?",
+    (misfits.launch_with_another_parameter,): f"/wheel {DROPPED.format('`mass`')} It declares `radius`, `name`.",
+    (misfits.launch_with_a_parameter_for_none,): f"/adder {DROPPED.format('`mass`')} It declares none.",
     (misfits.MisspeltService, services.done_callback): SLIP.format("/adder offers /ad")
     + "Is /ad a typing slip? Did you mean /add?",
     (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format("/robot1/adder offers /robot1/add")

@@ -6,7 +6,7 @@ from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
-from tests.students import misfits
+from tests.students import misfits, service_misfits
 from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
 
@@ -117,6 +117,9 @@ def test_a_cause_is_explained(students, sentence):
         ((callers.two_servers, services.done_callback), None),
         ((services.Adder, services.single_exclusive), None),
         ((services.Wheel, services.parameter_services), None),
+        ((service_misfits.launch_with_parameters,), None),
+        ((service_misfits.launch_of_a_taker,), None),
+        ((service_misfits.launch_of_a_declarer,), None),
         ((actions.Server, actions.Client), None),
         ((actions.Server, actions.Greedy), None),
         ((actions.Aborting, actions.Client), None),

@@ -196,6 +196,7 @@ def test_an_event_that_can_t_be_ends_the_run(events, words):
         ({"errors": [["/a", "b", "c", "d", None]]}, "an error that is no text"),
         ({"busy_loops": [["/a", 3]]}, "a busy loop that is no text"),
         ({"unheard": [["/a", 3]]}, "a node's name that is no text"),
+        ({"parameters": [["/a", 3, True]]}, "a name that is no text"),
         ({"timers": [["/a", -1, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
         ({"timers": [["/a", True, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
         ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of no known kind"),
