@@ -38,6 +38,7 @@ FLAWS = (
     activity.busy_listener,
     activity.busy_loop,
     driving.refused_command,
+    driving.drives_against_it,
     driving.two_drivers,
     driving.rare_commands,
     driving.left_driving,

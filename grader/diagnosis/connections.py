@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from sim.evidence import Recording
+from sim.evidence import Recording, Unheard
 from sim.evidence.qos import offer, refusal
 
 
@@ -24,7 +24,7 @@ def incompatible_qos(recording: Recording) -> str:
 
 def said_too_early(recording: Recording) -> str:
     """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
-    early = next((row for row in recording.unheard if row.node not in recording.ours), None)
+    early = next((row for row in recording.unheard if _is_loss(recording, row)), None)
     if early is None:
         return ""
     return (
@@ -33,3 +33,11 @@ def said_too_early(recording: Recording) -> str:
         "Make the publisher once, in __init__, and publish from a timer; or latch it (durability "
         "transient_local at both ends)."
     )
+
+
+def _is_loss(recording: Recording, row: Unheard) -> bool:
+    """Whether a student's node never says again what reached nobody: a loop says it twenty times a second."""
+    if row.node in recording.ours:
+        return False
+    said = [heard for heard in recording.messages(row.topic, row.node) if heard.stamp >= row.stamp]
+    return all(again.raw != said[0].raw for again in said if again.stamp > row.stamp)

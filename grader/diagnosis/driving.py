@@ -7,11 +7,12 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from grader.diagnosis.rays import rays_without_distance
+from grader.diagnosis.rays import NO_WAY, rays_without_distance
 from sim.evidence import Recording, Seconds
 
 _TWIST = "geometry_msgs/msg/Twist"
 _SOME = 2  # times that something is no accident any more
+_STUCK, _SLIP = 1.5, 0.02  # s and m: no brief touch, and no box that gives way
 STOP = (
     "This robot stops by itself when no command comes; others drive on. "
     "Publish a Twist() with all zeros at the end."
@@ -48,6 +49,31 @@ def refused_command(recording: Recording) -> str:
                     f"what is no finite number. {rays or 'Print what it is worked out from.'}"
                 )
     return ""
+
+
+def drives_against_it(recording: Recording) -> str:
+    """Commands to drive on, while the robot touches something and gets no further."""
+    for contact in recording.contacts:
+        soon = contact.stamp + _STUCK
+        if (contact.end or recording.ended.stamp) < soon or _way(recording, contact.stamp, soon) > _SLIP:
+            continue
+        wanted = -1 if contact.side == "back" else 1
+        for topic, commands in _of_robots(recording):
+            meant = [command for command in commands if contact.stamp < command.stamp < soon]
+            if topic == "/cmd_vel" and meant and all(command.v * wanted > 0 for command in meant):
+                rays = rays_without_distance(recording, meant[-1].sender, meant[-1].stamp, NO_WAY)
+                return (
+                    f"The robot's {contact.side} touched a {contact.what} at {contact.stamp:.3g} s, and "
+                    f"{meant[-1].sender} drives on against it: {meant[-1].words} at {meant[-1].stamp:.3g} s. "
+                    f"{rays or 'Stop before, as soon as the lidar sees something near.'}"
+                )
+    return ""
+
+
+def _way(recording: Recording, begin: Seconds, end: Seconds) -> float:
+    """How far the robot got between two moments, m."""
+    one, other = recording.pose_at(begin), recording.pose_at(end)
+    return math.hypot(other.x - one.x, other.y - one.y)
 
 
 def two_drivers(recording: Recording) -> str:

@@ -123,3 +123,31 @@ def main_that_comes_to_its_end():
     node = Greeter()
     node.destroy_node()
     rclpy.shutdown()
+
+
+class TakesTooNearForFree(Driver):
+    """Stops for what is up to 0.13 m ahead, but where the robot touches a wall the lidar says -inf."""
+
+    speed, until = 0.5, math.inf
+
+    def __init__(self):
+        super().__init__()
+        self.free = True
+        self.create_subscription(LaserScan, "/scan", self.look, 10)
+
+    def look(self, scan):
+        self.free = not 0.0 < scan.ranges[0] < 0.13
+
+    def drive(self):
+        self.send(self.speed if self.free else 0.0)
+
+
+class BacksBlindly(Driver):
+    speed, until = -0.5, math.inf
+
+
+class TurnsAwayAtAWall(TakesTooNearForFree):
+    """Touches the wall, and goes back at once."""
+
+    def look(self, scan):
+        self.speed = -0.5 if scan.ranges[0] < 0.2 else self.speed

@@ -98,6 +98,14 @@ class TalksInItsConstructor(TalkerWithoutTimer):
         self.publisher.publish(String(data="hello"))
 
 
+class SaysItAgain(TalksInItsConstructor):
+    """The first of its words reaches nobody, and the second is the same; nothing is wrong with it."""
+
+    def __init__(self):
+        super().__init__()
+        self.create_timer(1.0, lambda: self.publisher.publish(String(data="hello")))
+
+
 class RateForPeriod(Node):
     """Meant to talk 100 times a second."""
 

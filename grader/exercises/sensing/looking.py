@@ -32,6 +32,7 @@ class Sector(NamedTuple):
     middle: float  # the one ray in the middle
     beside: np.ndarray  # those farther off, up to 60 degrees
     around: float  # the nearest distance of all directions, m
+    numbers: np.ndarray  # of `rays`, in the scan
 
     @property
     def kind(self) -> str:
@@ -46,6 +47,15 @@ class Sector(NamedTuple):
     def nearest(self) -> float:
         """The distance of the nearest thing, m."""
         return max(0.0, _least(self.inner))
+
+    @property
+    def told(self) -> str:
+        """The end of a sentence on what is special in it, and the first ray that says so; "" for nothing."""
+        if self.kind == "empty":
+            return ": there is no ray with a distance"
+        marked = np.isneginf(self.rays) if self.kind == "near" else np.isnan(self.rays)
+        first = marked.argmax()
+        return f": ray {self.numbers[first]} says {self.rays[first]:g}" if marked[first] else ""
 
     def fits(self, said: float | None) -> bool:
         """Is this what the rays say?"""
@@ -129,7 +139,7 @@ def _all_right(looks: list[Look], kind: str, hint: str) -> None:
 
 def _miss(look: Look, hint: str) -> None:
     raise Missed(
-        f"{look.sector.nearest:.3g} m on {look.topic} at {look.stamp:.3g} s",
+        f"{look.sector.nearest:.3g} m on {look.topic} at {look.stamp:.3g} s{look.sector.told}",
         "nothing" if look.said is None else f"{look.said:.3g} m",
         hint,
     )
@@ -211,6 +221,7 @@ def _sectors(scan: Heard) -> dict[str, Sector]:
             float(ranges[far.argmin()]),
             ranges[(far > HALF) & (far <= BESIDE)],
             max(0.0, _least(ranges)),
+            np.flatnonzero(far <= HALF + EDGE),
         )
         for topic, far in off.items()
     }

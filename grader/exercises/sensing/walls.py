@@ -6,7 +6,8 @@ import itertools
 import math
 import statistics
 
-from grader.checks import Missed, keeps_clear, passes, publishes, series, travelled, until_a_touch
+from grader.checks import Missed, keeps_clear, passes, publishes, travelled, until_a_touch
+from grader.diagnosis.driving import refused_command
 from grader.exercise import Exercise
 from grader.exercises.sensing.places import MARGIN, gallery
 from sim.evidence import Pose, Recording
@@ -95,13 +96,9 @@ def _gap(run: Recording, pose: Pose) -> float:
 def _why_not_round(run: Recording) -> str:
     """The usual reasons for not getting round."""
     first = run.contacts[0] if run.contacts else None
-    infinite = any(not math.isfinite(turn) for _, turn in series(run, "/cmd_vel", "angular.z"))
+    infinite = refused_command(run)
     if infinite and (first is None or first.side != "front"):
-        return (
-            "It came so near to the wall that a ray said -inf (or nan), the formula made an infinite turn of "
-            "it, and the robot refuses that. Look to the right, at ranges[270], and steer so that it stays "
-            "0.5 m away."
-        )
+        return f"{infinite} Look to the right, at ranges[270], and steer so that it stays 0.5 m away."
     if first:
         return (
             f"It touched a {first.what} at {first.stamp:.3g} s, with its {first.side} side. When the wall "

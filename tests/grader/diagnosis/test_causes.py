@@ -109,6 +109,7 @@ def test_a_cause_is_explained(students, sentence):
     [
         ((misfits.Talker,), None),
         ((misfits.Talker, misfits.Listener), None),
+        ((misfits.Listener, misfits.SaysItAgain), None),
         ((misfits.Listener, misfits.Talker), "yard"),
         ((misfits.Talker,), "room"),
         ((services.Adder, services.done_callback), "yard"),

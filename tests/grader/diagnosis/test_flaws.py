@@ -30,6 +30,13 @@ SENTENCES = {
     (misfits.main_without_spin,): "/talker has a timer, but none of its callbacks ever ran. Callbacks run while the "
     "node spins: call rclpy.spin(node) in main().",
 }
+AT_A_WALL = {
+    flaws.TakesTooNearForFree: "The robot's front touched a wall at 6.04 s, and /driver drives on against it: 0.5 m/s "
+    "and 0 rad/s at 7.5 s. In the scan of 7.5 s ray 0 says -inf (something is too near to be measured).",
+    flaws.BacksBlindly: "The robot's back touched a wall at 6.04 s, and /driver drives on against it: -0.5 m/s and 0 "
+    "rad/s at 7.5 s. Stop before, as soon as the lidar sees something near.",
+    flaws.TurnsAwayAtAWall: "",
+}
 
 
 def record(students):
@@ -45,6 +52,11 @@ def test_a_flaw_is_told(students, sentence):
     recording = record(students)
     assert find_fault(recording) is None
     assert find_flaw(recording) == sentence
+
+
+@pytest.mark.parametrize("student, sentence", AT_A_WALL.items())
+def test_a_robot_that_is_driven_against_a_wall_is_told(student, sentence):
+    assert find_flaw(run(student, world="room", seconds=8, quiet=True)) == sentence
 
 
 @pytest.mark.parametrize(
@@ -82,5 +94,6 @@ def test_what_may_also_be_right_explains_a_missed_check_and_is_no_flaw(students)
 
 def test_every_flaw_is_earned_by_some_students():
     recordings = [record(students) for students in SENTENCES]
+    recordings.append(run(flaws.BacksBlindly, world="room", seconds=8, quiet=True))
     assert [flaw.__name__ for flaw in FLAWS if not any(map(flaw, recordings))] == []
     assert set(GUESSES) <= set(DIAGNOSES)
