@@ -31,15 +31,16 @@ def nobody_offers(recording: Recording) -> str:
 
 
 def asked_nobody(recording: Recording) -> str:
-    """A request or goal that was sent while there was no server to take it."""
+    """A request or goal that was sent before there was a server to take it, or before it was found."""
     lost = [(call.service, call.client, call.asked, "service") for call in recording.calls if call.lost]
     lost += [(goal.action, goal.client, goal.asked, "server") for goal in recording.goals if goal.lost]
     for name, client, asked, what in lost:
         servers = [e.node for e in recording.graph.endpoints if e.name == name and "client" not in e.kind]
         if servers:
             return (
-                f"{client} called {name} at {asked:.3g} s, when {servers[0]} was not there to take it: what "
-                f"is sent to nobody is lost. Wait first: `while not client.wait_for_{what}(timeout_sec=1.0)`."
+                f"{client} called {name} at {asked:.3g} s, before it had found {servers[0]}: two programs "
+                "need a moment to discover each other, and what is sent before that is lost. Wait first: "
+                f"`while not client.wait_for_{what}(timeout_sec=1.0)`."
             )
     return ""
 

@@ -48,7 +48,7 @@ class Call:
     answered: Seconds | None = None  # it sent the response
     received: Seconds | None = None  # the client got it
     raw_response: bytes | None = None
-    lost: bool = False  # nobody offered the service when the client asked
+    lost: bool = False  # the client had not found anybody who offers the service when it asked
     raised: str = ""  # type of the exception that left the callback, e.g. "ValueError"
     asked_by_us: bool = False  # the client's program is not the student's
     served_by_us: bool = False  # and that of the server that took it
@@ -81,7 +81,7 @@ class Goal:
     answered: Seconds | None = None  # the client heard whether it is accepted
     received: Seconds | None = None  # the client got the result
     raw_result: bytes | None = None
-    lost: bool = False  # nobody offered the action when the client asked
+    lost: bool = False  # the client had not found anybody who offers the action when it asked
     asked_by_us: bool = False  # the client's program is not the student's
     served_by_us: bool = False  # and that of the server that took it
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from rclpy.action import ActionClient, ActionServer
 from rclpy.action.server import ServerGoalHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -55,13 +56,35 @@ def send_goal_async(original: Callable) -> Callable:
             return original(self, goal, *arguments, **keywords)
         expect(goal, self._action_type.Goal)
         raw = encode(goal)
-        future = original(self, goal, *arguments, **keywords)
+        with run.recorder.calls.reaching(run.recorder.goals.discovered(self)):
+            future = original(self, goal, *arguments, **keywords)
         run.asked[f"{self._sim.action}/_action/send_goal"] += 1
         number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
         run.recorder.goals.asked(self, number, goal_id, raw)
         return future
 
     return send_goal_async
+
+
+@hook(_rclpy.ActionClient, "send_goal_request", "a goal that is sent before discovery is lost")
+def send_goal_request(original: Callable) -> Callable:
+    def send_goal_request(self: Any, request: Any) -> int:
+        run = engine()
+        lost = None if run is None else run.recorder.calls.lost_number()
+        return original(self, request) if lost is None else lost
+
+    return send_goal_request
+
+
+@hook(ActionClient, "server_is_ready", "who waited for a server has discovered it")
+def server_is_ready(original: Callable) -> Callable:
+    def server_is_ready(self: ActionClient) -> bool:
+        ready = original(self)
+        if engine() is not None and ready and "_sim" in self.__dict__:
+            self._sim.looked = True
+        return ready
+
+    return server_is_ready
 
 
 @hook(ActionClient, "send_goal", "its TypeError has no words")

@@ -77,11 +77,17 @@ def create_client(original: Callable) -> Callable:
     return create_client
 
 
-@hook(_rclpy.Client, "send_request", "services are asked for requests only when one was sent")
+@hook(
+    _rclpy.Client,
+    "send_request",
+    "a request before discovery is lost; and services are asked for requests only when one was sent",
+)
 def send_request(original: Callable) -> Callable:
     def send_request(self: Any, request: Any) -> int:
-        number = original(self, request)
         run = active()
+        if run is not None and (lost := run.recorder.calls.lost_number()) is not None:
+            return lost
+        number = original(self, request)
         if run is not None:  # also where another process's client asks
             run.asked[self.service_name] += 1
         return number
@@ -96,12 +102,24 @@ def call_async(original: Callable) -> Callable:
         if run is None or "_sim" not in self.__dict__:
             return original(self, request)
         expect(request, self.srv_type.Request)
-        raw = encode(request)
-        future = original(self, request)
-        run.recorder.calls.asked(self, next(reversed(self._pending_requests)), raw)
+        raw, calls = encode(request), run.recorder.calls
+        with calls.reaching(calls.discovered(self)):
+            future = original(self, request)
+        calls.asked(self, next(reversed(self._pending_requests)), raw)
         return future
 
     return call_async
+
+
+@hook(Client, "service_is_ready", "who waited for a service has discovered it")
+def service_is_ready(original: Callable) -> Callable:
+    def service_is_ready(self: Client) -> bool:
+        ready = original(self)
+        if engine() is not None and ready and "_sim" in self.__dict__:
+            self._sim.looked = True
+        return ready
+
+    return service_is_ready
 
 
 @hook(Client, "call", "its TypeError has no words")

@@ -31,23 +31,48 @@ class Calls:
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
         self._services: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
+        self._to_nobody, self._losing = 0, False
 
     def client_made(self, client: Any, node: Any, name: str) -> None:
         """A node made a client of the service of this resolved name."""
-        client._sim = ClientRecord(
-            name, type_name(client.srv_type), self._recorder.name_of(node), self._recorder.is_ours()
-        )
+        kept = {"service": name, "type": type_name(client.srv_type), "node": self._recorder.name_of(node)}
+        client._sim = ClientRecord(*self._recorder.maker(), **kept)
 
     def service_made(self, service: Any) -> None:
         """A node made a service: from now on requests reach it."""
         profile = service.qos_profile
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
         inbox: deque[Request] = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
-        service._sim = ServiceRecord(service.service_name, inbox, self._recorder.is_ours())
+        service._sim = ServiceRecord(*self._recorder.maker(), service=service.service_name, inbox=inbox)
         self._services[service.service_name].append(weakref.ref(service))
 
+    def _there(self, service: str) -> list[Any]:
+        made = (known() for known in self._services[service])
+        return [server for server in made if server is not None and alive(server.handle)]
+
+    def discovered(self, client: Any) -> bool:
+        """Whether a request of a client would reach a server, if there is one."""
+        there = [server._sim for server in self._there(client._sim.service)]
+        return client._sim.reaches(there, self._recorder.scheduler.now)
+
+    @contextlib.contextmanager
+    def reaching(self, discovered: bool) -> Iterator[None]:
+        """For the time in which a request or a goal is sent; it is lost where nobody was discovered."""
+        self._losing = not discovered
+        try:
+            yield
+        finally:
+            self._losing = False
+
+    def lost_number(self) -> int | None:
+        """The number of a request that nobody gets, below 0; None where requests are sent."""
+        if not self._losing:
+            return None
+        self._to_nobody -= 1
+        return self._to_nobody
+
     def asked(self, client: Any, number: int, raw: bytes) -> None:
-        """A client sent a request."""
+        """A client sent a request; one of a number below 0 gets lost."""
         recorder = self._recorder
         if not recorder.open:
             return
@@ -55,8 +80,7 @@ class Calls:
         recorder.count(kept.node, len(raw))
         raw = canonical(f"{kept.type}_Request", raw)
         call = Call(kept.service, kept.type, kept.node, raw, recorder.now, asked_by_us=kept.ours)
-        known = self._services[kept.service]
-        there = [found for service in known if (found := service()) and alive(found.handle)]
+        there = [] if number < 0 else self._there(kept.service)
         call.lost = not there
         recorder.recording.calls.append(call)
         request = kept.requests[number] = number, [call]

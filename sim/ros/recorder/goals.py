@@ -44,7 +44,8 @@ class Goals:
         if serves:
             self._servers[name].append(weakref.ref(end))
         recorder = self._recorder
-        end._sim = ActionRecord(name, type_name(type_), recorder.name_of(node), recorder.is_ours())
+        kept = {"action": name, "type": type_name(type_), "node": recorder.name_of(node)}
+        end._sim = ActionRecord(*recorder.maker(), **kept)
 
     def known(self, action: str, goal_id: Any) -> list[Goal]:
         """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
@@ -70,16 +71,20 @@ class Goals:
     # -- what clients do ---------------------------------------------------------------------------
 
     def asked(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
-        """A client sent a goal."""
+        """A client sent a goal; one of a number below 0 gets lost."""
         if self._recorder.open:
             goal = self.new(client, client._sim.node, goal_id, raw, self._recorder.now)
             client._sim.goals[number], goal.asked_by_us = goal, client._sim.ours
-            goal.lost = not self.served(goal.action)
+            goal.lost = number < 0 or not self._there(goal.action)
 
-    def served(self, action: str) -> bool:
-        """Whether a server takes goals of this action."""
-        servers = self._servers[action]
-        return any((server := known()) and alive(server._handle) for known in servers)
+    def _there(self, action: str) -> list[Any]:
+        made = (known() for known in self._servers[action])
+        return [server for server in made if server is not None and alive(server._handle)]
+
+    def discovered(self, client: Any) -> bool:
+        """Whether a goal of a client would reach a server, if there is one."""
+        there = [server._sim for server in self._there(client._sim.action)]
+        return client._sim.reaches(there, self._recorder.scheduler.now)
 
     def cancel_asked(self, client: Any, goal_id: Any) -> None:
         """A client asked for a goal to be canceled."""

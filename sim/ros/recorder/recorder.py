@@ -23,9 +23,9 @@ from sim.evidence import (
     is_node_service,
 )
 from sim.evidence.qos import settings
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
-from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.fiber import Fiber, Program
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import Calls
@@ -84,6 +84,11 @@ class Recorder:
     def now(self) -> float:
         """Simulated seconds since the start of the run."""
         return self.scheduler.now / SECOND
+
+    def maker(self) -> tuple[Nanoseconds, Program | None, bool]:
+        """What is kept of who makes an end now: when, which program, and whether that is ours."""
+        fiber = self.scheduler.current
+        return self.scheduler.now, None if fiber is None else fiber.process, self.is_ours()
 
     def name_of(self, node: Any) -> str:
         """Fully qualified name of a node, or of the current process for None."""

@@ -8,6 +8,7 @@ SPIN = (
     "never heard it: answers come in while the node spins. Call rclpy.spin(node), or "
     "rclpy.spin_until_future_complete(node, future)."
 )
+FIRST = "two programs need a moment to discover each other, and what is sent before that is lost. Wait first:"
 IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
 NEVER_RAN = "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
 THREADS = (
@@ -36,10 +37,14 @@ SERVICE_CAUSES = {
     (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
     (services.Wheel, misfits.asks_another_node): "/asker calls get_parameters of the node /wheels, but there are only "
     "/wheel, /asker.",
-    (services.done_callback, services.late_adder): "/customer called /add at 0 s, when /adder was not there to "
-    "take it: what is sent to nobody is lost. Wait first: `while not client.wait_for_service(timeout_sec=1.0)`.",
-    (goals.asks_nobody, actions.late_server): "/client called /fibonacci at 0 s, when /server was not there to "
-    "take it: what is sent to nobody is lost. Wait first: `while not client.wait_for_server(timeout_sec=1.0)`.",
+    (services.done_callback, services.late_adder): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
+    "`while not client.wait_for_service(timeout_sec=1.0)`.",
+    (services.Adder, callers.AsksAtOnce): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
+    "`while not client.wait_for_service(timeout_sec=1.0)`.",
+    (goals.asks_nobody, actions.late_server): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
+    "`while not client.wait_for_server(timeout_sec=1.0)`.",
+    (actions.Server, goals.AsksAtOnce): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
+    "`while not client.wait_for_server(timeout_sec=1.0)`.",
     (misfits.adder_that_nobody_spins, services.done_callback): "/adder has a service with requests waiting, "
     + NEVER_RAN,
     (misfits.server_that_nobody_spins, actions.Client): f"/server has an action with goals waiting, {NEVER_RAN}",

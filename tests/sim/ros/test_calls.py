@@ -32,6 +32,22 @@ def test_a_call_has_both_ends_four_stamps_and_both_messages(adder, customer):
     assert sums([call]) == [(2, 3, 5)]
 
 
+@pytest.mark.parametrize("programs", [
+    (services.Adder, callers.AsksAtOnce), (callers.AsksAtOnce, services.Adder),
+], ids=["server first", "client first"])  # fmt: skip
+def test_a_request_before_two_programs_have_found_each_other_is_lost(programs):
+    recording = recorded(*programs, seconds=1.5)
+    assert [(call.request.a, call.asked, call.received, call.lost) for call in recording.calls] == [
+        (5, 0.0, None, True), (6, 1.0, None, True), (7, 1.0, 1.0, False), (8, 1.5, 1.5, False),
+    ]  # fmt: skip
+    assert said(recording) == [(1.0, "sum 7")]
+
+
+def test_a_program_that_has_the_server_needs_no_time_to_find_it():
+    recording = recorded(callers.asks_itself_at_once, seconds=1)
+    assert said(recording) == [(0.0, "sum 5"), (1.0, "sum 6"), (1.0, "sum 7")]
+
+
 def test_each_reader_gets_a_copy():
     (call,) = recorded(services.Adder, services.done_callback).calls
     call.request.a = call.response.sum = 99

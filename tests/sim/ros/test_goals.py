@@ -55,6 +55,16 @@ def test_a_client_may_wait_in_any_way(client):
     assert way(only(actions.Server, client)) == ("/client", "/server", 0.0, 0.0, 2.0)
 
 
+@pytest.mark.parametrize("programs", [
+    (actions.Server, goals.AsksAtOnce), (goals.AsksAtOnce, actions.Server),
+], ids=["server first", "client first"])  # fmt: skip
+def test_a_goal_before_two_programs_have_found_each_other_is_lost(programs):
+    found = recorded(*programs, seconds=1.5).goals
+    assert [(goal.asked, goal.answered, goal.status, goal.lost) for goal in found] == [
+        (0.0, None, "", True), (1.0, 1.0, "executing", False),
+    ]  # fmt: skip
+
+
 def test_a_cancel_that_is_heard_goes_through_canceling():
     goal = only(actions.parallel_server, actions.Impatient)
     assert goal.events == [*STARTED, ASKED_TO_CANCEL, (1.5, "canceling"), (2.0, "canceled")]

@@ -140,7 +140,9 @@ def blocking_client():
     rclpy.init()
     node = Node("client")
     threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
-    answer = ActionClient(node, Fibonacci, "fibonacci").send_goal(Fibonacci.Goal(order=2))
+    client = ActionClient(node, Fibonacci, "fibonacci")
+    client.wait_for_server()
+    answer = client.send_goal(Fibonacci.Goal(order=2))
     node.get_logger().info(f"{STATUS[answer.status]} {list(answer.result.sequence)}")
 
 

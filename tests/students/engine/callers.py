@@ -17,6 +17,7 @@ class Second(Customer):
     def __init__(self):
         Node.__init__(self, "second")
         self.client = self.create_client(AddTwoInts, "add")
+        self.client.service_is_ready()
         self.client.call_async(self.request())
 
 
@@ -24,6 +25,40 @@ class First(Customer):
     def __init__(self):
         super().__init__()
         self.client.call_async(self.request())
+
+
+class AsksAtOnce(Node):
+    """Asks the moment its client is made, twice without a look, and then with one: only that is answered."""
+
+    def __init__(self):
+        super().__init__("customer")
+        self.ask(5)
+        self.timer = self.create_timer(1.0, self.again)
+
+    def ask(self, number, looks=False):
+        client = self.create_client(AddTwoInts, "add")
+        if looks:
+            client.wait_for_service()
+        client.call_async(AddTwoInts.Request(a=number)).add_done_callback(self.hear)
+        return client
+
+    def again(self):
+        self.timer.cancel()
+        client = self.ask(6)
+        self.ask(7, looks=True)
+        self.create_timer(0.5, lambda: client.call_async(AddTwoInts.Request(a=8)))
+
+    def hear(self, future):
+        self.get_logger().info(f"sum {future.result().sum}")
+
+
+def asks_itself_at_once():
+    """A program that has the server, too, needs no time to find it."""
+    rclpy.init()
+    executor = rclpy.executors.SingleThreadedExecutor()
+    for node in (Adder(), AsksAtOnce()):
+        executor.add_node(node)
+    executor.spin()
 
 
 class OtherAdder(Adder):

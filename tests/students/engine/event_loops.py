@@ -68,6 +68,7 @@ def awaits_an_action():
     rclpy.init()
     node = Node("client")
     client = ActionClient(node, Fibonacci, "fibonacci")
+    client.wait_for_server()
 
     async def work():
         spinning = asyncio.create_task(spin(node))

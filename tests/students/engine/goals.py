@@ -90,12 +90,26 @@ class CancelsTwice(Impatient):
         super().cancel()
 
 
+class AsksAtOnce(Client):
+    """Sends a goal the moment its client is made, and again a second later."""
+
+    def __init__(self):
+        Node.__init__(self, "client")
+        self.client = ActionClient(self, Fibonacci, "fibonacci")
+        self.ask()
+        self.timer = self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        self.client.send_goal_async(Fibonacci.Goal(order=1)).add_done_callback(self.answered)
+
+
 class SameIdTwice(Client):
     """Sends a second goal with the id of the first while that is executed."""
 
     def __init__(self):
         Node.__init__(self, "client")
         self.client = ActionClient(self, Fibonacci, "fibonacci")
+        self.client.wait_for_server()
         for order in (1, 2):
             goal = Fibonacci.Goal(order=order)
             future = self.client.send_goal_async(goal, goal_uuid=UUID(uuid=list(range(16))))
@@ -193,6 +207,7 @@ class ClientOfAnOwnClass(Client):
     def __init__(self):
         Node.__init__(self, "client")
         self.client = OwnClient(self, Fibonacci, "fibonacci")
+        self.client.wait_for_server()
         self.client.send_goal_async(Fibonacci.Goal(order=1)).add_done_callback(self.answered)
 
 

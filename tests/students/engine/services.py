@@ -52,6 +52,7 @@ class Customer(Node):
         super().__init__("customer")
         self.group = group
         self.client = self.create_client(AddTwoInts, "add", callback_group=group)
+        self.client.service_is_ready()  # with a server that is there, nothing is sent too early
 
     def say(self, text):
         self.get_logger().info(text)
