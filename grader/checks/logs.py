@@ -61,7 +61,7 @@ def _nearest(
         return f"“{texts[0].text}” at level {texts[0].level}", f"Use self.get_logger().{method}(...)."
     printed = next((text for _, text in recording.prints if re.search(pattern, text, re.IGNORECASE)), "")
     if printed:
-        return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) in place of print(...)."
+        return f"“{printed.strip()}”, printed", "Use self.get_logger().info(...) instead of print(...)."
     unfilled = next((line.text for line in recording.logs if re.search(r"\{\w[^}]*\}", line.text)), "")
     if unfilled:
         return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what stands in braces.'

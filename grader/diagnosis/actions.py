@@ -51,11 +51,11 @@ def cancel_not_heard(recording: Recording) -> str:
         if asked is None or goal.at("executing") is None or (heard is not None and heard <= asked):
             continue
         if not goal.over or (heard is not None and goal.at(goal.status) <= heard):
-            heard_at = f"only at {heard:.3g} s" if heard is not None else "never"
+            late = f"heard it only at {heard:.3g} s" if heard is not None else "never heard it"
             return (
-                f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} heard it "
-                f"{heard_at}: the execute callback kept the node busy. Spin the node with a "
-                "MultiThreadedExecutor, or let execute await a pause in place of time.sleep."
+                f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} {late}: "
+                "the execute callback kept the node busy. Spin the node with a "
+                "MultiThreadedExecutor, or let execute await a pause instead of time.sleep."
             )
     return ""
 

@@ -51,7 +51,7 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
     if error.type == "NotImplementedError" and not _OF_A_TYPE.search(error.text):
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
-            expected="your own code in place of `raise NotImplementedError`",
+            expected="your own code instead of `raise NotImplementedError`",
             saw=f"This exercise is not started yet: {text}",
             hint="Write your code, delete the line that raises, and run this cell again.",
             before_start=True,

@@ -9,7 +9,7 @@ from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
 # Many publish here, each for frames of its own.
 COMMON_TOPICS = INFRASTRUCTURE_TOPICS | {"/tf", "/tf_static"}
 KINDS = {"publisher": "publisher on", "service": "server of", "action server": "server of"}
-LEAVE_IT = "Who listens there can't tell the two apart: take a name of your own, or only listen."
+LEAVE_IT = "Other nodes can't tell the two apart: use a name of your own, or only listen."
 
 
 class Intrusion(NamedTuple):

@@ -27,7 +27,7 @@ PARAMETER_RULES = (
     ),
     Rule(
         "TypeError", r"unsupported operand .*'Parameter'",
-        "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
+        "A parameter is not a number, it has one in it: `self.get_parameter('name').value`.",
     ),
     Rule(
         "TypeError", r"SetParametersResult\.__init__\(\) takes 1 positional argument",

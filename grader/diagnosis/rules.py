@@ -134,7 +134,7 @@ RULES = (
     ),
     Rule(
         "ValueError", r"'(\w+)' is not a valid LoggingSeverity",
-        "A level is no text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` "
+        "A level is not a text: `from rclpy.logging import LoggingSeverity`, then `LoggingSeverity.DEBUG` "
         "and so on.",
     ),
     Rule(
@@ -173,12 +173,12 @@ RULES = (
     ),
     Rule(
         "InvalidNodeNameException", r"",
-        "A node's name holds only letters, digits and underscores, such as `my_node`: no spaces, "
+        "A node's name has only letters, digits and underscores, such as `my_node`: no spaces, "
         "dashes or slashes.",
     ),
     Rule(
         "InvalidTopicNameException", r"",
-        "A topic's name holds only letters, digits, underscores and slashes, such as `/sensor/temperature`, "
+        "A topic's name has only letters, digits, underscores and slashes, such as `/sensor/temperature`, "
         "and no part of it starts with a digit.",
     ),
     Rule(
@@ -187,7 +187,7 @@ RULES = (
     ),
     Rule(
         "RCLInvalidROSArgsError", r"remap rule: '-r (.+?)'",
-        "`{0}` is no remapping. Both names are made of letters, digits, underscores and slashes.",
+        "`{0}` is not a remapping. Both names are made of letters, digits, underscores and slashes.",
     ),
     Rule(
         "ParameterNotDeclaredException", r"(\w+)$",

@@ -1,4 +1,4 @@
-"""Exceptions around what sensors say and what one reckons from it, as `rules` has those around topics."""
+"""Exceptions around what sensors say and what is calculated from it, as `rules` has those around topics."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SENSOR_RULES = (
     ),
     Rule(
         "TypeError", rf"unsupported operand type\(s\) for .*'({_MESSAGES})'",
-        "A {0} is no number, it holds numbers: take the field that you need, such as `.x` or `.z`.",
+        "A {0} is not a number, it has numbers in it: take the field that you need, such as `.x` or `.z`.",
     ),
     Rule(
         "ValueError", r"(min|max)\(\) .*empty",
@@ -40,8 +40,8 @@ SENSOR_RULES = (
     ),
     Rule(
         "TypeError", r"unsupported operand type\(s\) for -: '(?:Time|Duration)' and '(?:Time|Duration)'",
-        "The stamp of a message is no time that one can reckon with: `Time.from_msg(msg.header.stamp)` makes "
-        "one of it.",
+        "You can't calculate with the stamp of a message as it is: `Time.from_msg(msg.header.stamp)` makes a "
+        "time of it.",
     ),
     Rule(
         "AssertionError", r"The '(\w+)' field must be a sub message of type '(Time|Duration)'",

@@ -87,7 +87,7 @@ SERVICE_RULES = (
     ),
     Rule(
         "TypeError", r"not supported between instances of '(?:\w+\.)?(deque|list|tuple)' and '(?:int|float)'",
-        "A {0} is no number: len(...) says how many things it holds.",
+        "A {0} is not a number: len(...) says how many things are in it.",
     ),
     Rule(
         "TypeError", r"create_service\(\) missing",
@@ -167,7 +167,7 @@ SERVICE_RULES = (
     ),
     Rule(
         "RuntimeError", r"The (service|action) type provided is not valid",
-        "This is no type of a {0}. Services come from packages' `.srv`, as in `from std_srvs.srv import "
+        "This is not the type of a {0}. Services come from packages' `.srv`, as in `from std_srvs.srv import "
         "SetBool`; actions from `.action`, as in `from example_interfaces.action import Fibonacci`.",
     ),
 )  # fmt: skip

@@ -36,7 +36,7 @@ def _refusal(error: CallbackError, recording: Recording) -> str:
         return ""
     if error.callback == _SETS_PARAMETERS:
         return (
-            "An exception is no refusal, it ends the node. To refuse a value, "
+            "An exception doesn't refuse anything, it ends the node. To refuse a value, "
             'return SetParametersResult(successful=False, reason="...").'
         )
     call = next((c for c in recording.calls if c.server == error.node and c.raised == error.type), None)
@@ -45,8 +45,8 @@ def _refusal(error: CallbackError, recording: Recording) -> str:
     no = "response.success = False, response.message = the reason, return response"
     how = no if call.type.endswith(("/Trigger", "/SetBool")) else "set its fields, and return the response"
     return (
-        "An exception is no refusal: it ends the node, and the client waits for an answer that never comes. "
-        f"Say no in the answer: {how}."
+        "An exception doesn't refuse anything: it ends the node, and the client waits for an answer that "
+        f"never comes. Say no in the answer: {how}."
     )
 
 
@@ -165,11 +165,11 @@ def _not_there(error: CallbackError) -> str:
 
 
 def _no_distance(error: CallbackError, recording: Recording) -> str:
-    """A ray's inf or nan that was reckoned with as if it were a distance."""
+    """A ray's inf or nan that was calculated with as if it were a distance."""
     if not re.search(r"cannot convert float (?:infinity|NaN)|math domain error", error.text):
         return ""
     told = rays_without_distance(recording, error.node, error.stamp)
-    return f"{told} Ask `math.isfinite(distance)` before you reckon with it." if told else ""
+    return f"{told} Ask `math.isfinite(distance)` before you calculate with it." if told else ""
 
 
 def _last_line(error: CallbackError) -> str:

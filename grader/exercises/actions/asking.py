@@ -122,7 +122,7 @@ def asks_to_drive(run: Recording) -> Goal:
 def gives_up(run: Recording, goal: Goal) -> None:
     """If the robot isn't there 8 s after the goal was accepted, the node cancels the goal."""
     due, wishes = (goal.at("accepted") or 0.0) + PATIENCE, _wishes(goal)
-    expected = f"a wish to cancel at {due:.3g} s, 8 s after the goal was accepted"
+    expected = f"a cancel request at {due:.3g} s, 8 s after the goal was accepted"
     if not wishes:
         hint = (
             "self.timer = self.create_timer(8.0, self.give_up) in hear_response; there cancel_goal_async()."

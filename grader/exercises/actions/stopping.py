@@ -37,7 +37,7 @@ def still_offers(run: Recording) -> list[Goal]:
     guess="It takes cancel_callback=self.hear_cancel, and an executor with threads.",
 )
 def hears_the_cancel(run: Recording, goals: list[Goal]) -> tuple[Goal, Seconds]:
-    """The wish to cancel is heard and agreed to at once, while the goal is executed."""
+    """The cancel request is heard and accepted at once, while the goal is executed."""
     goal = goals[0]
     asked, heard = goal.at(CANCEL_REQUESTED), goal.at("canceling")
     if asked is None or (goal.ended is not None and goal.ended < asked):
@@ -48,7 +48,7 @@ def hears_the_cancel(run: Recording, goals: list[Goal]) -> tuple[Goal, Seconds]:
         raise Missed(f"{named(goal)} executed, with 0.5 s for each number", saw, guess=guess)
     if heard is None or heard > asked + 0.1:
         saw = "it never agreed" if heard is None else f"heard at {heard:.3g} s"
-        raise Missed(f"the wish of {asked:.3g} s to cancel agreed to at once", f"{saw}; {state(goal)}")
+        raise Missed(f"the cancel request of {asked:.3g} s accepted at once", f"{saw}; {state(goal)}")
     return goal, asked
 
 

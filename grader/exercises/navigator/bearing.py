@@ -126,7 +126,7 @@ _WRONG_BEARINGS: dict[str, Formula] = {
     "math.atan2 takes dy first, then dx.": (
         lambda spot: math.remainder(math.pi / 2 - _direction(spot) - spot[2], math.tau)
     ),
-    "orientation.z is no angle: yaw = 2 * math.atan2(orientation.z, orientation.w).": (
+    "orientation.z is not an angle: yaw = 2 * math.atan2(orientation.z, orientation.w).": (
         lambda spot: math.remainder(_direction(spot) - math.sin(spot[2] / 2), math.tau)
     ),
     "math.atan(dy / dx) and the like lose half of the directions: use math.atan2(dy, dx).": (

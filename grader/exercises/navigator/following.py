@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from grader.checks import Missed, ends_with_a_stop, publishes, series, stands_still
+from grader.checks import Missed, ends_with_a_stop, publishes, series, stands_still, until_a_touch
 from grader.checks.motion import distances_to_line
 from grader.exercise import Exercise, Scenario
 from grader.exercises.navigator.ground import drivable
@@ -27,6 +27,7 @@ CORNERS = (
     "= 2 * sin(bearing) / distance, and on the spot while the bearing is above 1 rad, to both sides."
 )
 FASTEST = 1.0  # m/s that somebody may want
+AHEAD = 0.3  # metres: how far ahead of the robot the assignment steers for
 WINDOW = 1.0  # metres of the path in which its next point is looked for
 
 
@@ -137,9 +138,38 @@ def _why_not_along(run: Recording) -> str:
         return "The speed changes all the time, and the turn doesn't: first comes the speed, then the turn."
     if max(speeds) > FASTEST:
         return f"A speed of {max(speeds):.3g} m/s: first comes the speed, then the turn; on the spot it is 0."
+    if _trusts_odometry_alone(run):
+        return (
+            "It steers as if /odom, or the transform from odom to base_link, said where the robot is in the "
+            "map. That is where it is since its start: put the transform from map to odom before it."
+        )
     if run.contacts:
         touch = run.contacts[0]
         return f"It drove into a {touch.what} at {touch.stamp:.3g} s: the picture shows where. {CORNERS}"
     if speeds[-1] == 0.0 and not turns[-1]:
         return "It was told to stop before the end: 0.1 m from the last point is near enough."
     return "Draw the point ahead: it has to lie on the path, a little farther on than the robot."
+
+
+def _trusts_odometry_alone(run: Recording) -> bool:
+    """Whether it turns to where the path ahead would be, were the robot where its odometry has it."""
+    fits_map, fits_odometry = [], []
+    line, (x0, y0, yaw0) = np.array(_line(run)), run.world.start
+    for stamp, turn in series(until_a_touch(run), "/cmd_vel", "angular.z"):
+        _, x, y, yaw = run.pose_at(stamp)
+        ahead, left = x - x0, y - y0
+        cos, sin = math.cos(yaw0), math.sin(yaw0)
+        odometry = cos * ahead + sin * left, cos * left - sin * ahead, yaw - yaw0
+        if abs(turn) > 0.1:
+            fits_map.append(turn * _bearing_ahead(line, x, y, yaw) > 0)
+            fits_odometry.append(turn * _bearing_ahead(line, *odometry) > 0)
+    return bool(fits_map) and np.mean(fits_odometry) > 0.9 > 0.7 > np.mean(fits_map)
+
+
+def _bearing_ahead(line: np.ndarray, x: float, y: float, yaw: float) -> float:
+    """Where the path ahead lies for a robot, in rad to its left."""
+    distances = np.hypot(line[:, 0] - x, line[:, 1] - y)
+    rest = slice(int(distances.argmin()), None)
+    far = np.flatnonzero(distances[rest] >= AHEAD)
+    to = line[rest][far[0] if len(far) else -1]
+    return math.remainder(math.atan2(to[1] - y, to[0] - x) - yaw, math.tau)

@@ -46,7 +46,7 @@ def hears_the_map(run: Recording) -> Any:
                     "a subscription to /map with the durability transient_local",
                     f"one with {end.qos['durability']}",
                     "The map was published before the node was there. It comes later only to those who "
-                    "subscribe with the profile LATCHED in place of a queue depth.",
+                    "subscribe with the profile LATCHED instead of a queue depth.",
                 )
     return run.messages("/map", "/map_server")[0].message
 

@@ -74,7 +74,7 @@ def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
         raise Missed(
             f"points {GAP} m apart or less",
             f"{gap:.2f} m after ({near[0]:.2f}, {near[1]:.2f}) m",
-            "Every cell of the way belongs into the path.",
+            "Every cell of the way belongs in the path.",
             credit=0.5 if math.isfinite(gap) else 0.0,
             measured=points,
         )

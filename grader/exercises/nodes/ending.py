@@ -56,7 +56,7 @@ def says_engine_off(run: Recording, trace: Trace, counted: Seconds) -> None:
 def destroys_the_node(run: Recording, trace: Trace) -> None:
     """The node is destroyed."""
     if trace.nodes:
-        hint = "destroy_node() belongs into the finally block, where it is reached whatever happens."
+        hint = "destroy_node() belongs in the finally block, where it is reached whatever happens."
         raise Missed("no node left after main()", f"{trace.nodes} is still there", hint)
 
 

@@ -63,7 +63,7 @@ _MISTAKES: dict[str, Callable[[float], float]] = {  # what a node says in place 
     "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).": (
         lambda yaw: math.degrees(-yaw)
     ),
-    "That is the sine of the angle in place of the angle.": lambda yaw: math.degrees(math.sin(yaw)),
+    "That is the sine of the angle, not the angle.": lambda yaw: math.degrees(math.sin(yaw)),
 }
 
 
@@ -99,7 +99,7 @@ RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LE
 LEAVING = 3.0
 ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
 BIAS = (
-    "That is the gyro's bias: it says a turn where there is none, and the error grows. Take the mean of "
+    "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
     "angular_velocity.z over the first 2 s, when the robot stands, and subtract it from every reading "
     "after."
 )
@@ -209,7 +209,7 @@ def _wrong_bias(run: Recording, headings: Said) -> str:
     if begin > LEAVING + 0.1:
         return (
             f"The heading begins at {begin:.3g} s, and the robot sets off at {LEAVING:g} s: the mean of the "
-            "rates until then holds its turn, too. Take the mean over the first 2 s only."
+            "rates until then has its turn in it, too. Take the mean over the first 2 s only."
         )
     resting = [(stamp, said) for stamp, said in headings if stamp >= RESTING]
     if all(abs(math.remainder(said, ROUNDED)) < 0.02 for _, said in resting):

@@ -151,7 +151,7 @@ def _mean(values: list[float]) -> float:
 def _bias_hint(it: _Calibration, first: bool) -> str:
     unchanged = "The readings come out as they came in: calibrate has to set self.bias, with self."
     biases = {
-        "The bias was added in place of taken away: publish the reading minus self.bias.": 2 * it.bias,
+        "The bias was added instead of subtracted: publish the reading minus self.bias.": 2 * it.bias,
         ENOUGH if refused(it.call) else unchanged: it.bias,
     }
     otherwise = f"self.bias is the mean of the readings: their sum / their number, {it.bias:.3f} rad/s here."

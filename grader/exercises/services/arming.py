@@ -127,7 +127,7 @@ def _answering_hint(made: list[Call], call: Call) -> str:
     if _said(call) == [_word(call)]:
         return "success says whether the call went well, and here it always does. The message says the rest."
     if accepted(call):
-        return 'The message says what holds after this call: "armed" if self.armed else "disarmed".'
+        return 'The message says how things are after this call: "armed" if self.armed else "disarmed".'
     return "Set response.success and response.message, then return response."
 
 

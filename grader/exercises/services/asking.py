@@ -101,7 +101,7 @@ def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
     early = [(at, speed) for at, speed in commands if speed and at < opened]
     if early:
         saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
-        hint = "An answer is no yes yet: look at answer.success before you drive."
+        hint = "Not every answer is a yes: look at answer.success before you drive."
         raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
     late = [(at, speed) for at, speed in commands if at > opened + 0.5 and abs(speed - 0.3) > 0.03]
     if late or not yes:

@@ -104,8 +104,8 @@ def drives_on_after_a_reset(run: Recording) -> None:
     arm, disarm = our_calls(run, ARM, at_least=6)[-2:]
     _commands(run.during(reset.asked, arm.asked), STOPPED, "after the reset, not armed yet")
     again = (
-        "reset has to take back what the bump has set: self.bumped = False. And touching the wall still "
-        "is no new bump."
+        "reset has to take back what the bump has set: self.bumped = False. And still touching the wall "
+        "is not a new bump."
     )
     _is_accepted(arm, again)
     back = run.during(arm.asked + SOON, disarm.asked)

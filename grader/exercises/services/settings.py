@@ -49,7 +49,7 @@ def begins_with_its_default(run: Recording, speed: float) -> None:
 
 @parameters.check(4, after=declares_speed)
 def follows_the_setting(run: Recording) -> None:
-    """A new speed holds at once: on /cmd_vel, linear.x is what the parameter says."""
+    """A new speed takes effect at once: on /cmd_vel, linear.x is what the parameter says."""
     made = our_calls(run, SET, SETTINGS)
     for call in filter(_is_allowed, made):
         if not accepted(call):
@@ -75,8 +75,9 @@ def refuses_other_speeds(run: Recording) -> None:
             )
             if _is_cut(run, call):
                 guess = (
-                    "To cut a value to the range is no refusal: who sets it is told that it holds, and the "
-                    'robot does something else. Return SetParametersResult(successful=False, reason="...").'
+                    "Cutting a value to the range doesn't refuse it: whoever sets it is told that all is "
+                    "well, and the robot does something else. Return SetParametersResult(successful=False, "
+                    'reason="...").'
                 )
             if any(map(refused, others)):
                 guess = f"The range has two ends: refuse a value unless {INSIDE}."

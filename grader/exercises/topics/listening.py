@@ -18,7 +18,7 @@ def _lines_after(run: Recording, heard: Heard) -> list[LogLine]:
 commands = Exercise("commands", "A robot that listens", seconds=10, companions=[CommandSender], seeds=(1, 2))
 COMMAND = "/robot/command"
 DOING = dict(zip(COMMANDS, ("standing", "walking", "stopping"), strict=True))
-PRINTED = "What is printed is no log line: use self.get_logger() in place of print(...)."
+PRINTED = "What is printed is not logged: use self.get_logger() instead of print(...)."
 
 
 @commands.check(3)
@@ -42,7 +42,7 @@ def obeys(run: Recording) -> None:
         raise Missed(
             f"only “{DOING[_word(heard)]}” after “{_word(heard)}”",
             f"“{_said_otherwise(run, heard)}” at {heard.stamp:.3g} s",
-            "Who says everything has answered nothing. With if, elif, else exactly one branch runs.",
+            "To say everything is to answer nothing. With if, elif, else exactly one branch runs.",
         )
 
 

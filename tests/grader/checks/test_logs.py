@@ -61,7 +61,7 @@ def test_logs_misses_another_level_and_names_the_method(level, method):
 def test_logs_tells_printing_from_logging():
     miss = missed(logs, recording(prints=[(1.0, "count: 1\n")]), "count")
     assert miss.saw == "“count: 1”, printed"
-    assert miss.hint == "Use self.get_logger().info(...) in place of print(...)."
+    assert miss.hint == "Use self.get_logger().info(...) instead of print(...)."
 
 
 def test_logs_counts():

@@ -70,7 +70,7 @@ def test_where_two_own_a_topic_or_serve_a_service_is_known(staged):
 
 def test_the_first_look_tells_of_two_owners(staged):
     assert two_owners(staged) == (
-        "Two publishers on /odom: /robot, and /robot of yours. Who listens there can't tell the two apart: take a "
+        "Two publishers on /odom: /robot, and /robot of yours. Other nodes can't tell the two apart: use a "
         "name of your own, or only listen."
     )
 
@@ -103,7 +103,7 @@ def test_who_publishes_on_a_topic_of_ours_is_told_and_judged_no_further():
         "Topics and services of other programs are left to them.",
         "one publisher on /odom: /robot",
         "two, /robot and /robot of yours",
-        "Who listens there can't tell the two apart: take a name of your own, or only listen.",
+        "Other nodes can't tell the two apart: use a name of your own, or only listen.",
     )
     assert right.hint == "Not judged: nobody can tell what came from whom, see above."
 

@@ -13,7 +13,7 @@ IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
 NEVER_RAN = "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
 THREADS = (
     "the execute callback kept the node busy. Spin the node with a MultiThreadedExecutor, or let execute await a "
-    "pause in place of time.sleep."
+    "pause instead of time.sleep."
 )
 LOOK = (
     "Look at goal_handle.is_cancel_requested in the loop: when it is True, call goal_handle.canceled() and return "
@@ -58,7 +58,7 @@ SERVICE_CAUSES = {
     "ended, which counts as aborted: call goal_handle.succeed() before you return the result.",
     (actions.Server, actions.Impatient): "/client asked at 1.5 s to cancel its goal, and /server heard it only at 3 s: "
     + THREADS,
-    (goals.Busy, actions.Impatient): f"/client asked at 1.5 s to cancel its goal, and /server heard it never: {THREADS}",
+    (goals.Busy, actions.Impatient): f"/client asked at 1.5 s to cancel its goal, and /server never heard it: {THREADS}",
     (goals.parallel(goals.IgnoresCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
     f"/fibonacci, and went on until it succeeded at 3 s. {LOOK}",
     (goals.parallel(goals.AbortsOnCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "

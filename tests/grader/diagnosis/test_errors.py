@@ -31,9 +31,9 @@ ADVICE = {
     mistakes.PublishesAnotherType: "This publisher was created for String and got a Float64: use the same type in "
     "create_publisher() and publish().",
     mistakes.NodeWithoutName: "A node needs a name: `super().__init__('my_node')`.",
-    mistakes.NodeNameWithSpace: "A node's name holds only letters, digits and underscores, such as `my_node`: no "
+    mistakes.NodeNameWithSpace: "A node's name has only letters, digits and underscores, such as `my_node`: no "
     "spaces, dashes or slashes.",
-    mistakes.TopicNameWithSpace: "A topic's name holds only letters, digits, underscores and slashes, such as "
+    mistakes.TopicNameWithSpace: "A topic's name has only letters, digits, underscores and slashes, such as "
     "`/sensor/temperature`, and no part of it starts with a digit.",
     mistakes.NoSuperInit: "NoSuperInit was never set up as a node: the first line of its __init__ has to be "
     "`super().__init__('my_node')`.",
@@ -85,7 +85,7 @@ ADVICE = {
     "`return`.",
     mistakes.OneLineForTwoLevels: "Each place in the code logs at one level only: with if and else, write a line of "
     "its own for each level.",
-    mistakes.LevelAsText: "A level is no text: `from rclpy.logging import LoggingSeverity`, then "
+    mistakes.LevelAsText: "A level is not a text: `from rclpy.logging import LoggingSeverity`, then "
     "`LoggingSeverity.DEBUG` and so on.",
     mistakes.BeyondTheLast: "The tuple has no item of that number: the first is number 0, the last is len(...) - 1.",
     mistakes.LoggerWithoutBrackets: "Brackets are missing before `.info`: a method is called with them, as in "
@@ -93,7 +93,7 @@ ADVICE = {
     mistakes.NotStarted: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.NotStartedWithoutWords: "Write your code, delete the line that raises, and run this cell again.",
     mistakes.main_with_namespace_without_slash: "A namespace starts with a slash: `/robot1`.",
-    mistakes.main_with_space_in_a_remapping: "`chatter:=my chatter` is no remapping. Both names are made of letters, "
+    mistakes.main_with_space_in_a_remapping: "`chatter:=my chatter` is not a remapping. Both names are made of letters, "
     "digits, underscores and slashes.",
     mistakes.main_without_init: "rclpy.init() has to come before the first node, and rclpy.shutdown() after the last "
     "one: write `rclpy.init()` as the first line of main().",

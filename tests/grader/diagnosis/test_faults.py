@@ -78,7 +78,7 @@ def test_a_call_to_oneself_is_blocked():
 
 def test_work_not_started_says_what_is_to_do():
     assert fault_of(mistakes.NotStarted) == Fault(
-        expected="your own code in place of `raise NotImplementedError`",
+        expected="your own code instead of `raise NotImplementedError`",
         saw="This exercise is not started yet: publish a count once a second",
         hint="Write your code, delete the line that raises, and run this cell again.",
         before_start=True,

@@ -15,7 +15,7 @@ ADVICE = {
     "DeclaresWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0), or give the program parameters={'width': ...}.",
     "ReckonsWithoutAValue": "The parameter `width` has no value: it was declared without one, and the start gave none. Declare it with a default, declare_parameter('width', 1.0).",
     "SetsPairs": "set_parameters() takes a list of parameters: `[Parameter('name', value=1.0)]`, with `from rclpy.parameter import Parameter`.",
-    "ComputesWithTheParameter": "A parameter is no number yet, it holds one: `self.get_parameter('name').value`.",
+    "ComputesWithTheParameter": "A parameter is not a number, it has one in it: `self.get_parameter('name').value`.",
     "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
     "SaysYesByPosition": "The fields of a result are set by name: SetParametersResult(successful=True), or SetParametersResult(successful=False, reason='...').",

@@ -21,7 +21,7 @@ RESPONSE = (
 )
 RESULT = "An execute callback has to give the result back: end it with `return Fibonacci.Result(...)`."
 NO_SERVICE = (
-    "This is no type of a service. Services come from packages' `.srv`, as in `from std_srvs.srv import SetBool`; "
+    "This is not the type of a service. Services come from packages' `.srv`, as in `from std_srvs.srv import SetBool`; "
     "actions from `.action`, as in `from example_interfaces.action import Fibonacci`."
 )
 OTHER_TYPE = "Another node uses {} with another type: client and server must use the same one."
@@ -48,7 +48,7 @@ ADVICE = {
     "create_service(SetBool, '/arm', self.arm).",
     mistakes.HandsOverWhatTheCallbackReturns: "`answer` is called without what it needs. As a callback it is handed over "
     "without brackets, `self.answer`: ROS calls it, and fills in the rest.",
-    mistakes.ComparesAListWithANumber: "A list is no number: len(...) says how many things it holds.",
+    mistakes.ComparesAListWithANumber: "A list is not a number: len(...) says how many things are in it.",
     mistakes.SaysSuccess: "A goal handle has no `success`. It has succeed(), abort() and canceled(), "
     "publish_feedback(message), and is_cancel_requested.",
     mistakes.JudgesAGoalHandle: "The goal callback gets the goal itself, and no goal handle: leave out `.request`.",

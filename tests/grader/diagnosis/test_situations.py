@@ -17,7 +17,7 @@ from tests.students.engine.actions import Server
 from tests.students.engine.services import Adder, Customer, SlowAdder
 from tests.students.parameter_mistakes import Wheel
 
-NO = "An exception is no refusal: it ends the node, and the client waits for an answer that never comes. Say no in the "
+NO = "An exception doesn't refuse anything: it ends the node, and the client waits for an answer that never comes. Say no in the "
 TOO_EARLY = (
     "The answer isn't there yet: {} returns at once, with a future that is still empty. "
     "`future.add_done_callback(self.hear)`, without brackets after the method, lets ROS call it once the answer has "
@@ -205,7 +205,7 @@ ADVICE = {
     (RaisesForNoSum, Hears): NO + "answer: set its fields, and return the response.",
     (SlipsInAService,): GENERAL,
     (RaisesInATimer,): GENERAL,
-    (Tuner, RaisesForABadValue): "An exception is no refusal, it ends the node. To refuse a value, return "
+    (Tuner, RaisesForABadValue): "An exception doesn't refuse anything, it ends the node. To refuse a value, return "
     'SetParametersResult(successful=False, reason="...").',
     (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
     (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
