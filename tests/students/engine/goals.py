@@ -4,7 +4,7 @@ import time
 
 import rclpy
 from example_interfaces.action import Fibonacci
-from rclpy.action import ActionClient, ActionServer, CancelResponse
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -219,6 +219,36 @@ class DestroysItsServer(Server):
         goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
         goal.succeed()
         return Fibonacci.Result(sequence=[1])
+
+
+class DestroysItsServerAsItJudges(Server):
+    """Is gone before it can answer whether it accepts a goal."""
+
+    def __init__(self):
+        Node.__init__(self, "server")
+        self.server = ActionServer(self, Fibonacci, "fibonacci", self.execute, goal_callback=self.judge)
+
+    def judge(self, request):
+        self.server.destroy()
+        return GoalResponse.ACCEPT
+
+
+class DestroysItsServerAsItCancels(Server):
+    """Is gone before it can answer whether a goal is canceled."""
+
+    def __init__(self):
+        Node.__init__(self, "server")
+        group = ReentrantCallbackGroup()
+        self.server = ActionServer(
+            self, Fibonacci, "fibonacci", self.execute, cancel_callback=self.cancel, callback_group=group
+        )
+
+    async def execute(self, goal):
+        await rclpy.task.Future()
+
+    def cancel(self, goal):
+        self.server.destroy()
+        return CancelResponse.ACCEPT
 
 
 def sends_again():

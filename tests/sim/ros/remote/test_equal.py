@@ -66,6 +66,9 @@ TOGETHER = [
     (("goals", "CancelsTwice"), ("goals", "AlwaysRejectsCancel")),
     (("goals", "AlwaysRejectsCancel"), ("goals", "CancelsTwice")),
     (("actions", "Client"), ("goals", "JudgeRaises")),
+    (("actions", "Client"), ("goals", "DestroysItsServer")),
+    (("actions", "Client"), ("goals", "DestroysItsServerAsItJudges")),
+    (("actions", "Impatient"), ("goals", "DestroysItsServerAsItCancels")),
     (("goals", "Later"), ("actions", "Client")),
     (("actions", "Server"), ("goals", "AsksForNoResult")),
 ]
