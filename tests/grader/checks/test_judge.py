@@ -8,6 +8,7 @@ from grader.checks.judge import worst
 from sim import Recording, run
 from sim.evidence import CallbackError, Ended
 from tests.students import misfits
+from tests.students.engine import errors
 
 
 @check(points=1)
@@ -102,6 +103,19 @@ def test_an_error_comes_first_and_explains_what_then_misses():
 def test_what_passed_before_an_error_counts():
     recording = dataclasses.replace(failing_at(2.0), seed=1)
     assert statuses(judge([sends], recording)) == {"runs": "failed", "sends": "passed"}
+
+
+@check(points=1, after=sends)
+def ticks(recording):
+    """It ticks once a second."""
+    if [line.stamp for line in recording.logs] != [1.0, 2.0, 3.0]:
+        raise Missed("three ticks", "others")
+
+
+def test_a_thread_that_crashes_is_told_and_costs_nothing_that_goes_on():
+    error, ticking = judge([ticks], run(errors.in_thread, seconds=3, quiet=True))
+    assert (error.saw, error.status) == ("KeyError: 'in thread' (in thread work, line 113, at 0 s)", "failed")
+    assert (ticking.status, ticking.earned) == ("passed", 1.0)
 
 
 @pytest.mark.parametrize("reason", ["hang", "livelock", "blocked"])

@@ -329,6 +329,21 @@ def test_a_notebook_without_file_descriptors_goes_on(marked):
     )
 
 
+FULL_DISK = """
+import resource
+limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+resource.setrlimit(resource.RLIMIT_FSIZE, (0, limit[1]))
+"""
+
+
+def test_a_notebook_with_a_full_disk_goes_on(marked):
+    """The limit of a file's size stands for the disk: it makes writing fail in the same way."""
+    freed = f"resource.setrlimit(resource.RLIMIT_FSIZE, limit)\n{RIGHT['temperature']}"
+    result = marked(greeting=GREETER + FULL_DISK, temperature=freed)
+    assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
+    assert (result.verdict, result.reason, result.flags) == ("marked", "", [])
+
+
 def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked, monkeypatch):
     def fails(*_):
         raise RuntimeError("an end that is gone")
