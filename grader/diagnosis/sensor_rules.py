@@ -44,6 +44,16 @@ SENSOR_RULES = (
         "time of it.",
     ),
     Rule(
+        "ValueError", r"Subtraction leads to negative time",
+        "Here time begins at 0 when a run starts, as in most simulators, and there is nothing before it. For "
+        '"long ago" keep None, and ask for that first.',
+    ),
+    Rule(
+        "TypeError", r"Can't (subtract|compare) times with different clock types",
+        "A node's clock has ROS's time, and a bare Time() the system's. Name the clock: "
+        "`Time(seconds=3, clock_type=self.get_clock().clock_type)`; `Time.from_msg(stamp)` needs nothing.",
+    ),
+    Rule(
         "AssertionError", r"The '(\w+)' field must be a sub message of type '(Time|Duration)'",
         "`{0}` is a message, too: `.to_msg()` makes one of a {1}, as in `Duration(seconds=1.5).to_msg()`.",
     ),

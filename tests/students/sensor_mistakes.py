@@ -7,6 +7,7 @@ from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import Imu, LaserScan
 
 
@@ -143,3 +144,13 @@ class CostNeverNoted(Looker):
 class DistanceForAPlace(Looker):
     def look(self, scan, imu):
         return scan.ranges.tolist()[min(scan.ranges) :]
+
+
+class LooksBackBeforeTheStart(Looker):
+    def look(self, scan, imu):
+        return self.get_clock().now() - Duration(seconds=60)
+
+
+class ComparesWithTheSystemsTime(Looker):
+    def look(self, scan, imu):
+        return self.get_clock().now() < Time(seconds=3)
