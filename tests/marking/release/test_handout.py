@@ -128,7 +128,7 @@ def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
 
 
 def test_make_there_lists_what_students_can_do(folder):
-    outside = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}  # of `make test`
+    outside = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
     done = subprocess.run(["make"], cwd=folder, env=outside, check=True, capture_output=True, text=True)
     assert [line.split()[0] for line in done.stdout.splitlines()] == ["help", "lab", "setup", "clean"]
 
