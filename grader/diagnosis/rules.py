@@ -213,6 +213,10 @@ RULES = (
         "`self.get_logger().info(...)`.",
     ),
     Rule(
+        "AttributeError", r"'RcutilsLogger' object has no attribute '(\w+)'",
+        "A logger has no `{0}`: its levels are debug, info, warning, error and fatal.",
+    ),
+    Rule(
         "AttributeError", r"'NoneType' object has no attribute '(\w+)'",
         "What stands before `.{0}` is None: it was never set, or comes from a function without `return`.",
     ),

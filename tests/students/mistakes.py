@@ -336,3 +336,8 @@ def main_that_publishes_after_shutdown():
 def main_that_misuses_a_list():
     rclpy.init()
     print([1, 2].size)
+
+
+def main_that_logs_at_no_level():
+    rclpy.init()
+    Node("logger").get_logger().warn_once("only once")

@@ -102,6 +102,8 @@ ADVICE = {
     "the end of main().",
     mistakes.main_that_publishes_after_shutdown: "Something is used after rclpy.shutdown(): make that the last line "
     "of main().",
+    mistakes.main_that_logs_at_no_level: "A logger has no `warn_once`: its levels are debug, info, warning, error and "
+    "fatal.",
     mistakes.main_that_misuses_a_list: "A list has no `size`: check its spelling, and what the name before the dot "
     "stands for.",
     (
