@@ -6,6 +6,7 @@ environment.prepare()
 
 from sim import notebook  # noqa: E402
 from sim.evidence import Recording  # noqa: E402
+from sim.network import Network  # noqa: E402
 from sim.play import play, replay  # noqa: E402
 from sim.ros.engine.program import Process  # noqa: E402
 from sim.ros.hooks.install import install  # noqa: E402
@@ -19,4 +20,4 @@ notebook.watch()
 install()  # after all imports: what the engine itself has bound are the real clocks
 offer()
 
-__all__ = ["Process", "Recording", "Teleop", "World", "play", "run"]
+__all__ = ["Network", "Process", "Recording", "Teleop", "World", "play", "run"]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from sim.evidence import Recording
+from sim.network import Network
 from sim.notebook import in_notebook, refuse_outdated
 from sim.ros.play.pacing import Pace
 from sim.ros.play.player import Player
@@ -20,6 +21,7 @@ def play(
     seed: int = 0,
     until: Callable[[Recording], bool] | None = None,
     quiet: bool = False,
+    network: Network | None = None,
     speed: float = 1.0,
 ) -> Player:
     """Run ROS 2 nodes as `run` does, but along with the clock on the wall, to watch and drive them.
@@ -33,7 +35,7 @@ def play(
     """
     refuse_outdated(nodes)
     pace = Pace(speed)
-    player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play"), pace)
+    player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play", network=network), pace)
     if in_notebook():
         from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
 

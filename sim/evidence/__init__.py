@@ -7,6 +7,7 @@ Stamps are simulated seconds since the start of the run. Poses are in the `map` 
 (-pi, pi].
 """
 
+from sim.evidence.crossings import Crossing
 from sim.evidence.exchanges import (
     CANCEL_REJECTED,
     CANCEL_REQUESTED,
@@ -46,6 +47,7 @@ __all__ = [
     "Call",
     "CallbackError",
     "CallbackRun",
+    "Crossing",
     "Ended",
     "Endpoint",
     "Goal",

@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
+from sim.evidence.crossings import Crossing
 from sim.evidence.exchanges import Call, Goal, is_node_service
 from sim.evidence.graph import Graph
 from sim.evidence.rows import (
@@ -28,6 +29,7 @@ from sim.evidence.rows import (
     Seconds,
     Unheard,
 )
+from sim.network import Network
 from sim.world import Contact, World
 
 
@@ -66,6 +68,8 @@ class Recording:
     ours: set[str] = field(default_factory=set)
     shared: set[str] = field(default_factory=set)  # and those that a student's node has, too
     failures: list[CallbackError] = field(default_factory=list)  # those of `errors` that our programs made
+    network: Network | None = None  # between hosts; None where all programs run on one
+    crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
 
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
         """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
@@ -173,7 +177,11 @@ class Recording:
         return digest.hexdigest()
 
     def _evidence(self) -> dict[str, Any]:
-        return {
+        of_network = {}
+        if self.network is not None:
+            of_network["network"] = self.network.to_data()
+            of_network["crossings"] = [asdict(crossing) for crossing in self.crossings]
+        return of_network | {
             "seconds": self.seconds,
             "seed": self.seed,
             "path": self.path,

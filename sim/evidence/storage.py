@@ -21,6 +21,7 @@ from mcap.writer import Writer
 
 from sim.evidence.rows import Heard
 from sim.nanoseconds import SECOND
+from sim.network import Network
 from sim.ros.messages.definitions import definition
 from sim.world import World, WorldError
 
@@ -53,7 +54,7 @@ def _pack(rest: dict[str, Any]) -> bytes:
     """As JSON, with bytes as {"base64": text}, and objects as lists of what is in them."""
 
     def plain(value: Any) -> Any:
-        if isinstance(value, World):
+        if isinstance(value, World | Network):
             return value.to_data()
         if isinstance(value, bytes):
             return {"base64": b64encode(value).decode()}
@@ -138,8 +139,8 @@ def _maker(hint: Any) -> Callable[[Any], Any]:
     kind, inner = get_origin(hint), get_args(hint)
     if hint in PLAIN:
         return _as_it_is
-    if hint is World:
-        return World.from_data
+    if hint in (World, Network):
+        return hint.from_data
     if kind is UnionType:
         make = _maker(inner[0])
         return lambda value: None if value is None else make(value)

@@ -8,6 +8,7 @@ from typing import Any
 import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first message: 0.1 s that no run should pay)
 
 from sim.evidence import Ended, Recording
+from sim.network import Network
 from sim.notebook import interrupted, refuse_outdated
 from sim.ros.engine.program import Process
 from sim.ros.session import Session
@@ -22,6 +23,7 @@ def run(
     seed: int = 0,
     until: Callable[[Recording], bool] | None = None,
     quiet: bool = False,
+    network: Network | None = None,
 ) -> Recording:
     """Run ROS 2 nodes in simulated time, and return the evidence of what they did.
 
@@ -34,13 +36,16 @@ def run(
     seed: for the sensors' noise, and for `random` and numpy's generators in the nodes.
     until: called with the recording so far whenever time is about to move on; True ends the run.
     quiet: don't show what the nodes log and print.
+    network: what lies between programs of different hosts, such as Network(loss=0.2, delay=0.05); None for
+        nothing. The robot and companions are on "robot", and all else is on "laptop", unless `Process` says
+        so.
 
     Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
     can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
     LastVersionDidNotRun, when a node's cell has failed since, or was changed and not run.
     """
     refuse_outdated(nodes)
-    session = Session(nodes, world, seconds, seed, until, quiet, companions=companions)
+    session = Session(nodes, world, seconds, seed, until, quiet, companions=companions, network=network)
     session.advance()
     if session.interrupted:
         raise interrupted()

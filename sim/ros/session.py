@@ -14,6 +14,7 @@ from rclpy.node import Node
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.network import Network
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
 from sim.ros.engine.engine import Engine
 from sim.ros.engine.own import OwnChance, OwnProcess
@@ -47,6 +48,7 @@ class Session:
         quiet: bool,
         caller: str = "run",
         companions: Sequence[Any] = (),
+        network: Network | None = None,
     ) -> None:
         self._companions = [as_process(node, caller) for node in companions]
         self._specs = [as_process(node, caller) for node in nodes]
@@ -57,8 +59,12 @@ class Session:
             raise ValueError(f"seconds must be more than 0 and less than a million; it is {seconds!r}.")
         if not isinstance(seed, int) or seed < 0:
             raise ValueError(f"seed must be a whole number, 0 or more; it is {seed!r}.")
+        if not isinstance(network, Network | None):
+            raise TypeError(f"network must be a Network, such as Network(loss=0.2); it is {network!r}.")
         world = World.load(world) if isinstance(world, str) else world
-        self.recording = latest.recording = Recording(world=world, seconds=float(seconds), seed=seed)
+        self.recording = latest.recording = Recording(
+            world=world, seconds=float(seconds), seed=seed, network=network
+        )
         self.truth: GroundTruth | None = None  # while the run works, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False

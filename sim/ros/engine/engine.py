@@ -13,6 +13,8 @@ from rclpy.exceptions import InvalidHandle
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.ros.engine.agenda import Agenda
+from sim.ros.engine.channels import Links
 from sim.ros.engine.endings import conclusion
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import Limits
@@ -20,11 +22,10 @@ from sim.ros.engine.own import ChanceBytes, OwnRclpy
 from sim.ros.engine.processes import StudentProcess, destroy
 from sim.ros.engine.program import Process
 from sim.ros.engine.simtime import SimulatedTime
-from sim.ros.engine.topics import Topics, Writer
+from sim.ros.engine.topics import Topics
 from sim.ros.fibers.exceptions import Livelock, RemoteLost, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler, activate
-from sim.ros.messages.cdr import canonical
 from sim.ros.recorder.recorder import Recorder
 from sim.ros.recorder.running import Running
 from sim.ros.recorder.tracebacks import student_line
@@ -54,6 +55,8 @@ class Engine(Scheduler):
         self.executors: list[Any] = []
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
+        self.agenda = Agenda()
+        self.links = None if recording.network is None else Links(recording.network, recording.seed)
         self.topics = Topics(self)
         self.asked: Counter[str] = Counter()  # requests sent to each service
         self.names: dict[int, tuple[Callable, str]] = {}  # of callbacks, by the id of what they belong to
@@ -147,7 +150,7 @@ class Engine(Scheduler):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)
                 self.limits.check_pace()
-                moment = self.time.next_moment(end)
+                moment = self.time.next_moment(self.agenda.next(end))
                 moment = yield moment
                 self.time.move_to(moment)
                 self.begin_moment()
@@ -161,6 +164,11 @@ class Engine(Scheduler):
         """Time was moved: whoever spins looks again, and callbacks are counted anew."""
         self.activity += 1
         self.limits.begin_moment()
+        self.agenda.let_arrive(self.now)
+
+    def round(self) -> bool:
+        """As `Scheduler`; when no program can go on any more, what this moment was the limit for is over."""
+        return super().round() or self.agenda.let_expire(self.now)
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""
@@ -172,12 +180,6 @@ class Engine(Scheduler):
         """Entities came or went: executors plan anew."""
         self.topology += 1
         self.activity += 1
-
-    def publish(self, writer: Writer, raw: bytes) -> None:
-        """Send a message to the subscriptions of its topic, and write it down."""
-        raw = canonical(writer.type, raw)
-        writer.send(raw)
-        self.recorder.message(writer.topic, writer.type, writer.sender, raw, writer.ours)
 
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""

@@ -24,6 +24,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 
+from sim.network import LAPTOP, ROBOT
 from sim.ros.engine.keyboard import keyboard
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
@@ -96,6 +97,7 @@ class StudentProcess:
 
     def _become(self, spec: Process) -> None:
         self.spec, self.target, self.name = spec, spec.target, program_name(spec.target)
+        self.host = spec.host or (ROBOT if self.ours else LAPTOP)
         self.global_arguments: list[str] = []  # those of init() that are ROS's
         self.argv, self.stdin = [self.name], keyboard(self.spec.stdin)
 

@@ -19,6 +19,7 @@ class Process:
     arguments: further command-line words, which the program finds in `sys.argv`; those after `--ros-args` are
     ROS's. stdin: the lines that `input()` returns, one after the other.
     whole_numbers: messages take 1 for 1.0, and 2.0 for 2; on a robot they don't.
+    host: the computer that it runs on, where the run has a network; None for "laptop". The robot is "robot".
     """
 
     target: Callable[..., Any]
@@ -29,6 +30,7 @@ class Process:
     arguments: Sequence[str] = ()
     stdin: Sequence[str] | None = None
     whole_numbers: bool = False
+    host: str | None = None
 
     def command_line(self) -> list[str]:
         """The words after the program's name that say the same."""

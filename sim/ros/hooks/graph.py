@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
+from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.processes import shared_context
 from sim.ros.engine.qos import refuse_unsimulated
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
+
+LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history is full; measured with Fast DDS
+FOR_EVER = Duration(seconds=-1)
 
 
 @hook(Node, "create_publisher", "the graph, and who sends what")
@@ -55,6 +60,7 @@ def create_subscription(original: Callable) -> Callable:
         if run is not None:
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
+            end["listener"] = run.recorder.name_of(self)
             subscription._sim = run.topics.reader(self.handle, handle, msg_type, **end)
             run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
             run.rosout_wanted |= name == "/rosout"
@@ -91,11 +97,30 @@ def publish(original: Callable) -> Callable:
             return original(self, msg)  # raises the TypeError that a student would get on a robot
         if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
-        run.publish(writer, raw)
+        if not writer.has_room():
+            what = f"room in the history of {writer.topic}"
+            run.wait(what, ready=writer.has_room, until=run.now + LONGEST_BLOCKING)
+            if not writer.has_room():
+                raise _rclpy.RCLError("Failed to publish: cannot publish data")
+        writer.publish(raw)
         run.called("messages")
         return None
 
     return publish
+
+
+@hook(Publisher, "wait_for_all_acked", "it waits in simulated time for what is under way")
+def wait_for_all_acked(original: Callable) -> Callable:
+    def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
+        run = engine()
+        writer = self.__dict__.get("_sim")
+        if run is None or writer is None or writer.all_have_it():
+            return original(self, timeout)
+        until = None if timeout.nanoseconds < 0 else run.now + timeout.nanoseconds
+        run.wait("the acknowledgements of " + writer.topic, ready=writer.all_have_it, until=until)
+        return writer.all_have_it()
+
+    return wait_for_all_acked
 
 
 @hook(Publisher, "destroy", "its topic forgets it")

@@ -13,6 +13,7 @@ from sim.evidence import (
     BusyLoop,
     CallbackError,
     CallbackRun,
+    Crossing,
     Endpoint,
     Heard,
     LogLine,
@@ -213,6 +214,13 @@ class Recorder:
         if self.open:
             of = self.name_of(node)
             self.recording.parameters += [ParameterName(self.now, of, name, declared) for name in names]
+
+    def crossing(self, topic: str, sender: str, listener: str) -> Crossing:
+        """Where to count what becomes of messages on the network from this node to that one."""
+        row = Crossing(topic, sender, listener)
+        if self.open and topic not in INFRASTRUCTURE_TOPICS:
+            self.recording.crossings.append(row)
+        return row
 
     def busy_loop(self, fiber: Fiber, line: str) -> None:
         """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""

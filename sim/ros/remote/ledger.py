@@ -57,7 +57,7 @@ class Ledger(Link):
 
     def publish(self, publisher: PuppetPublisher, raw: bytes) -> None:
         """Send it, and write it down."""
-        self.engine.publish(publisher.writer, raw)
+        publisher.writer.publish(raw)
 
     def tell_request(self, event: events.Ask, call: Call | None) -> None:
         """Add a request to the news, and remember its call: the other side tells what becomes of it."""

@@ -129,7 +129,7 @@ class Follower(Session):
         return {
             "news": link.take_news(),
             "claims": link.claims(),
-            "next": engine.time.next_moment(end),
+            "next": engine.time.next_moment(engine.agenda.next(end)),
             "busy": busy,
             "alive": any(not fiber.done for fiber in engine.fibers),
             "fault": None if fault is None else [fault.reason, fault.detail],
