@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable
 
 from rclpy.duration import Duration
-from rclpy.event_handler import UnsupportedEventTypeError
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
@@ -61,21 +59,3 @@ def settled(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
         limit = getattr(made, name)
         setattr(chosen, name, limit if limit.nanoseconds < FOREVER else NO_LIMIT)
     return chosen
-
-
-def refuse_unsimulated(topic: str, events: Any, arguments: Iterable[Any]) -> None:
-    """Raise what rclpy does for event callbacks that its middleware never calls.
-
-    events: an end's callbacks, or None. arguments: those that it is made with, its QoS among them.
-    """
-    leases = [a.liveliness_lease_duration.nanoseconds for a in arguments if isinstance(a, QoSProfile)]
-    if getattr(events, "deadline", None):
-        raise UnsupportedEventTypeError(
-            f"Deadlines aren't simulated, so the deadline callback of {topic} would never be called:"
-            " in a timer, look at the time since the last message."
-        )
-    if getattr(events, "liveliness", None) and any(0 < lease < FOREVER for lease in leases):
-        raise UnsupportedEventTypeError(
-            f"Liveliness leases aren't simulated, so the liveliness callback of {topic} would never be"
-            " called: the callback `matched` tells who comes and goes."
-        )

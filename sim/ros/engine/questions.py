@@ -74,9 +74,9 @@ class Questions:
             services = node.services if self.engine.has_clients else ()
             clock_subscription = node._time_source._clock_sub
             self.timers += node.timers
-            self._events += [
-                (Questions._event, w, node) for w in node.waitables if isinstance(w, EventHandler)
-            ]
+            told = [w for w in node.waitables if isinstance(w, EventHandler)]
+            self._events += [(Questions._event, w, node) for w in told if "_sim" not in w.__dict__]
+            self._questions += [(Questions._status, w, node) for w in told if "_sim" in w.__dict__]
             self._questions += [
                 *((self._question_of(w), w, node) for w in node.waitables if not isinstance(w, EventHandler)),
                 *((Questions._timer, timer, node) for timer in node.timers),
@@ -201,6 +201,12 @@ class Questions:
         if data is None or not any(getattr(data, name, 0) for name in CHANGES):
             return None
         return self._waitable(handler, node, data, "event")
+
+    def _status(self, handler: Any, node: Any) -> Work | None:
+        data = handler._sim.take() if self._free(handler) else None
+        if data is None:
+            return None
+        return self._waitable(handler, node, data, "event")._replace(names=handler.callback)
 
     def _waitable(self, waitable: Any, node: Any, data: Any, kind: str) -> Work:
         for future in waitable._futures:

@@ -11,7 +11,8 @@ from collections import Counter, defaultdict
 from typing import TYPE_CHECKING, Any
 
 from sim.ros.engine.carried import CarriedReader, CarriedWriter
-from sim.ros.engine.ends import Reader, Writer
+from sim.ros.engine.reader import Reader
+from sim.ros.engine.writer import Writer
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine

@@ -13,7 +13,6 @@ from rclpy.subscription import Subscription
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.processes import shared_context
-from sim.ros.engine.qos import refuse_unsimulated
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
@@ -27,8 +26,6 @@ def create_publisher(original: Callable) -> Callable:
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
     ) -> Publisher:
         run = engine()
-        if run is not None:
-            refuse_unsimulated(topic, keywords.get("event_callbacks"), (*arguments, *keywords.values()))
         publisher = original(self, msg_type, topic, *arguments, **keywords)
         if run is not None:
             name = publisher.topic_name
@@ -38,7 +35,7 @@ def create_publisher(original: Callable) -> Callable:
                     "Messages on /clock can't change the time in a run: all clocks show its simulated time."
                 )
             end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
-            end["ours"] = run.recorder.is_ours()
+            end |= {"ours": run.recorder.is_ours(), "events": publisher.event_handlers}
             publisher._sim = run.topics.writer(self.handle, publisher.handle, msg_type, **end)
             publisher._sim.context = shared_context(self.context)
             run.recorder.endpoint(
@@ -54,13 +51,11 @@ def create_publisher(original: Callable) -> Callable:
 def create_subscription(original: Callable) -> Callable:
     def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
         run = engine()
-        if run is not None:
-            refuse_unsimulated(topic, keywords.get("event_callbacks"), (*arguments, *keywords.values()))
         subscription = original(self, msg_type, topic, *arguments, **keywords)
         if run is not None:
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
-            end["listener"] = run.recorder.name_of(self)
+            end |= {"listener": run.recorder.name_of(self), "events": subscription.event_handlers}
             subscription._sim = run.topics.reader(self.handle, handle, msg_type, **end)
             run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
             run.rosout_wanted |= name == "/rosout"
@@ -97,10 +92,11 @@ def publish(original: Callable) -> Callable:
             return original(self, msg)  # raises the TypeError that a student would get on a robot
         if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
-        if not writer.has_room():
+        outgoing = writer.outgoing
+        if outgoing is not None and not outgoing.has_room():
             what = f"room in the history of {writer.topic}"
-            run.wait(what, ready=writer.has_room, until=run.now + LONGEST_BLOCKING)
-            if not writer.has_room():
+            run.wait(what, ready=outgoing.has_room, until=run.now + LONGEST_BLOCKING)
+            if not outgoing.has_room():
                 raise _rclpy.RCLError("Failed to publish: cannot publish data")
         writer.publish(raw)
         run.called("messages")
@@ -109,16 +105,27 @@ def publish(original: Callable) -> Callable:
     return publish
 
 
+@hook(Publisher, "assert_liveliness", "a sign of life counts at the run's time")
+def assert_liveliness(original: Callable) -> Callable:
+    def assert_liveliness(self: Publisher) -> None:
+        original(self)
+        if engine() is not None and "_sim" in self.__dict__:
+            self._sim.sign()
+
+    return assert_liveliness
+
+
 @hook(Publisher, "wait_for_all_acked", "it waits in simulated time for what is under way")
 def wait_for_all_acked(original: Callable) -> Callable:
     def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
         run = engine()
         writer = self.__dict__.get("_sim")
-        if run is None or writer is None or writer.all_have_it():
+        if run is None or writer is None or writer.outgoing is None:
             return original(self, timeout)
         until = None if timeout.nanoseconds < 0 else run.now + timeout.nanoseconds
-        run.wait("the acknowledgements of " + writer.topic, ready=writer.all_have_it, until=until)
-        return writer.all_have_it()
+        acknowledged = writer.outgoing.all_acknowledged
+        run.wait(f"the acknowledgements on {writer.topic}", ready=acknowledged, until=until)
+        return acknowledged()
 
     return wait_for_all_acked
 

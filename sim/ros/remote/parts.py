@@ -13,7 +13,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
-from sim.ros.engine.ends import Writer
+from sim.ros.engine.writer import Writer
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
