@@ -69,6 +69,7 @@ class Recording:
     shared: set[str] = field(default_factory=set)  # and those that a student's node has, too
     failures: list[CallbackError] = field(default_factory=list)  # those of `errors` that our programs made
     network: Network | None = None  # between hosts; None where all programs run on one
+    hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
 
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
@@ -179,7 +180,7 @@ class Recording:
     def _evidence(self) -> dict[str, Any]:
         of_network = {}
         if self.network is not None:
-            of_network["network"] = self.network.to_data()
+            of_network |= {"network": self.network.to_data(), "hosts": self.hosts}
             of_network["crossings"] = [asdict(crossing) for crossing in self.crossings]
         return of_network | {
             "seconds": self.seconds,

@@ -35,14 +35,18 @@ class Link:
 
     def cross(self, chance: Random, size: int, now: Nanoseconds) -> Nanoseconds | None:
         """When something of so many bytes that sets out now arrives; None if it is lost."""
-        network = self.network
-        lost, shift = chance.random() < network.loss, chance.uniform(-1, 1) * network.jitter
-        start = now
-        if network.bandwidth is not None:
+        bandwidth, start = self.network.bandwidth, now
+        if bandwidth is not None:
             start = max(now, self._free_at)
             if start - now > MOST_WAITING:
                 return None
-            start = self._free_at = start + nanoseconds(size / network.bandwidth)
+            start = self._free_at = start + nanoseconds(size / bandwidth)
+        return self.travel(chance, start)
+
+    def travel(self, chance: Random, start: Nanoseconds) -> Nanoseconds | None:
+        """The same for what is too short to need bandwidth, or sets out only later."""
+        network = self.network
+        lost, shift = chance.random() < network.loss, chance.uniform(-1, 1) * network.jitter
         return None if lost else start + nanoseconds(max(network.delay + shift, 0.0))
 
 

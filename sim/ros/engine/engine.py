@@ -19,6 +19,7 @@ from sim.ros.engine.endings import conclusion
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import Limits
 from sim.ros.engine.own import ChanceBytes, OwnRclpy
+from sim.ros.engine.post import Post
 from sim.ros.engine.processes import StudentProcess, destroy
 from sim.ros.engine.program import Process
 from sim.ros.engine.simtime import SimulatedTime
@@ -55,9 +56,9 @@ class Engine(Scheduler):
         self.executors: list[Any] = []
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
-        self.agenda = Agenda()
         self.links = None if recording.network is None else Links(recording.network, recording.seed)
-        self.topics = Topics(self)
+        self.post = None if recording.network is None else Post(self)
+        self.agenda, self.topics = Agenda(), Topics(self)
         self.asked: Counter[str] = Counter()  # requests sent to each service
         self.names: dict[int, tuple[Callable, str]] = {}  # of callbacks, by the id of what they belong to
         self.processes: list[StudentProcess] = []
@@ -206,13 +207,6 @@ class Engine(Scheduler):
     def loops_busily(self) -> None:
         """As `Scheduler`; it is written down."""
         self.recorder.busy_loop(self.current, student_line(sys._getframe()))
-
-    def describe(self, fiber: Fiber) -> str:
-        """Which callback of which node a fiber is in, for a message."""
-        if fiber.callbacks:
-            running = fiber.callbacks[-1]
-            return f"{running.name} of node {running.node} at t = {self.recorder.now:g} s"
-        return f"{fiber.name}() at t = {self.recorder.now:g} s"
 
     # -- endings -----------------------------------------------------------------------------------
 

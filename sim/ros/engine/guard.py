@@ -98,6 +98,13 @@ class Guard:
         """The fiber that the signal came into; None in the moment before it goes on: the hub still runs."""
         return None if greenlet.getcurrent() is self.engine.hub else self.engine.current
 
+    def _where(self, fiber: Fiber) -> str:
+        now = self.engine.recorder.now
+        if fiber.callbacks:
+            running = fiber.callbacks[-1]
+            return f"{running.name} of node {running.node} at t = {now:g} s"
+        return f"{fiber.name}() at t = {now:g} s"
+
     def _look(self, number: int, frame: FrameType | None) -> None:
         fiber, stretch, computed = self._student_code(), self.engine.limits.work, self._computed()
         now = monotonic()
@@ -174,7 +181,7 @@ class Guard:
         return True
 
     def _describe(self, fiber: Fiber, frame: FrameType | None, stuck: bool) -> str:
-        where, line = self.engine.describe(fiber), student_line(frame)
+        where, line = self._where(fiber), student_line(frame)
         if not stuck and self._total < self._total_limit:
             taken = f"One simulated second took {SECOND_LIMIT:g} s of real time"
             return f"{taken}; the nodes were stopped in {where}{line}."

@@ -13,6 +13,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
+from sim.ros.engine.action_ends import taken_by_client, taken_by_server
 from sim.ros.engine.callbacks import Work, suspended
 from sim.ros.engine.waitables import is_ready
 from sim.ros.messages.codec import encode, expect
@@ -123,7 +124,11 @@ class Questions:
     def _client(self, client: Any, node: Any) -> Work | None:
         if not self._free(client):
             return None
-        header, response = client.handle.take_response(client.srv_type.Response) or (None, None)
+        post = self.engine.post
+        taken = (
+            client.handle.take_response(client.srv_type.Response) if post is None else post.response(client)
+        )
+        header, response = taken or (None, None)
         if header is None:
             return None
         return Work("client", client, node, partial(self._complete, client, header, response))
@@ -140,9 +145,13 @@ class Questions:
     def _service(self, service: Any, node: Any) -> Work | None:
         kept: ServiceRecord = service._sim
         asked = self.engine.asked.get(kept.service, 0)
-        if asked == kept.asked or not self._free(service):
+        post = self.engine.post
+        if (asked == kept.asked and post is None) or not self._free(service):
             return None
-        request, header = service.handle.service_take_request(service.srv_type.Request)
+        if post is None:
+            request, header = service.handle.service_take_request(service.srv_type.Request)
+        else:
+            request, header = post.request(service, self.engine.recorder.name_of(node)) or (None, None)
         if header is None:
             kept.asked = asked
             return None
@@ -170,11 +179,8 @@ class Questions:
     def _action_server(self, server: Any, node: Any) -> Work | None:
         if not self._free(server):
             return None
-        server._is_goal_request_ready = server._is_cancel_request_ready = server._is_result_request_ready = (
-            True
-        )
-        server._is_goal_expired = False
-        data = server.take_data()
+        post = self.engine.post
+        data = taken_by_server(server) if post is None else post.at_server(server)
         if server._goal_handles:
             with server._lock:
                 expired = server._handle.expire_goals(len(server._goal_handles))
@@ -185,11 +191,8 @@ class Questions:
     def _action_client(self, client: Any, node: Any) -> Work | None:
         if not self._free(client):
             return None
-        client._is_goal_response_ready = client._is_cancel_response_ready = (
-            client._is_result_response_ready
-        ) = True
-        client._is_feedback_ready = client._is_status_ready = True
-        data = client.take_data()
+        post = self.engine.post
+        data = taken_by_client(client) if post is None else post.at_client(client)
         if not data:
             return None
         self.engine.recorder.goals.client_took(client, data)

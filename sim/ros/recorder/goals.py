@@ -86,6 +86,16 @@ class Goals:
         there = [server._sim for server in self._there(client._sim.action)]
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
+    def client_of(self, server: Any, goal_id: Any) -> str:
+        """The node that sent a goal; nothing for one sent past rclpy's clients."""
+        known = self._known(server, goal_id)
+        return known[0].client if known else ""
+
+    def server_of(self, action: str) -> str:
+        """The node that takes goals of this action; nothing where none does."""
+        servers = (known() for known in self._servers[action])
+        return next((server._sim.node for server in servers if server is not None), "")
+
     def cancel_asked(self, client: Any, goal_id: Any) -> None:
         """A client asked for a goal to be canceled."""
         for goal in self._known(client, goal_id):

@@ -105,6 +105,9 @@ class Recorder:
         if not self.open:
             return
         self.named(name, ours=self.is_ours())
+        fiber = self.scheduler.current
+        if self.recording.network is not None and fiber is not None:
+            self.recording.hosts[name] = fiber.process.host
 
     def named(self, name: str, *, ours: bool) -> None:
         """There is a node of this full name, of a program that is ours or the student's."""
