@@ -169,7 +169,10 @@ class Engine(Scheduler):
 
     def round(self) -> bool:
         """As `Scheduler`; when no program can go on any more, what this moment was the limit for is over."""
-        return super().round() or self.agenda.let_expire(self.now)
+        return super().round() or self._sends() or self.agenda.let_expire(self.now)
+
+    def _sends(self) -> bool:
+        return self.post is not None and self.post.collect()
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""

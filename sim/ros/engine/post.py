@@ -7,49 +7,61 @@ was lost on the way comes again with one of the publisher's heartbeats.
 from __future__ import annotations
 
 import heapq
-from collections import defaultdict
+from collections import Counter, defaultdict, deque
+from collections.abc import Callable
 from itertools import count
 from random import Random
 from typing import TYPE_CHECKING, Any
 
+from rclpy.action import ActionClient, ActionServer
+
+from sim.evidence import Call, Seconds
 from sim.nanoseconds import Nanoseconds, nanoseconds
 from sim.network import LAPTOP
 from sim.ros.engine.action_ends import taken_by_client, taken_by_server
 from sim.ros.engine.channels import RESPONSE, Link
 from sim.ros.engine.outgoing import HEARTBEAT
+from sim.ros.engine.qos import queue_length
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
+from sim.ros.recorder.calls import alive
+from sim.ros.recorder.kept import ClientRecord
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
 
 MOST_HEARTBEATS = 1000  # after these nobody waits any more
+PART = "/_action/"
+KINDS = {"send_goal": "goal", "cancel_goal": "cancel", "get_result": "result"}  # services of an action
 
 
 class Held:
-    """What has been sent and has not come yet, for one end."""
+    """What has been sent to one end and has not come yet; and what has come, up to the length of a queue."""
 
-    def __init__(self, engine: Engine) -> None:
+    def __init__(self, engine: Engine, length: int | None = None) -> None:
         self._engine = engine
-        self._waiting: list[tuple[Nanoseconds, int, Any]] = []
+        self._coming: list[tuple[Nanoseconds, int, Any]] = []
         self._numbers = count()
+        self._come: deque[Any] = deque(maxlen=length)
 
     def put(self, due: Nanoseconds | None, what: Any) -> None:
         """Something comes at this time; None: never."""
-        if due is None:
-            return
-        heapq.heappush(self._waiting, (due, next(self._numbers), what))
-        if due > self._engine.now:
-            self._engine.agenda.arrive(due, self._come)
+        if due is not None:
+            heapq.heappush(self._coming, (due, next(self._numbers), what))
+            if due > self._engine.now:
+                self._engine.agenda.arrive(due, self.look)
+            else:
+                self.look()
+
+    def look(self) -> None:
+        """Time has moved on, so something may have come."""
+        while self._coming and self._coming[0][0] <= self._engine.now:
+            self._come.append(heapq.heappop(self._coming)[2])
+        self._engine.activity += 1
 
     def take(self) -> Any:
         """The first that has come; None if nothing has."""
-        if self._waiting and self._waiting[0][0] <= self._engine.now:
-            return heapq.heappop(self._waiting)[2]
-        return None
-
-    def _come(self) -> None:
-        self._engine.activity += 1
+        return self._come.popleft() if self._come else None
 
 
 class Post:
@@ -58,90 +70,143 @@ class Post:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._held: dict[tuple[int, str], tuple[Any, Held]] = {}  # with the end, so that its id stays its own
-        self._chances: dict[tuple[str, ...], Random] = {}
+        self._sent: Counter[tuple[Any, ...]] = Counter()  # at each moment
         self._last: dict[tuple[str, ...], Nanoseconds] = defaultdict(int)
         self._beats: dict[tuple[str, ...], Nanoseconds] = defaultdict(int)  # when heartbeats began to count
 
-    def request(self, service: Any, server: str) -> tuple[Any, Any] | None:
-        """The next request that has come to a service of the node `server`, and its header."""
-        held = self._of(service, "requests")
+    def collect(self) -> bool:
+        """Let set out what was sent at this moment; whether any of it is there at once."""
+        before, recorder = self._engine.activity, self._engine.recorder
+        for service in recorder.calls.asked_services():
+            self._collect_requests(service)
+        for end in filter(None, (known() for known in recorder.goals.ends)):
+            if isinstance(end, ActionServer) and alive(end._handle):
+                self._collect_at_server(end)
+            elif isinstance(end, ActionClient) and alive(end._client_handle):
+                self._collect_at_client(end)
+        return self._engine.activity != before
+
+    def request(self, service: Any) -> tuple[Any, Any] | None:
+        """The next request that has come to a service, and its header."""
+        self._collect_requests(service)
+        request, header, calls = self._of(service, "requests").take() or (None, None, [])
+        if header is None:
+            return None
+        service._sim.inbox.appendleft((header.request_id.sequence_number, calls))
+        return request, header
+
+    def _collect_requests(self, service: Any) -> None:
+        held = self._of(service, "requests", queue_length(service.qos_profile))
         while True:
             request, header = service.handle.service_take_request(service.srv_type.Request)
             if header is None:
-                return held.take()
-            raw = canonical(f"{type_name(service.srv_type)}_Request", encode(request))
-            found = self._engine.recorder.calls.waiting(service, header.request_id.sequence_number, raw)
-            due = self._engine.now
-            if found is not None:
-                way = "request", service.service_name, found.client, server
-                due = self.arrival(*way, size=len(raw), since=nanoseconds(found.asked))
-            held.put(due, (request, header))
+                return
+            due, calls = self._due_request(service, header.request_id.sequence_number, request)
+            held.put(due, (request, header, calls))
+
+    def _due_request(self, service: Any, number: int, request: Any) -> tuple[Nanoseconds | None, list[Call]]:
+        recorder, name, server = self._engine.recorder, service.service_name, service._sim.node
+        if PART in name:
+            action, _, part = name.partition(PART)
+            client = recorder.goals.client_of(action, _goal_id(request))
+            return self._due(KINDS[part], action, client, server), []
+        raw = canonical(f"{type_name(service.srv_type)}_Request", encode(request))
+        calls = recorder.calls.sent(service, number, raw)
+        if not calls:
+            return self._engine.now, []
+        return self._due("request", name, calls[0].client, server, len(raw), calls[0].asked), calls
 
     def response(self, client: Any) -> tuple[Any, Any] | None:
-        """The next response that has come to a client, after its header."""
+        """The header of the next response that has come to a client, and the response."""
         held = self._of(client, "responses")
         while True:
             header, response = client.handle.take_response(client.srv_type.Response) or (None, None)
             if header is None:
                 return held.take()
-            kept = client._sim
-            _, calls = kept.requests.get(header.request_id.sequence_number, (0, []))
-            answered = [call for call in calls if call.answered is not None]
-            due = self._engine.now
-            if answered:
-                call = min(answered, key=lambda call: call.answered)
-                way = "response", kept.service, call.server, kept.node
-                due = self.arrival(*way, size=len(call.raw_response), since=nanoseconds(call.answered))
-            held.put(due, (header, response))
+            held.put(self._due_response(client._sim, header.request_id.sequence_number), (header, response))
+
+    def _due_response(self, client: ClientRecord, number: int) -> Nanoseconds | None:
+        if PART in client.service:
+            action, _, part = client.service.partition(PART)
+            return self._due(KINDS[part], action, self._engine.recorder.goals.server_of(action), client.node)
+        _, calls = client.requests.get(number, (number, []))
+        answered = [call for call in calls if call.answered is not None]
+        if not answered:
+            return self._engine.now
+        call = min(answered, key=lambda call: call.answered)
+        size = len(call.raw_response)
+        return self._due("response", client.service, call.server, client.node, size=size, since=call.answered)
+
+    def news(self, listener: Any, node: str, take: Callable[[], bytes | None]) -> bytes | None:
+        """The next feedback or status of an action that has come to what listens for a client of `node`."""
+        action, _, part = listener.name.partition(PART)
+        held = self._of(listener, part)
+        while (raw := take()) is not None:
+            held.put(self._due(part, action, self._engine.recorder.goals.server_of(action), node), raw)
+        return held.take()
 
     def at_server(self, server: Any) -> dict[str, Any]:
         """What has come to an action server: at most one goal, wish to cancel and question for a result."""
-        client_of = self._engine.recorder.goals.client_of
+        self._collect_at_server(server)
+        return self._taken(server, ("goal", "cancel", "result"))
+
+    def _collect_at_server(self, server: Any) -> None:
+        goals, action = self._engine.recorder.goals, server._sim.action
         while data := taken_by_server(server):
             for kind, (header, request) in data.items():
-                goal_id = request.goal_info.goal_id if kind == "cancel" else request.goal_id
-                self._hold(server, kind, client_of(server, goal_id), (header, request))
-        return self._come(server, ("goal", "cancel", "result"))
+                due = self._due(kind, action, goals.client_of(action, _goal_id(request)), server._sim.node)
+                self._of(server, kind).put(due, (header, request))
 
     def at_client(self, client: Any) -> dict[str, Any]:
         """What has come to an action client: at most one thing of each kind."""
-        server = self._engine.recorder.goals.server_of(client._sim.action)
+        self._collect_at_client(client)
+        return self._taken(client, ("goal", "cancel", "result", "feedback", "status"))
+
+    def _collect_at_client(self, client: Any) -> None:
+        action = client._sim.action
+        server = self._engine.recorder.goals.server_of(action)
         while data := taken_by_client(client):
             for kind, what in data.items():
-                self._hold(client, kind, server, what)
-        return self._come(client, ("goal", "cancel", "result", "feedback", "status"))
+                self._of(client, kind).put(self._due(kind, action, server, client._sim.node), what)
 
-    def _hold(self, end: Any, kind: str, sender: str, what: Any) -> None:
-        way = kind, end._sim.action, sender, end._sim.node
-        self._of(end, kind).put(self.arrival(*way, size=0, since=self._engine.now), what)
-
-    def _come(self, end: Any, kinds: tuple[str, ...]) -> dict[str, Any]:
+    def _taken(self, end: Any, kinds: tuple[str, ...]) -> dict[str, Any]:
         found = {kind: self._of(end, kind).take() for kind in kinds}
         return {kind: what for kind, what in found.items() if what is not None}
 
-    def arrival(
-        self, kind: str, name: str, sender: str, receiver: str, *, size: int, since: Nanoseconds
+    def _due(
+        self, kind: str, name: str, sender: str, receiver: str, size: int = 0, since: Seconds | None = None
     ) -> Nanoseconds | None:
-        """When something that a node sent at `since` reaches another one; None: never.
+        """When something that a node sent at `since`, or now, reaches another one; None: never.
 
         kind: what it is. name: of the service or action. sender, receiver: full names of the nodes.
         """
+        begin = self._engine.now if since is None else nanoseconds(since)
         hosts = self._engine.recording.hosts
         ends = hosts.get(sender, LAPTOP), hosts.get(receiver, LAPTOP)
         if ends[0] == ends[1]:
-            return since
+            return begin
         key = kind, name, sender, receiver
-        chance = self._chances.setdefault(key, self._engine.links.chance(*key))
+        self._sent[(*key, begin)] += 1
+        chance = self._engine.links.chance(*key, str(begin), str(self._sent[(*key, begin)]))
         there, back = self._engine.links.between(*ends), self._engine.links.between(*reversed(ends))
-        if since >= self._beats[key] + HEARTBEAT:
-            self._beats[key] = since
-        came = there.cross(chance, size, since) or _later(there, back, chance, self._beats[key])
+        if begin >= self._beats[key] + HEARTBEAT:
+            self._beats[key] = begin
+        came = there.cross(chance, size, begin)
+        if came is None:
+            came = _later(there, back, chance, self._beats[key])
         if came is not None:
             came = self._last[key] = max(came, self._last[key])
         return came
 
-    def _of(self, end: Any, kind: str) -> Held:
-        return self._held.setdefault((id(end), kind), (end, Held(self._engine)))[1]
+    def _of(self, end: Any, kind: str, length: int | None = None) -> Held:
+        key = id(end), kind
+        if key not in self._held:
+            self._held[key] = end, Held(self._engine, length)
+        return self._held[key][1]
+
+
+def _goal_id(request: Any) -> Any:
+    return request.goal_info.goal_id if hasattr(request, "goal_info") else request.goal_id
 
 
 def _later(there: Link, back: Link, chance: Random, begin: Nanoseconds) -> Nanoseconds | None:

@@ -151,7 +151,7 @@ class Questions:
         if post is None:
             request, header = service.handle.service_take_request(service.srv_type.Request)
         else:
-            request, header = post.request(service, self.engine.recorder.name_of(node)) or (None, None)
+            request, header = post.request(service) or (None, None)
         if header is None:
             kept.asked = asked
             return None

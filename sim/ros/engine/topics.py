@@ -30,7 +30,7 @@ class Topics:
     def __init__(self, engine: Engine) -> None:
         self.sent: Counter[str] = Counter()
         self._engine = engine
-        self._all_carried = MIDDLEWARE in os.environ
+        self._all_carried = MIDDLEWARE in os.environ and engine.post is None
         self._writers: dict[str, list[Writer]] = defaultdict(list)
         self._readers: dict[str, list[Reader]] = defaultdict(list)
 
@@ -43,14 +43,18 @@ class Topics:
             writer.meet(reader)
         return writer
 
-    def reader(self, *end: Any, topic: str, **more: Any) -> Reader:
-        """A new subscription's end; the arguments are those of `Reader`."""
-        kind = CarriedReader if self._is_carried(topic) else Reader
+    def reader(self, *end: Any, topic: str, kind: type[Reader] = Reader, **more: Any) -> Reader:
+        """A new subscription's end; the arguments are those of `Reader`, or of this kind of it."""
+        kind = CarriedReader if self._is_carried(topic) else kind
         reader = kind(self._engine, *end, topic=topic, **more)
         self._readers[topic].append(reader)
         for writer in self._writers[topic]:
             writer.meet(reader)
         return reader
+
+    def reader_of(self, topic: str, handle: Any) -> Reader | None:
+        """The end of the subscription that has this handle."""
+        return next((reader for reader in self._readers[topic] if reader.handle is handle), None)
 
     def remove(self, end: Writer | Reader) -> None:
         """Forget an end that was destroyed; again does nothing."""

@@ -102,7 +102,8 @@ class Writer:
 
     def meet(self, reader: Reader) -> None:
         """If this end and that one suit each other, messages go there from now on, and the latched ones."""
-        if not suit(self.profile, reader.profile):
+        elsewhere = self.program is None and reader.program is None  # where they meet by themselves
+        if elsewhere or not suit(self.profile, reader.profile):
             return
         self._all_known_after = max(self._all_known_after, reader.made)
         if reader.liveliness is not None:

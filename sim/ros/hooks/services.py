@@ -24,6 +24,7 @@ def create_service(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             name = self.resolve_service_name(srv_name)
+            service._sim.node = run.recorder.name_of(self)
             run.recorder.endpoint(
                 "service", self, name, srv_type, service.qos_profile, handle=service.handle
             )
@@ -40,6 +41,7 @@ def lifecycle_init(original: Callable) -> Callable:
         if run is not None:
             for service in self.services:
                 if service.srv_type.__module__.startswith("lifecycle_msgs."):
+                    service._sim.node = run.recorder.name_of(self)
                     run.recorder.endpoint(
                         "service", self, service.service_name, service.srv_type, service.qos_profile,
                         handle=service.handle,

@@ -106,12 +106,10 @@ class Calls:
             call.served_by_us = service._sim.ours
         return call
 
-    def waiting(self, service: Any, number: int, raw: bytes) -> Call | None:
-        """The call of a request that is still in a service's inbox; None for one past rclpy's clients."""
-        alike = [
-            calls for known, calls in service._sim.inbox if known == number and calls[0].raw_request == raw
-        ]
-        return alike[0][0] if alike else None
+    def asked_services(self) -> list[Any]:
+        """Services with requests in their queues."""
+        known = (service() for services in self._services.values() for service in services)
+        return [found for found in known if found is not None and found._sim.inbox and alive(found.handle)]
 
     def sent(self, service: Any, number: int, raw: bytes) -> list[Call]:
         """The calls of a request that a service's queue gave out; [] for one sent past rclpy's clients."""

@@ -37,10 +37,12 @@ class Goals:
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
         self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
+        self.ends: list[weakref.ref[Any]] = []  # of all actions
         self._servers: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
 
     def end_made(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
         """A node made an action server or an action client; `name` is the action's resolved name."""
+        self.ends.append(weakref.ref(end))
         if serves:
             self._servers[name].append(weakref.ref(end))
         recorder = self._recorder
@@ -86,9 +88,9 @@ class Goals:
         there = [server._sim for server in self._there(client._sim.action)]
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
-    def client_of(self, server: Any, goal_id: Any) -> str:
+    def client_of(self, action: str, goal_id: Any) -> str:
         """The node that sent a goal; nothing for one sent past rclpy's clients."""
-        known = self._known(server, goal_id)
+        known = self.known(action, goal_id)
         return known[0].client if known else ""
 
     def server_of(self, action: str) -> str:

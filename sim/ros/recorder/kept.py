@@ -53,6 +53,7 @@ class ServiceRecord(EndRecord):
 
     service: str  # resolved name
     inbox: deque[Request]
+    node: str = ""
     asked: int = 0  # so many requests were sent when its queue was empty
 
 

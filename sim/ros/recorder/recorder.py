@@ -25,6 +25,7 @@ from sim.evidence import (
 )
 from sim.evidence.qos import settings
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.network import LAPTOP
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
 from sim.ros.fibers.fiber import Fiber, Program
 from sim.ros.fibers.scheduler import Scheduler
@@ -104,14 +105,14 @@ class Recorder:
         name = self._names[id(node)] = node.get_fully_qualified_name()
         if not self.open:
             return
-        self.named(name, ours=self.is_ours())
         fiber = self.scheduler.current
-        if self.recording.network is not None and fiber is not None:
-            self.recording.hosts[name] = fiber.process.host
+        self.named(name, ours=self.is_ours(), host=LAPTOP if fiber is None else fiber.process.host)
 
-    def named(self, name: str, *, ours: bool) -> None:
+    def named(self, name: str, *, ours: bool, host: str = LAPTOP) -> None:
         """There is a node of this full name, of a program that is ours or the student's."""
         self.recording.graph.nodes.append(name)
+        if self.recording.network is not None:
+            self.recording.hosts[name] = host
         (self._ours if ours else self._theirs).add(name)
         self.recording.ours = self._ours - self._theirs
         self.recording.shared = self._ours & self._theirs

@@ -43,6 +43,27 @@ class Message(NamedTuple):
     raw: str
 
 
+class Arrived(NamedTuple):
+    """A message has come through the network to a subscription of the other side.
+
+    stamp, count, expires: as of `Sent`. missed: so many have not come before it.
+    """
+
+    number: int
+    raw: str
+    stamp: int
+    count: int
+    expires: int
+    missed: int
+
+
+class Sign(NamedTuple):
+    """A publisher has given a sign of life to a subscription of the other side."""
+
+    number: int
+    node: str
+
+
 class Ask(NamedTuple):
     """A client of this side asks a service of the other."""
 
@@ -154,6 +175,8 @@ WORDS: dict[type, str] = {
     End: "end",
     Gone: "gone",
     Message: "message",
+    Arrived: "arrived",
+    Sign: "sign",
     Ask: "ask",
     Answer: "answer",
     CallMade: "call",

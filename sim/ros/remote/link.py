@@ -113,18 +113,22 @@ class Link:
         for heard in self._heard.take():
             if self.crosses(heard):
                 self.news.append(Message(heard.sender, heard.topic, packed(heard.raw)))
+        self.news += self.puppets.arrivals
+        self.puppets.arrivals.clear()
         for part in self.puppets.listening:
             while (raw := part.take()) is not None:
                 self.news.append(Message("", part.name, packed(raw)))
 
     def crosses(self, heard: Heard) -> bool:
         """Whether the other side has to know of a message of this side."""
+        if self.engine.links is not None:
+            return False  # the network brings it
         return bool(self.puppets.wanted[heard.topic]) or heard.topic in self._latched
 
     def gather_requests(self) -> None:
         """Add the requests that clients of this side have made to services of the other."""
         for service in self.puppets.services:
-            while service.of_action or service._sim.inbox:
+            while service.of_action or service._sim.inbox or self.engine.post is not None:
                 taken = service.take()
                 if taken is None:
                     break

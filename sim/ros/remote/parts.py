@@ -13,7 +13,11 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
+from sim.ros.engine.qos import NO_LIMIT
+from sim.ros.engine.reader import Reader, Sent
 from sim.ros.engine.writer import Writer
+from sim.ros.remote import events
+from sim.ros.remote.checked import packed
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -32,6 +36,7 @@ class PuppetNode:
         # Every node has this service, made by C++ where no hook sees it. Nobody answers at this one.
         self._description = _rclpy.TypeDescriptionService(self.handle)
         self.ends: set[int] = set()
+        self.post = engine.post
 
     def get_fully_qualified_name(self) -> str:
         """As rclpy's nodes."""
@@ -66,13 +71,51 @@ class PuppetPublisher(Part):
     writer: Writer
 
 
+class PuppetReader(Reader):
+    """Where the way through the network to a subscription of the other side ends.
+
+    number: of that subscription. arrivals: the events for the other side are put there.
+    """
+
+    def __init__(self, *end: Any, number: int, arrivals: list[Any], **more: Any) -> None:
+        super().__init__(*end, **more)
+        self._number, self._arrivals, self._gap = number, arrivals, 0
+        self.receive = self._pass_on
+        if self.profile.liveliness_lease_duration != NO_LIMIT:
+            self.liveliness = self
+
+    def _pass_on(self, sent: Sent) -> None:
+        raw, stamp, number, expires = sent
+        event = events.Arrived(self._number, packed(raw), stamp, number, expires, self._gap)
+        self._arrivals.append(event)
+        self._gap = 0
+
+    def missed(self, count: int) -> None:
+        """As Reader."""
+        self._gap += count
+
+    def sign(self, writer: Writer) -> None:
+        """As Liveliness: the other side counts."""
+        self._arrivals.append(events.Sign(self._number, writer.sender))
+
+    def met(self, writer: Writer) -> None:
+        """As Liveliness; the other side sees that by itself."""
+
+    gone = met
+
+
 class PuppetSubscription(Part):
     """Makes publishers here find who listens on the other side."""
 
     made_by = _rclpy.Subscription
+    reader: PuppetReader | None = None
 
     def take(self) -> bytes | None:
         """The next message's bytes."""
+        post = self.node.post
+        return self._taken() if post is None else post.news(self, self.node.name, self._taken)
+
+    def _taken(self) -> bytes | None:
         taken = self.handle.take_message(self.type, True)
         return None if taken is None else taken[0]
 
@@ -89,7 +132,10 @@ class PuppetService(Part):
 
     def take(self) -> tuple[Any, Any] | None:
         """The next request and its header."""
-        request, header = self.handle.service_take_request(self.type.Request)
+        if self.node.post is None:
+            request, header = self.handle.service_take_request(self.type.Request)
+        else:
+            request, header = self.node.post.request(self) or (None, None)
         return None if header is None else (request, header.request_id)
 
     def answer(self, key: int, response: Any) -> Any:
@@ -118,7 +164,10 @@ class PuppetClient(Part):
 
     def take(self) -> tuple[int, Any] | None:
         """The next response, and the key of its request."""
-        header, response = self.handle.take_response(self.type.Response)
+        if self.node.post is None:
+            header, response = self.handle.take_response(self.type.Response)
+        else:
+            header, response = self.node.post.response(self) or (None, None)
         if header is None:
             return None
         return self.asked.pop(header.request_id.sequence_number, None), response

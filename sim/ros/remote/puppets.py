@@ -22,6 +22,7 @@ from sim.ros.remote.parts import (
     PuppetClient,
     PuppetNode,
     PuppetPublisher,
+    PuppetReader,
     PuppetService,
     PuppetSubscription,
     RCLError,
@@ -82,6 +83,7 @@ class Puppets:
         self.clients: dict[str, list[PuppetClient]] = defaultdict(list)  # by service
         self.listening: list[PuppetSubscription] = []  # parts of actions: their messages are taken here
         self.wanted: Counter[str] = Counter()  # subscriptions of the other side, by topic
+        self.arrivals: list[Any] = []  # events of what has come through a network, for the other side
         self._made = 0
 
     def __contains__(self, number: object) -> bool:
@@ -135,7 +137,7 @@ class Puppets:
             with contextlib.suppress(RCLError):  # the name has another type here: they don't hear each other
                 part = KINDS[what](node, part_type, part_name, self._suited(what, part_name, part_profile))
                 parts.append(part)
-                self._enter(part)
+                self._enter(number, part)
         if kind in ACTIONS and parts:
             action = self.actions[number] = PuppetAction(parts[0].handle)
             serves = kind == "action server"
@@ -150,7 +152,7 @@ class Puppets:
         short.liveliness_lease_duration = profile.liveliness_lease_duration
         return short
 
-    def _enter(self, part: Part) -> None:
+    def _enter(self, number: int, part: Part) -> None:
         calls = self._engine.recorder.calls
         if isinstance(part, PuppetPublisher):
             self.publishers[part.name].append(part)
@@ -165,6 +167,7 @@ class Puppets:
         elif isinstance(part, PuppetService):
             self.services.append(part)
             calls.service_made(part)
+            part._sim.node = part.node.name
         elif isinstance(part, PuppetClient):
             self.clients[part.name].append(part)
             calls.client_made(part, part.node, part.name)
@@ -173,6 +176,22 @@ class Puppets:
             self.listening.append(part)
         else:
             self.wanted[part.name] += 1
+            if self._engine.links is not None:
+                self._open_way(number, part)
+
+    def _open_way(self, number: int, part: PuppetSubscription) -> None:
+        part.reader = self._engine.topics.reader(
+            part.node.handle,
+            part.handle,
+            part.type,
+            topic=part.name,
+            kind=PuppetReader,
+            profile=part.qos_profile,
+            raw=True,
+            listener=part.node.name,
+            number=number,
+            arrivals=self.arrivals,
+        )
 
     def remove(self, number: int) -> None:
         """Destroy what stands for one end, and the node with its last one. Raises KeyError for none."""
@@ -188,6 +207,8 @@ class Puppets:
                 self.listening.remove(part)
             else:
                 self.wanted[part.name] -= 1
+                if part.reader is not None:
+                    part.reader.close()
             destroy(part.handle)
         self.actions.pop(number, None)
         for key, node in list(self.nodes.items()):

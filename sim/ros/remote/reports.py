@@ -6,11 +6,12 @@ The recording of this side is only a notebook: what is new in it is told, and st
 from __future__ import annotations
 
 from base64 import b64decode
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from sim.evidence import Call, Goal, Heard
+from sim.ros.engine.reader import Reader, Sent
 from sim.ros.messages.codec import encode
 from sim.ros.remote import events
 from sim.ros.remote.checked import packed
@@ -178,6 +179,30 @@ class Reports(Link):
             for goal in self.engine.recorder.goals.known(action, request.goal_id):
                 goal.raw_result = goal.raw_result or encode(response.result)
         return request
+
+    # -- what comes through the network --------------------------------------------------------------
+
+    def _arrived(self, event: events.Arrived) -> None:
+        reader = self._reader(event.number)
+        if reader is not None:
+            if event.missed:
+                reader.missed(event.missed)
+            reader.receive(Sent(b64decode(event.raw), event.stamp, event.count, event.expires))
+
+    def _sign(self, event: events.Sign) -> None:
+        reader = self._reader(event.number)
+        publisher = None if reader is None else self.puppets.publisher(event.node, reader.topic)
+        if publisher is not None and reader.liveliness is not None:
+            reader.liveliness.sign(publisher.writer)
+
+    def _reader(self, number: int) -> Reader | None:
+        end = self._own.get(number)
+        return None if end is None else self.engine.topics.reader_of(end.name, end.handle)
+
+    HANDLERS: ClassVar[dict[type, Callable[..., None]]] = Link.HANDLERS | {
+        events.Arrived: _arrived,
+        events.Sign: _sign,
+    }
 
     # -- what else is told -------------------------------------------------------------------------
 

@@ -1,0 +1,50 @@
+"""A network between the two sides of a run is as between two hosts in one process: equal recordings."""
+
+import pytest
+
+from sim import Network, Process, run
+from tests.sim.ros.remote import observers
+from tests.sim.ros.remote.test_equal import ENGINE, OBSERVERS, evidence, found
+
+RADIO = Network(loss=0.2, delay=0.05, jitter=0.02)
+SLOW = Network(delay=0.1)
+# Ours on the robot, in this process; the student's on the laptop, in the other one.
+PAIRS = [
+    ("services", "Adder", "services", "Customer"),
+    ("services", "Customer", "services", "Adder"),
+    ("callers", "Flood", "services", "SlowAdder"),
+    ("actions", "Server", "actions", "Client"),
+    ("actions", "Client", "actions", "Server"),
+    ("actions", "Impatient", "actions", "Server"),
+    ("actions", "Server", "actions", "Impatient"),
+]
+LOOKING = [
+    ("Burst", "ShortListener"),
+    ("ShortListener", "Burst"),
+    ("LateTalker", "LateListener"),
+    ("LateListener", "LateTalker"),
+    ("SloppyTalker", "PickyListener"),
+]
+
+
+def same(apart, network, ours, module, name, theirs):
+    settings = {"seconds": 8, "quiet": True, "network": network}
+    with apart.serving(module, name) as remote:
+        there = run(Process(ours, host="robot"), remote, **settings)
+    here = run(Process(ours, host="robot"), theirs, **settings)
+    assert evidence(there) == evidence(here)
+    return here
+
+
+@pytest.mark.parametrize("network", [SLOW, RADIO], ids=["slow", "radio"])
+@pytest.mark.parametrize("pair", PAIRS, ids="-".join)
+def test_services_and_actions(apart, network, pair):
+    module, name, *other = pair
+    same(apart, network, found(module, name), f"{ENGINE}.{other[0]}", other[1], found(*other))
+
+
+@pytest.mark.parametrize("network", [SLOW, RADIO], ids=["slow", "radio"])
+@pytest.mark.parametrize("pair", LOOKING, ids="-".join)
+def test_topics(apart, network, pair):
+    ours, theirs = pair
+    same(apart, network, getattr(observers, ours), OBSERVERS, theirs, getattr(observers, theirs))
