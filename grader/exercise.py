@@ -15,6 +15,7 @@ from grader.quiet import quiet_stderr
 from grader.score import Score
 from grader.slips import mended, slips_of, with_half
 from sim.evidence import Recording, Seconds
+from sim.network import Network
 
 offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
 """Set in a process whose nodes another one judges: what `Exercise.grade` does there, and gives."""
@@ -36,6 +37,7 @@ class Scenario:
     until: a function of the growing recording that ends the run early, as in sim.run.
     prepare: a module's function that makes of each of the student's programs the one that runs in its place.
     name: by which checks that hold in some scenarios only name this one.
+    network: what lies between the robot and the student's nodes, as in sim.run.
     """
 
     world: Any = None
@@ -45,6 +47,7 @@ class Scenario:
     until: Callable[[Recording], bool] | None = None
     prepare: Prepare | None = None
     name: str = ""
+    network: Network | None = None
 
     def run(self, cast: Cast, seed: int) -> Recording:
         """Run the student's nodes. Ours come first, as a robot's drivers are up before one's own node is.
@@ -61,6 +64,7 @@ class Scenario:
             seed=seed,
             until=self.until,
             quiet=True,
+            network=self.network,
         )
         for error in recording.failures:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
@@ -87,7 +91,7 @@ class Exercise:
         counter.grade(CountingNode)
 
     name: unique in the course. title: what the student reads.
-    world, seconds, companions, until: the one scenario, run once for each of `seeds`.
+    world, seconds, companions, until, network: the one scenario, run once for each of `seeds`.
     scenarios: in place of these, several scenarios; a check holds only if it holds in all that judge it.
     may_end: its programs come to their end when they are done; else the time after that is not earned.
 
@@ -104,6 +108,7 @@ class Exercise:
     seeds: Sequence[int] = (0,)
     scenarios: Sequence[Scenario] = ()
     may_end: bool = False
+    network: Network | None = None
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -155,7 +160,9 @@ class Exercise:
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
         """Scenarios with their seeds: public ones, or private ones from a secret."""
-        one = Scenario(self.world, self.seconds, 0, self.companions, self.until)
+        one = Scenario(
+            self.world, self.seconds, 0, self.companions, self.until, network=self.network
+        )
         public = [(scenario, scenario.seed) for scenario in self.scenarios] or [(one, s) for s in self.seeds]
         if not secret:
             return public

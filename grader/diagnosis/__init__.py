@@ -1,6 +1,16 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
-from grader.diagnosis import actions, activity, connections, driving, names, owners, parameters, services
+from grader.diagnosis import (
+    actions,
+    activity,
+    connections,
+    driving,
+    names,
+    owners,
+    parameters,
+    radio,
+    services,
+)
 from grader.diagnosis.faults import find_fault
 from sim.evidence import Recording
 
@@ -30,9 +40,16 @@ DIAGNOSES = (
     activity.ended_early,
     activity.unused_publisher,
     activity.empty_node,
+    radio.lost_on_the_network,
+    radio.late_on_the_network,
 )
 # True of right programs, too: they explain a check that was missed, and are no news without one.
-GUESSES = (services.answer_dropped, activity.ended_early)
+GUESSES = (
+    services.answer_dropped,
+    activity.ended_early,
+    radio.lost_on_the_network,
+    radio.late_on_the_network,
+)
 # What no check need ask for.
 FLAWS = (
     activity.busy_listener,

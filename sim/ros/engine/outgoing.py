@@ -107,10 +107,11 @@ class Outgoing:
         else:
             channel = Channel(writer.engine, writer, reader)
         self.channels.append(channel)
-        self._history.restore(latched)
-        for sent in latched:
-            if sent.expires > writer.engine.now:
-                channel.send(sent)
+        alive = [sent for sent in latched if sent.expires > writer.engine.now]
+        if alive:
+            self._history.restore(alive)
+        for sent in alive:
+            channel.send(sent)
 
     def send(self, sent: Sent) -> None:
         """Let a message set out to all."""

@@ -1,0 +1,54 @@
+"""What a network between two hosts did to messages: true of right programs, too, which are made for it."""
+
+from __future__ import annotations
+
+from sim.evidence import Crossing, Recording
+
+NOTABLY_LATE = 0.5  # s
+
+
+def lost_on_the_network(recording: Recording) -> str:
+    """Messages that never arrived, though both ends fit."""
+    lossy = [row for row in _of_students(recording) if row.lost]
+    if not lossy:
+        return ""
+    row = max(lossy, key=lambda row: row.lost)
+    end = "s" if row.lost > 1 else ""
+    said = (
+        f"{row.lost} message{end} of {row.sent} on {row.topic} from {row.sender} to {row.listener} "
+        f"{'were' if end else 'was'} lost on the network: "
+    )
+    if _is_reliable(recording, row):
+        return said + (
+            "both ends are reliable, but newer ones pushed them out of the publisher's history before they "
+            "could be sent again. A larger depth keeps them longer."
+        )
+    return said + (
+        "an end with reliability best_effort sends nothing again. What must arrive needs reliable at both ends."
+    )
+
+
+def late_on_the_network(recording: Recording) -> str:
+    """Messages that arrived late because earlier ones had to be sent again."""
+    late = [row for row in _of_students(recording) if row.resent and row.late >= NOTABLY_LATE]
+    if not late:
+        return ""
+    row = max(late, key=lambda row: row.late)
+    return (
+        f"On {row.topic} a message from {row.sender} reached {row.listener} {row.late:.1f} s late: the network "
+        "lost some, and with reliable at both ends all wait until these were sent again. Where only the newest "
+        "counts, use best_effort."
+    )
+
+
+def _of_students(recording: Recording) -> list[Crossing]:
+    return [row for row in recording.crossings if not {row.sender, row.listener} <= recording.ours]
+
+
+def _is_reliable(recording: Recording, row: Crossing) -> bool:
+    graph = recording.graph
+    ends = [
+        *(end for end in graph.publishers(row.topic) if end.node == row.sender),
+        *(end for end in graph.subscriptions(row.topic) if end.node == row.listener),
+    ]
+    return all(end.qos["reliability"] == "reliable" for end in ends)
