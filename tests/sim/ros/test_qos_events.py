@@ -1,23 +1,15 @@
-"""Nodes are told who comes and goes, messages expire in simulated time, and the rest is refused."""
+"""Nodes are told who comes and goes, of deadlines, signs of life and lost messages; and messages expire."""
 
 import pytest
 
-from sim import run
+from sim import Network, Process, run
 from tests.sim.ros.evidence import raised, said
-from tests.students.engine import qos_events
+from tests.students.engine import network, qos_events
 
 COMING_AND_GOING = [
     (1.0, "publishers 1, 1 (+1)"), (1.0, "subscriptions 1, 1 (+1)"),
     (2.0, "publishers 1, 0 (-1)"), (2.0, "subscriptions 1, 0 (-1)"),
 ]  # fmt: skip
-DEADLINE = (
-    "Deadlines aren't simulated, so the deadline callback of count would never be called: in a timer,"
-    " look at the time since the last message."
-)
-LEASE = (
-    "Liveliness leases aren't simulated, so the liveliness callback of count would never be called:"
-    " the callback `matched` tells who comes and goes."
-)
 
 
 def heard(*programs):
@@ -32,22 +24,69 @@ def test_a_node_is_told_who_comes_and_goes(guest):
     assert heard(guest, qos_events.Watcher) == COMING_AND_GOING
 
 
-@pytest.mark.parametrize(
-    ("program", "node", "words"),
-    [
-        (qos_events.Deadline, "/deadline", DEADLINE),
-        (qos_events.OfferedDeadline, "/offered", DEADLINE),
-        (qos_events.Leased, "/leased", LEASE),
-    ],
-    ids=["deadline", "offered deadline", "lease"],
-)
-def test_an_event_that_would_never_come_is_refused(program, node, words):
-    errors = raised(run(program, seconds=1, quiet=True))
-    assert errors == [(0.0, node, program.__name__, "UnsupportedEventTypeError", words)]
+def told(*programs, **more):
+    """Who was told what, and when; of messages that count for nothing."""
+    recording = run(*programs, quiet=True, **more)
+    assert (raised(recording), recording.stderr) == ([], "")
+    return [(line.stamp, line.node, line.text) for line in recording.logs]
 
 
-def test_a_node_may_go_on_without_an_event():
-    assert heard(qos_events.Careful) == [(float(stamp), "heard 1") for stamp in (1, 2, 3, 4)]
+def both(stamp, count):
+    return [(stamp, "speaks", f"offered [{count}] [1]"), (stamp, "listens", f"requested [{count}] [1]")]
+
+
+def test_a_deadline_counts_from_the_first_message_and_again_and_again():
+    missed = [1.6, 1.8, 2.0, 2.35, 2.55, 2.75, 2.95]
+    expected = [row for count, stamp in enumerate(missed, 1) for row in both(stamp, count)]
+    assert told(qos_events.Punctual, qos_events.Waits, seconds=3) == expected
+
+
+def test_a_deadline_passes_when_nothing_else_happens_and_stops_the_robot():
+    recording = run(qos_events.Joystick, qos_events.StopsTheRobot, world="room", seconds=3, quiet=True)
+    sent = [(row.stamp, row.message.linear.x) for row in recording.messages("/cmd_vel")]
+    stops = [(pytest.approx(1.0 + 0.3 * count), 0.0) for count in range(1, 7)]
+    assert sent == [(pytest.approx(0.2 * count), 0.3) for count in range(1, 6)] + stops
+    assert recording.pose_at(3) == recording.pose_at(2)._replace(stamp=3.0)
+
+
+def test_signs_of_life_are_missed_and_come_again():
+    assert told(qos_events.Manual, qos_events.Cares, seconds=4.2) == [
+        (1.5, "listens", "changed [1, 0] [1, 0]"),
+        (2.3, "speaks", "lost [1] [1]"), (2.3, "listens", "changed [0, 1] [-1, 1]"),
+        (3.0, "listens", "changed [1, 0] [1, -1]"),
+        (3.5, "speaks", "lost [2] [1]"), (3.5, "listens", "changed [0, 1] [-1, 1]"),
+        (4.0, "listens", "changed [1, 0] [1, -1]"),
+    ]  # fmt: skip
+
+
+def test_on_best_effort_only_messages_are_signs_of_life():
+    assert told(qos_events.SloppyManual, qos_events.CaresLittle, seconds=3) == [
+        (1.5, "listens", "changed [1, 0] [1, 0]"),
+        (2.0, "listens", "changed [0, 1] [-1, 1]"),
+        (2.3, "speaks", "lost [1] [1]"),
+    ]
+
+
+def test_the_lease_of_a_subscription_may_be_longer():
+    assert told(qos_events.Manual, qos_events.CaresLonger, seconds=3) == [
+        (1.5, "listens", "changed [1, 0] [1, 0]"), (2.3, "speaks", "lost [1] [1]"),
+        (2.8, "listens", "changed [0, 1] [-1, 1]"), (3.0, "listens", "changed [1, 0] [1, -1]"),
+    ]  # fmt: skip
+
+
+def test_who_is_there_is_alive_by_itself():
+    assert told(qos_events.steady_for_a_while, qos_events.CaresLonger, seconds=4) == [
+        (0.0, "listens", "changed [1, 0] [1, 0]"), (1.5, "listens", "changed [0, 0] [-1, 0]"),
+    ]  # fmt: skip
+
+
+def test_lost_messages_are_told_with_the_next_one_that_comes():
+    radio = Network(loss=0.2, delay=0.05)
+    sloppy = Process(network.SloppyCounter, host="robot")
+    assert told(sloppy, qos_events.ListensOnBestEffort, seconds=3, network=radio) == [
+        (0.95, "listens", "missed [1] [1]"), (1.25, "listens", "missed [2] [1]"),
+        (2.15, "listens", "missed [4] [2]"), (2.55, "listens", "missed [7] [3]"),
+    ]  # fmt: skip
 
 
 def test_messages_that_wait_expire_in_simulated_time():

@@ -3,21 +3,31 @@
 import time
 
 import rclpy
+from geometry_msgs.msg import Twist
 from rclpy.duration import Duration
-from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, UnsupportedEventTypeError
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32
 
 BRIEF = QoSProfile(depth=10, lifespan=Duration(seconds=1))
 BRIEF_LATCHED = QoSProfile(
     depth=10, lifespan=Duration(seconds=1), durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
-LEASED = QoSProfile(depth=1, liveliness_lease_duration=Duration(seconds=1))
+LEASED = QoSProfile(depth=10, liveliness_lease_duration=Duration(seconds=1))
+HURRIED = QoSProfile(depth=10, deadline=Duration(seconds=0.2))
+LEASE = Duration(seconds=0.5)
+BY_HAND = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=LEASE)
+SLOPPY_BY_HAND = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_EFFORT,
+    liveliness=LivelinessPolicy.MANUAL_BY_TOPIC,
+    liveliness_lease_duration=LEASE,
+)
 
 
 class Watcher(Node):
-    """Says who comes and goes at both ends: in all, now there. No lease of liveliness runs out here."""
+    """Says who comes and goes at both ends: in all, now there. Without a lease nobody's life is watched."""
 
     def __init__(self):
         super().__init__("watcher")
@@ -64,43 +74,141 @@ def leaves():
     time.sleep(1.0)
 
 
-class Deadline(Node):
-    def __init__(self):
-        super().__init__("deadline")
-        events = SubscriptionEventCallbacks(deadline=lambda event: None)
-        profile = QoSProfile(depth=1, deadline=Duration(seconds=1))
-        self.create_subscription(Int32, "count", lambda msg: None, profile, event_callbacks=events)
+class Says(Node):
+    """Says what each event tells: its counts, and how each has changed."""
+
+    def told(self, word):
+        def say(event):
+            changes = {name: count for name, count in vars(event).items() if name.endswith("_change")}
+            counts = {name: count for name, count in vars(event).items() if name not in changes}
+            self.get_logger().info(f"{word} {[*counts.values()]} {[*changes.values()]}")
+
+        return say
 
 
-class OfferedDeadline(Node):
-    def __init__(self):
-        super().__init__("offered")
-        events = PublisherEventCallbacks(deadline=lambda event: None)
-        self.create_publisher(Int32, "count", qos_profile=10, event_callbacks=events)
+class Speaks(Says):
+    """Publishes on `count` at some times, and says at others that it is alive."""
 
-
-class Leased(Node):
-    def __init__(self):
-        super().__init__("leased")
-        events = PublisherEventCallbacks(liveliness=lambda event: None)
-        self.create_publisher(Int32, "count", qos_profile=LEASED, event_callbacks=events)
-
-
-class Careful(Node):
-    """As code for several middlewares does, it goes on without what isn't there."""
+    profile, speaks, asserts = 10, (), ()
 
     def __init__(self):
-        super().__init__("careful")
-        events = SubscriptionEventCallbacks(liveliness=lambda event: None)
-        try:
-            self.create_subscription(Int32, "count", print, LEASED, event_callbacks=events)
-        except UnsupportedEventTypeError:
-            self.create_subscription(Int32, "count", self.hear, LEASED)
-        self.publisher = self.create_publisher(Int32, "count", LEASED)
-        self.create_timer(1.0, lambda: self.publisher.publish(Int32(data=1)))
+        super().__init__("speaks")
+        events = PublisherEventCallbacks(deadline=self.told("offered"), liveliness=self.told("lost"))
+        self.publisher = self.create_publisher(Int32, "count", self.profile, event_callbacks=events)
+        for stamp in self.speaks:
+            self.once(stamp, lambda: self.publisher.publish(Int32()))
+        for stamp in self.asserts:
+            self.once(stamp, self.publisher.assert_liveliness)
 
-    def hear(self, msg):
-        self.get_logger().info(f"heard {msg.data}")
+    def once(self, stamp, do):
+        def fire():
+            timer.cancel()
+            do()
+
+        timer = self.create_timer(stamp, fire)
+
+
+class Listens(Says):
+    """Hears `count`, and says what there is to say of it but for the messages."""
+
+    profile = 10
+
+    def __init__(self):
+        super().__init__("listens")
+        events = SubscriptionEventCallbacks(
+            deadline=self.told("requested"), liveliness=self.told("changed"), message_lost=self.told("missed")
+        )
+        self.create_subscription(Int32, "count", lambda msg: None, self.profile, event_callbacks=events)
+
+
+class ListensOnBestEffort(Listens):
+    """Hears what comes."""
+
+    profile = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class Punctual(Speaks):
+    """In time until 1.4 s, and once again."""
+
+    profile, speaks = HURRIED, (1.0, 1.2, 1.4, 2.15)
+
+
+class Waits(Listens):
+    """Wants a message each 0.2 s."""
+
+    profile = HURRIED
+
+
+class Manual(Speaks):
+    """Is alive when it says so."""
+
+    profile, speaks, asserts = BY_HAND, (1.5, 4.0), (1.8, 3.0)
+
+
+class SloppyManual(Speaks):
+    """Says so where nobody hears it."""
+
+    profile, speaks, asserts = SLOPPY_BY_HAND, (1.5,), (1.8,)
+
+
+class Cares(Listens):
+    """Wants a sign of life each 0.5 s."""
+
+    profile = BY_HAND
+
+
+class CaresLittle(Listens):
+    """The same on best effort."""
+
+    profile = SLOPPY_BY_HAND
+
+
+class CaresLonger(Listens):
+    """Wants a sign of life each second, of any kind."""
+
+    profile = LEASED
+
+
+class Steady(Speaks):
+    """Publishes ten times a second, and is alive as long as it is there."""
+
+    profile, speaks = LEASED, tuple(tick / 10 for tick in range(1, 30))
+
+
+def steady_for_a_while():
+    """The same, and ends at 1.5 s."""
+    rclpy.init()
+    node = Steady()
+    while node.get_clock().now().nanoseconds < 1.5e9:
+        rclpy.spin_once(node, timeout_sec=0.1)
+
+
+class StopsTheRobot(Node):
+    """Passes commands on, and stops the robot when the last one is older than 0.3 s."""
+
+    def __init__(self):
+        super().__init__("watch")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        events = SubscriptionEventCallbacks(deadline=lambda event: self.publisher.publish(Twist()))
+        profile = QoSProfile(depth=1, deadline=Duration(seconds=0.3))
+        self.create_subscription(Twist, "joystick", self.publisher.publish, profile, event_callbacks=events)
+
+
+class Joystick(Node):
+    """Drives forward until 1 s, and is silent then."""
+
+    def __init__(self):
+        super().__init__("joystick")
+        profile = QoSProfile(depth=1, deadline=Duration(seconds=0.25))
+        self.publisher = self.create_publisher(Twist, "joystick", profile)
+        self.timer = self.create_timer(0.2, self.tick)
+
+    def tick(self):
+        command = Twist()
+        command.linear.x = 0.3
+        self.publisher.publish(command)
+        if self.get_clock().now().nanoseconds >= 1e9:
+            self.timer.cancel()
 
 
 class Talker(Node):

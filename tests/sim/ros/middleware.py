@@ -1,0 +1,196 @@
+"""What Fast DDS does between two processes, outside of any run: `python -m tests.sim.ros.middleware`.
+
+Prints what stands below the first line of dashes in middleware_facts.txt. A listener and a speaker, each a
+process of its own, say what they are told and when, in seconds; R is the listener and W the speaker.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import rclpy
+from rclpy.duration import Duration
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+COUNTS = "total_count", "alive_count", "not_alive_count"
+BEGIN = float(os.environ.get("FACTS_BEGIN", "0"))  # by the clock on the wall
+UNTIL_BEGIN = 4.0  # s: both have found each other by then
+HURRIED = QoSProfile(depth=10, deadline=Duration(seconds=0.2))
+LEASE = Duration(seconds=0.5)
+LEASED = QoSProfile(depth=10, liveliness_lease_duration=LEASE)
+LONG_LEASE = QoSProfile(depth=10, liveliness_lease_duration=Duration(seconds=1))
+BY_HAND = QoSProfile(
+    depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=LEASE
+)
+SLOPPY_BY_HAND = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_EFFORT,
+    liveliness=LivelinessPolicy.MANUAL_BY_TOPIC,
+    liveliness_lease_duration=LEASE,
+)
+BRIEF = QoSProfile(depth=50, lifespan=LEASE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
+SLOPPY = QoSProfile(depth=500, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+# For each case what both ends have, and what the speaker does: at a time of the case ("stop" the listener).
+CASES = {
+    "deadline": (HURRIED, HURRIED, [(1.0, "say"), (1.1, "say"), (1.3, "say"), (1.4, "say"), (2.15, "say"), (2.7, "leave")]),
+    "no lease": (10, 10, [(1.0, "say"), (1.5, "leave")]),
+    "automatic, leaves": (LEASED, LEASED, [(1.5, "leave")]),
+    "automatic, is killed": (LEASED, LEASED, [(1.5, "die")]),
+    "automatic, sleeps in a callback": (LEASED, LEASED, [(1.0, "sleep"), (2.5, "leave")]),
+    "by hand": (
+        BY_HAND, BY_HAND, [(1.5, "say"), (1.8, "assert"), (3.0, "assert"), (4.0, "say"), (4.2, "leave")],
+    ),
+    "by hand, best effort": (SLOPPY_BY_HAND, SLOPPY_BY_HAND, [(1.5, "say"), (1.8, "assert"), (3.2, "leave")]),
+    "by hand, any asked for": (LONG_LEASE, BY_HAND, [(1.5, "say"), (3.2, "leave")]),
+    "lifespan in the queue": (BRIEF, BRIEF, [(0.5, "say"), (0.7, "say"), (1.0, "say"), (2.0, "leave")]),
+    "keep all, listener stopped": (ALL, ALL, [(1.0, "stop"), (1.2, "flood"), (2.0, "go on"), (2.5, "leave")]),
+    "depth 5, listener stopped": (500, 5, [(1.0, "stop"), (1.2, "heap"), (2.0, "go on"), (5.5, "leave")]),
+    "best effort, listener stopped": (
+        SLOPPY, SLOPPY, [(1.0, "stop"), (1.2, "heap"), (2.0, "go on"), (2.5, "say"), (3.0, "leave")],
+    ),
+    "all acknowledged": (10, 10, [(1.0, "say"), (1.1, "wait"), (5.0, "leave")]),
+}  # fmt: skip
+
+
+def now() -> float:
+    return time.time() - BEGIN
+
+
+def say(*words: object) -> None:
+    print(json.dumps([round(now(), 3), " ".join(map(str, words))]), flush=True)
+
+
+def told(word: str):
+    def tell(event: object) -> None:
+        found = [name for name in COUNTS if hasattr(event, name)]
+        say(word, *(f"{getattr(event, name)} ({getattr(event, name + '_change'):+d})" for name in found))
+
+    return tell
+
+
+def spin(node: Node, until: float) -> None:
+    while now() < until:
+        rclpy.spin_once(node, timeout_sec=min(0.005, max(until - now(), 0)))
+
+
+def listen(case: str) -> None:
+    """The listener of a case."""
+    node, count = Node("listener"), [0]
+    events = SubscriptionEventCallbacks(
+        deadline=told("requested"), liveliness=told("changed"), message_lost=told("missed")
+    )
+
+    def hear(msg: String) -> None:
+        count[0] += 1
+        if case.startswith("lifespan"):
+            say("hears", msg.data)
+            time.sleep(0.8)
+
+    node.create_subscription(String, "facts", hear, CASES[case][0], event_callbacks=events)
+    spin(node, CASES[case][2][-1][0] + 0.6)
+    say("has heard", "some" if count[0] > 10 else count[0])
+
+
+def speak(case: str) -> None:
+    """The speaker of a case."""
+    node = Node("speaker")
+    events = PublisherEventCallbacks(deadline=told("offered"), liveliness=told("lost"))
+    publisher = node.create_publisher(String, "facts", CASES[case][1], event_callbacks=events)
+    for stamp, what in CASES[case][2]:
+        spin(node, stamp)
+        if what in ("stop", "go on"):
+            os.kill(int(os.environ["FACTS_LISTENER"]), signal.SIGSTOP if what == "stop" else signal.SIGCONT)
+        DEEDS[what](node, publisher)
+
+
+def flood(_: Node, publisher: object) -> None:
+    begin = time.time()
+    for number in range(1, 6000):
+        try:
+            publisher.publish(String(data="x"))
+            begin = time.time()
+        except Exception as error:
+            say(f"message {number} was refused after {time.time() - begin:.1f} s: {error}")
+            return
+
+
+def heap(_: Node, publisher: object) -> None:
+    for _ in range(3000):
+        publisher.publish(String(data="x" * 2000))
+
+
+def wait(_: Node, publisher: object) -> None:
+    begin = time.time()
+    done = publisher.wait_for_all_acked(Duration(seconds=5))
+    say(f"all acknowledged: {done}, after {time.time() - begin:.1f} s")
+
+
+def leave(node: Node, _: object) -> None:
+    node.destroy_node()
+    rclpy.shutdown()
+    say("leaves")
+
+
+def die(*_: object) -> None:
+    say("dies")
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+DEEDS = {
+    "say": lambda node, publisher: publisher.publish(String(data=f"{now():.1f}")),
+    "assert": lambda node, publisher: publisher.assert_liveliness(),
+    "sleep": lambda node, publisher: time.sleep(1.4),
+    "stop": lambda node, publisher: say("the listener is stopped"),
+    "go on": lambda node, publisher: say("the listener goes on"),
+    "flood": flood,
+    "heap": heap,
+    "wait": wait,
+    "leave": leave,
+    "die": die,
+}
+
+
+def observe(case: str) -> list[tuple[float, str, str]]:
+    """(seconds, R or W, words) of all that both sides said."""
+    settings = {
+        "FACTS_BEGIN": str(time.time() + UNTIL_BEGIN),
+        "ROS_DOMAIN_ID": "97",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+    }
+    sides: list[subprocess.Popen] = []
+    for side in ("listen", "speak"):
+        words = [sys.executable, "-m", "tests.sim.ros.middleware", side, case]
+        sides.append(
+            subprocess.Popen(words, env=os.environ | settings, stdout=subprocess.PIPE, text=True)
+        )
+        settings["FACTS_LISTENER"] = str(sides[0].pid)
+    said = []
+    for who, side in zip("RW", sides, strict=True):
+        out, _ = side.communicate(timeout=30)
+        said += [(stamp, who, words) for stamp, words in map(json.loads, out.splitlines())]
+    return sorted(said)
+
+
+def main(words: list[str]) -> None:
+    """One side of a case; or all cases, or those of these names."""
+    if words[:1] in (["listen"], ["speak"]):
+        rclpy.init()
+        {"listen": listen, "speak": speak}[words[0]](words[1])
+        return
+    for case in words or CASES:
+        print(f"== {case}")
+        for stamp, who, said in observe(case):
+            print(f"{stamp:5.1f} {who} {said}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
