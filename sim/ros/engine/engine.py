@@ -41,6 +41,9 @@ class Elsewhere(Protocol):
     def close(self) -> None:
         """Leave nothing of it here."""
 
+    def alive(self, node: str, topic: str) -> None:
+        """A publisher of this process says that it is alive."""
+
 
 class Engine(Scheduler):
     """One run on the real rclpy. Between open() and close(), it can be awake again and again."""

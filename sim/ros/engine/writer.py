@@ -125,6 +125,8 @@ class Writer:
         """Its publisher says that it is alive. On best effort that reaches nobody, as with Fast DDS."""
         if self._promise is not None:
             self._promise.begin()
+        if self.engine.link is not None and self.program is not None:
+            self.engine.link.alive(self.sender, self.topic)
         if self.profile.reliability is ReliabilityPolicy.RELIABLE:
             for reader in self.readers:
                 if reader.liveliness is not None:

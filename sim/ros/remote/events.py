@@ -58,10 +58,17 @@ class Arrived(NamedTuple):
 
 
 class Sign(NamedTuple):
-    """A publisher has given a sign of life to a subscription of the other side."""
+    """A publisher's sign of life has come through the network to a subscription of the other side."""
 
     number: int
     node: str
+
+
+class Alive(NamedTuple):
+    """A publisher of this side says that it is alive."""
+
+    node: str
+    topic: str
 
 
 class Ask(NamedTuple):
@@ -177,6 +184,7 @@ WORDS: dict[type, str] = {
     Message: "message",
     Arrived: "arrived",
     Sign: "sign",
+    Alive: "alive",
     Ask: "ask",
     Answer: "answer",
     CallMade: "call",

@@ -11,32 +11,26 @@ import itertools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from rclpy.qos import DurabilityPolicy
-
 from sim.evidence import Call, Heard
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
-from sim.ros.recorder.calls import alive
-from sim.ros.recorder.recorder import OwnEnd
 from sim.ros.remote.checked import (
     MOST_NAME,
     Nonsense,
     message,
     message_bytes,
     packed,
-    plain_qos,
     rows,
     text,
     whole,
 )
-from sim.ros.remote.events import Answer, Ask, End, Gone, Incoming, Message, row
+from sim.ros.remote.events import Alive, Answer, Ask, End, Gone, Incoming, Message, row
 from sim.ros.remote.news import News
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
 from sim.ros.remote.puppets import MOST_ENDS, Puppets
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
-
 
 
 class Link:
@@ -47,12 +41,10 @@ class Link:
         self.puppets = Puppets(engine)
         self.news: list[Any] = []  # events
         self.keys = itertools.count(keys, 2)
-        self._nodes: dict[int, int] = {}  # id of a node's handle -> its number
-        self._own: dict[int, OwnEnd] = {}  # ends of this side, as long as they live
-        self._latched: set[str] = set()  # topics on which a late joiner gets earlier messages
+        self.own = OwnEnds(engine.recorder.ends, self.keys)
         self._answering: dict[int, PuppetService] = {}  # requests of this side without a response yet
         self._repeated: list[tuple[str, Any]] = []  # requests of the other side to a service that both have
-        self._ends, self._heard = News(engine.recorder.ends), News(engine.recording.heard)
+        self._heard = News(engine.recording.heard)
         self._topology = -1
         self._incoming = Incoming()
         engine.link = self
@@ -60,6 +52,11 @@ class Link:
     def close(self) -> None:
         """Destroy all that stands for the other side."""
         self.puppets.close()
+
+    def alive(self, node: str, topic: str) -> None:
+        """A publisher of this side says that it is alive."""
+        if self.engine.links is None:
+            self.news.append(Alive(node, topic))
 
     # -- what goes out -----------------------------------------------------------------------------
 
@@ -70,11 +67,11 @@ class Link:
         """
         if thorough or self._topology != self.engine.topology:
             self._topology = self.engine.topology
-            self._gather_ends()
+            self.news += self.own.new()
         self.gather_exchanges()
         self._gather_messages()
         if thorough:
-            self._gather_gone()
+            self.news += self.own.gone()
 
     def gather_exchanges(self) -> None:
         """Add requests and responses to the news."""
@@ -88,26 +85,8 @@ class Link:
 
     def entered(self) -> None:
         """What the other side's news have added to the recording is no news of this side."""
-        self._ends.take()
+        self.own.forget_new()
         self._heard.take()
-
-    def _gather_ends(self) -> None:
-        for end in self._ends.take():
-            number = next(self.keys)
-            self._own[number] = end
-            node = self._nodes.setdefault(id(end.node), next(self.keys))
-            profile = None if end.qos is None else plain_qos(end.qos)
-            about = end.node_name, end.kind, end.name, type_name(end.type)
-            self.news.append(End(number, node, *about, profile))
-            if end.kind == "publisher" and end.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL:
-                self._latched.add(end.name)
-
-    def _gather_gone(self) -> None:
-        gone = [number for number, end in self._own.items() if not alive(end.handle)]
-        for number in gone:
-            del self._own[number]
-        if gone:
-            self.news.append(Gone(gone))
 
     def _gather_messages(self) -> None:
         for heard in self._heard.take():
@@ -121,9 +100,8 @@ class Link:
 
     def crosses(self, heard: Heard) -> bool:
         """Whether the other side has to know of a message of this side."""
-        if self.engine.links is not None:
-            return False  # the network brings it
-        return bool(self.puppets.wanted[heard.topic]) or heard.topic in self._latched
+        wanted = bool(self.puppets.wanted[heard.topic]) or heard.topic in self.own.latched
+        return wanted and self.engine.links is None  # else the network brings it
 
     def gather_requests(self) -> None:
         """Add the requests that clients of this side have made to services of the other."""
@@ -190,15 +168,22 @@ class Link:
             self.puppets.remove(number)
 
     def _message(self, event: Message) -> None:
-        node, topic = text(event.node, "a node's name", MOST_NAME), text(event.topic, "a topic", MOST_NAME)
-        publisher = self.puppets.publisher(node, topic)
-        if publisher is None:
-            raise Nonsense(f"a message on {topic!r}, where {node!r} has no publisher")
+        publisher = self._publisher(event, "a message")
         bytes_ = self.unpacked(event.raw, publisher)
         if publisher.of_action:
             publisher.handle.publish_raw(bytes_)
         else:
             self.publish(publisher, bytes_)
+
+    def _alive(self, event: Alive) -> None:
+        self._publisher(event, "a sign of life").writer.sign()
+
+    def _publisher(self, event: Message | Alive, what: str) -> PuppetPublisher:
+        node, topic = text(event.node, "a node's name", MOST_NAME), text(event.topic, "a topic", MOST_NAME)
+        publisher = self.puppets.publisher(node, topic)
+        if publisher is None:
+            raise Nonsense(f"{what} on {topic!r}, where {node!r} has no publisher")
+        return publisher
 
     def unpacked(self, raw: Any, publisher: PuppetPublisher) -> bytes:
         """The bytes of a message."""
@@ -240,6 +225,7 @@ class Link:
         End: _end,
         Gone: _gone,
         Message: _message,
+        Alive: _alive,
         Ask: _ask,
         Answer: _answer,
     }

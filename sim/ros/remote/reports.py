@@ -196,7 +196,7 @@ class Reports(Link):
             reader.liveliness.sign(publisher.writer)
 
     def _reader(self, number: int) -> Reader | None:
-        end = self._own.get(number)
+        end = self.own.get(number)
         return None if end is None else self.engine.topics.reader_of(end.name, end.handle)
 
     HANDLERS: ClassVar[dict[type, Callable[..., None]]] = Link.HANDLERS | {

@@ -14,7 +14,7 @@ from sim.ros.fibers.exceptions import Livelock
 from sim.ros.remote.checked import MOST_WRITTEN
 from sim.ros.remote.reports import Reports
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
-from sim.ros.session import Session
+from sim.ros.session import FOREVER, Session
 
 MOST_ROUNDS = 20  # in one turn: the other side waits for its end, and looks after time
 
@@ -116,7 +116,8 @@ class Follower(Session):
                 engine.round()
                 link.gather(thorough=False)
                 left = [fiber for fiber in engine.fibers if not fiber.done]
-                busy = engine.fault is None and any(fiber.runnable() for fiber in left)
+                waits = any(fiber.runnable() for fiber in left) or engine.agenda.next(FOREVER) <= engine.now
+                busy = engine.fault is None and waits
                 if link.news or not busy:
                     break
         except Livelock:
@@ -125,11 +126,11 @@ class Follower(Session):
 
     def _answer(self, link: Reports, busy: bool, end: Nanoseconds) -> dict[str, Any]:
         engine = self.engine
-        fault = engine.fault
+        fault, planned = engine.fault, engine.agenda.next(end)
         return {
             "news": link.take_news(),
             "claims": link.claims(),
-            "next": engine.time.next_moment(engine.agenda.next(end)),
+            "next": engine.time.next_moment(end if planned <= engine.now else planned),
             "busy": busy,
             "alive": any(not fiber.done for fiber in engine.fibers),
             "fault": None if fault is None else [fault.reason, fault.detail],

@@ -25,9 +25,7 @@ HURRIED = QoSProfile(depth=10, deadline=Duration(seconds=0.2))
 LEASE = Duration(seconds=0.5)
 LEASED = QoSProfile(depth=10, liveliness_lease_duration=LEASE)
 LONG_LEASE = QoSProfile(depth=10, liveliness_lease_duration=Duration(seconds=1))
-BY_HAND = QoSProfile(
-    depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=LEASE
-)
+BY_HAND = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=LEASE)
 SLOPPY_BY_HAND = QoSProfile(
     depth=10,
     reliability=ReliabilityPolicy.BEST_EFFORT,
@@ -40,7 +38,11 @@ SLOPPY = QoSProfile(depth=500, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 # For each case what both ends have, and what the speaker does: at a time of the case ("stop" the listener).
 CASES = {
-    "deadline": (HURRIED, HURRIED, [(1.0, "say"), (1.1, "say"), (1.3, "say"), (1.4, "say"), (2.15, "say"), (2.7, "leave")]),
+    "deadline": (
+        HURRIED, HURRIED, [
+            (1.0, "say"), (1.1, "say"), (1.25, "say"), (1.4, "say"), (2.15, "say"), (2.7, "leave"),
+        ],
+    ),
     "no lease": (10, 10, [(1.0, "say"), (1.5, "leave")]),
     "automatic, leaves": (LEASED, LEASED, [(1.5, "leave")]),
     "automatic, is killed": (LEASED, LEASED, [(1.5, "die")]),
@@ -169,9 +171,7 @@ def observe(case: str) -> list[tuple[float, str, str]]:
     sides: list[subprocess.Popen] = []
     for side in ("listen", "speak"):
         words = [sys.executable, "-m", "tests.sim.ros.middleware", side, case]
-        sides.append(
-            subprocess.Popen(words, env=os.environ | settings, stdout=subprocess.PIPE, text=True)
-        )
+        sides.append(subprocess.Popen(words, env=os.environ | settings, stdout=subprocess.PIPE, text=True))
         settings["FACTS_LISTENER"] = str(sides[0].pid)
     said = []
     for who, side in zip("RW", sides, strict=True):

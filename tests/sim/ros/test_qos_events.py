@@ -1,6 +1,8 @@
 """Nodes are told who comes and goes, of deadlines, signs of life and lost messages; and messages expire."""
 
 import pytest
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 
 from sim import Network, Process, run
 from tests.sim.ros.evidence import raised, said
@@ -100,3 +102,35 @@ def test_latched_messages_expire_too():
         (2.25, "heard 2"), (2.25, "heard 3"), (2.5, "heard 4"), (3.0, "heard 5"), (3.5, "heard 6"),
         (4.0, "heard 7"),
     ]  # fmt: skip
+
+
+SECOND, LONGER = Duration(seconds=1), Duration(seconds=2)
+
+
+@pytest.mark.parametrize("between", [None, Network(delay=0.5)], ids=["one host", "two hosts"])
+@pytest.mark.parametrize(
+    ("policy", "offered", "wanted"),
+    [
+        ("RELIABILITY", {"reliability": ReliabilityPolicy.BEST_EFFORT}, {}),
+        ("DURABILITY", {}, {"durability": DurabilityPolicy.TRANSIENT_LOCAL}),
+        ("DEADLINE", {"deadline": LONGER}, {"deadline": SECOND}),
+        ("DEADLINE", {}, {"deadline": SECOND}),
+        ("LIVELINESS", {}, {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC}),
+        ("LIVELINESS", {"liveliness_lease_duration": LONGER}, {"liveliness_lease_duration": SECOND}),
+    ],
+)
+def test_what_does_not_fit_is_said_at_both_ends_in_rclpys_words(policy, offered, wanted, between):
+    programs = qos_events.offers(**offered), Process(qos_events.wants(**wanted), host="robot")
+    recording = run(*programs, seconds=1, quiet=True, network=between)
+    assert {(line.stamp, line.level, line.node, line.text) for line in recording.logs} == {
+        (
+            0.0, "WARN", "publisher",
+            "New subscription discovered on topic 'count', requesting incompatible QoS. "
+            f"No messages will be sent to it. Last incompatible policy: {policy}",
+        ),
+        (
+            0.0, "WARN", "subscriber",
+            "New publisher discovered on topic 'count', offering incompatible QoS. "
+            f"No messages will be received from it. Last incompatible policy: {policy}",
+        ),
+    }  # fmt: skip

@@ -249,3 +249,25 @@ def late():
     hear = lambda msg: node.get_logger().info(f"heard {msg.data}")  # noqa: E731
     node.create_subscription(Int32, "count", hear, BRIEF_LATCHED)
     rclpy.spin(node)
+
+
+def offers(**policies):
+    """A program that publishes on `count` with this QoS."""
+
+    def publisher():
+        node = Node("publisher")
+        node.create_publisher(Int32, "count", QoSProfile(depth=10, **policies))
+        return node
+
+    return publisher
+
+
+def wants(**policies):
+    """A program that listens there with this QoS."""
+
+    def subscriber():
+        node = Node("subscriber")
+        node.create_subscription(Int32, "count", lambda msg: None, QoSProfile(depth=10, **policies))
+        return node
+
+    return subscriber
