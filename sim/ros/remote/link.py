@@ -26,6 +26,7 @@ from sim.ros.remote.checked import (
 )
 from sim.ros.remote.events import Alive, Answer, Ask, End, Gone, Incoming, Message, row
 from sim.ros.remote.news import News
+from sim.ros.remote.own_ends import OwnEnds
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
 from sim.ros.remote.puppets import MOST_ENDS, Puppets
 
