@@ -5,6 +5,7 @@ import pytest
 from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
 from sim import run
+from tests.grader.diagnosis import test_radio
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits, service_misfits
 from tests.students.actions.square import SquareClient
@@ -146,5 +147,6 @@ def test_a_name_that_one_of_ours_has_is_told():
 def test_every_diagnosis_is_earned_by_some_students():
     recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
     recordings += [namesakes(), run(misfits.Talker, companions=[misfits.Talker], quiet=True)]
+    recordings += [test_radio.record(*case[:3]) for case in test_radio.SENTENCES]
     unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]
     assert unearned == []

@@ -29,10 +29,13 @@ SENTENCES = [
 ]  # fmt: skip
 
 
+def record(talker, hearer, settings):
+    return run(Process(talker, host="robot"), hearer, quiet=True, **{"seconds": 30} | settings)
+
+
 @pytest.mark.parametrize(("talker", "hearer", "settings", "sentence"), SENTENCES)
 def test_what_the_network_did_is_said(talker, hearer, settings, sentence):
-    settings = {"seconds": 30} | settings
-    recording = run(Process(talker, host="robot"), hearer, quiet=True, **settings)
+    recording = record(talker, hearer, settings)
     assert explain(recording) == sentence
     assert find_flaw(recording) == ""
 
