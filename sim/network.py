@@ -18,6 +18,7 @@ class Network:
     loss: the share of messages that are lost on the way, 0 to 1.
     delay: seconds that each is on its way. jitter: by so much each may be faster or slower.
     bandwidth: bytes per second from one host to another, shared by all messages there; None for no limit.
+    What would have to wait for more than a second is lost.
     links: other networks between two hosts, such as {("laptop", "robot"): Network(loss=0.5)}; for both ways,
     unless there is another for the way back.
 

@@ -75,7 +75,8 @@ class Recording:
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
         """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
 
-        Calls and goals count by when they were asked, callbacks by when they began; the graph stays whole.
+        Calls and goals count by when they were asked, callbacks by when they began; the graph and
+        what became of messages on the network stay whole.
         """
 
         def inside(items: Iterable[Any], stamp: Callable[[Any], Seconds | None]) -> list[Any]:

@@ -3,6 +3,7 @@
 import pytest
 
 from sim import Network, Process, Recording, play, run
+from tests.bench import avoider
 from tests.sim.ros.evidence import said
 from tests.students.engine import actions, network, services
 
@@ -150,6 +151,30 @@ def test_late_joiners_get_what_is_latched_through_the_network():
     lossy = through(Network(loss=0.5, delay=0.25), network.LatchingCounter, network.LateHearer, seconds=30)
     assert [number for _, number in heard(lossy)] == [3, 4, 5]
     assert crossing(lossy).resent > 0
+
+
+def test_what_is_under_way_arrives_though_its_publisher_has_gone():
+    recording = through(FAR, network.speaks_and_leaves, network.Hearer, seconds=5)
+    assert heard(recording) == [(0.35, 1)]
+    assert (recording.ended.reason, crossing(recording).resent) == ("time", 0)
+
+
+def test_what_is_lost_stays_lost_when_its_publisher_has_gone():
+    recording = through(Network(loss=1.0), network.speaks_and_leaves, network.Hearer, seconds=5)
+    assert (said(recording), crossing(recording).resent) == ([], 0)
+
+
+def test_what_is_under_way_to_one_that_has_gone_reaches_nobody():
+    recording = through(FAR, network.Counter, network.listens_for_a_moment, seconds=5)
+    assert (said(recording), recording.errors) == ([], [])
+    assert crossing(recording).sent == 1
+
+
+def test_a_robot_drives_over_the_radio():
+    recording = run(avoider.Avoider, world="room", seconds=5, network=RADIO, quiet=True)
+    ways = {(row.topic, row.sender): row for row in recording.crossings}
+    assert ways["/scan", "/robot"].lost and ways["/cmd_vel", "/avoider"].resent
+    assert recording.path[-1] != recording.path[0]
 
 
 def test_a_publisher_that_keeps_all_is_stopped_by_a_full_history():

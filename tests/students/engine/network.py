@@ -1,5 +1,6 @@
 """Programs of several hosts, which talk through a network."""
 
+import rclpy
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -131,3 +132,19 @@ class AsksWhetherAllHaveIt(Counter):
             for seconds in (1, 10):
                 done = self.publisher.wait_for_all_acked(Duration(seconds=seconds))
                 self.get_logger().info(f"all have it: {done}")
+
+
+def speaks_and_leaves():
+    """Publishes once, at 0.1 s, and ends."""
+    rclpy.init()
+    node = Counter()
+    while not node.count:
+        rclpy.spin_once(node)
+
+
+def listens_for_a_moment():
+    """Listens until 0.15 s."""
+    rclpy.init()
+    node = Hearer()
+    while node.get_clock().now().nanoseconds < 0.15e9:
+        rclpy.spin_once(node, timeout_sec=0.05)
