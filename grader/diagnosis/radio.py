@@ -24,7 +24,8 @@ def lost_on_the_network(recording: Recording) -> str:
             "could be sent again. A larger depth keeps them longer."
         )
     return said + (
-        "an end with reliability best_effort sends nothing again. What must arrive needs reliable at both ends."
+        "an end with reliability best_effort sends nothing again. What must arrive needs reliable at both"
+        " ends."
     )
 
 
@@ -35,9 +36,9 @@ def late_on_the_network(recording: Recording) -> str:
         return ""
     row = max(late, key=lambda row: row.late)
     return (
-        f"On {row.topic} a message from {row.sender} reached {row.listener} {row.late:.1f} s late: the network "
-        "lost some, and with reliable at both ends all wait until these were sent again. Where only the newest "
-        "counts, use best_effort."
+        f"On {row.topic} a message from {row.sender} reached {row.listener} {row.late:.1f} s late: the"
+        " network lost some, and with reliable at both ends all wait until these were sent again. Where only"
+        " the newest counts, use best_effort."
     )
 
 
