@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 from sim.evidence import Call, Goal
 from sim.nanoseconds import Nanoseconds
@@ -65,3 +66,15 @@ class ActionRecord(EndRecord):
     type: str
     node: str
     goals: dict[bytes | int, Goal] = field(default_factory=dict)
+
+
+class OwnEnd(NamedTuple):
+    """One end of a topic, service or action that a node of this process has, with rclpy's own handles."""
+
+    kind: str
+    node: Any
+    node_name: str
+    name: str
+    type: type
+    qos: Any
+    handle: Any

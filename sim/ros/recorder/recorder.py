@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 import greenlet
 from rclpy.executors import ExternalShutdownException
@@ -32,6 +32,7 @@ from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import Calls
 from sim.ros.recorder.goals import Goals
+from sim.ros.recorder.kept import OwnEnd
 from sim.ros.recorder.running import Running, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
 
@@ -51,18 +52,6 @@ NO_FAULT = (
     Livelock,
     Hang,
 )
-
-
-class OwnEnd(NamedTuple):
-    """One end of a topic, service or action that a node of this process has, with rclpy's own handles."""
-
-    kind: str
-    node: Any
-    node_name: str
-    name: str
-    type: type
-    qos: Any
-    handle: Any
 
 
 class Recorder:

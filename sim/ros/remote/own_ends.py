@@ -9,7 +9,7 @@ from rclpy.qos import DurabilityPolicy
 
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.recorder import OwnEnd
+from sim.ros.recorder.kept import OwnEnd
 from sim.ros.remote.checked import plain_qos
 from sim.ros.remote.events import End, Gone
 from sim.ros.remote.news import News
