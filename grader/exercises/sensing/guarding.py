@@ -21,7 +21,7 @@ from grader.exercises.sensing.evidence import (
     silences,
 )
 from grader.exercises.sensing.partners import BadRadio, CarelessDriver, CrashingDriver, Radio
-from grader.exercises.sensing.places import furnished_room, long_hall
+from grader.exercises.sensing.places import free_start, long_hall
 from sim import Process
 from sim.evidence import Pose, Recording
 
@@ -39,7 +39,7 @@ guard = Exercise(
     "guard",
     "A guard for the robot",
     scenarios=[
-        Scenario(furnished_room, seconds=40, seed=1, companions=[Radio, _remapped(CarelessDriver)]),
+        Scenario(free_start, seconds=40, seed=1, companions=[Radio, _remapped(CarelessDriver)]),
         Scenario(long_hall, seconds=24, seed=2, companions=[BadRadio, _remapped(CrashingDriver)]),
     ],
 )

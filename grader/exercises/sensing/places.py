@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import itertools
+import math
 import random
 from dataclasses import replace
 
+import numpy as np
+
 from sim import World
 from sim.world import Circle
+from sim.world.lidar import Lidar
 
 MARGIN = 0.5  # metres from the wall at which a wall follower starts, and should stay
+ROOM_AHEAD, BESIDE = 1.5, 60  # metres that are free at the start, within so many degrees of straight ahead
 
 Rectangle = tuple[float, float, float, float]
 
@@ -41,6 +46,23 @@ def gallery(seed: int) -> World:
 def furnished_room(seed: int) -> World:
     """A room with boxes and pillars."""
     return World.generate("room", seed=seed, boxes=3, circles=2)
+
+
+def free_start(seed: int) -> World:
+    """A furnished room in which the robot looks to where 1.5 m are free, so that a driver can begin."""
+    chance = random.Random(f"free_start {seed}")
+    for drawn in itertools.chain([seed], iter(lambda: chance.randrange(2**31), None)):
+        world = furnished_room(drawn)
+        x, y, yaw = world.start
+        for turned in (yaw, *(math.radians(degrees) for degrees in range(-180, 180, 15))):
+            if _free_ahead(world, turned) >= ROOM_AHEAD:
+                return replace(world, start=(x, y, round(turned, 2)))
+
+
+def _free_ahead(world: World, yaw: float) -> float:
+    """What is free at the robot's start, m, if it looks to there."""
+    distances = Lidar(world.lidar, world.segments(), world.discs()).distances(*world.start[:2], yaw)
+    return float(np.min(np.roll(distances, BESIDE)[: 2 * BESIDE + 1]))
 
 
 def _walled(

@@ -58,7 +58,7 @@ def test_the_command_says_what_everybody_has(marked):
 def test_nbgrader_exports_the_same_points(marked):
     course, _ = marked
     nbgrader(course, "export")
-    with open(course / "grades.csv") as file:
+    with open(course / "class" / "grades.csv") as file:
         exported = {row["student_id"]: float(row["score"]) for row in csv.DictReader(file)}
     assert exported == scores(course)
     assert (exported["right"], exported["wrong"], exported["zoe"]) == (MOST, 0, 0)
