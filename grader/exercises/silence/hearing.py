@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
@@ -84,7 +85,7 @@ def _counted(run: Recording) -> list[Counted]:
 def _why_wrong(run: Recording, last: Counted) -> str:
     """The usual reasons for a wrong sum."""
     counted, said = _counted(run), last.said[0]
-    gaps = sum(after.lost > before.lost for before, after in zip(counted, counted[1:], strict=False))
+    gaps = sum(after.lost > before.lost for before, after in itertools.pairwise(counted))
     if not any(value for one in counted for value in one.said):
         return "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost."
     if said == gaps:

@@ -150,6 +150,6 @@ def _why_deaf(one: Patient) -> str:
     if CURES[fault] in one.changes:
         return {
             "name": "Set `topic` to the name that the sensor uses, with its namespace.",
-            "deadline": "Set `deadline` to what the sensor offers or more, in seconds; 0.0 is without a limit.",
+            "deadline": "Set `deadline` to what the sensor offers or more, in seconds; 0.0 is no limit.",
         }.get(fault, f"Set `{CURES[fault]}` to what the sensor offers: its name in small letters.")
     return f"Set `{CURES[fault]}` of the display to what the sensor offers. A sensor's are fixed."
