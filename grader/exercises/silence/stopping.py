@@ -40,12 +40,12 @@ def passes_commands_on(run: Recording) -> None:
     _alike(run, 0.5, begin, "Remember the last command in the callback, and publish it in the timer.")
 
 
-@joystick.check(5, after=passes_commands_on)
+@joystick.check(5, after=stands_between)
 def asks_for_a_deadline(run: Recording) -> None:
     """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
     asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.ours]
     shortest = min((limit for limit in asked if limit is not None), default=None)
-    if shortest is None or shortest > LONGEST:
+    if shortest is None or not OFFERED <= shortest <= LONGEST:
         raise Missed(
             f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription",
             "none" if shortest is None else f"{shortest:g} s",
@@ -53,7 +53,7 @@ def asks_for_a_deadline(run: Recording) -> None:
         )
 
 
-@joystick.check(5, after=asks_for_a_deadline)
+@joystick.check(5, after=passes_commands_on)
 def stops_when_it_falls_silent(run: Recording) -> None:
     """When the joystick falls silent, zeros go out within 0.4 s, and the robot stands within 1 s."""
     for begin, end in _silences(run):
@@ -65,7 +65,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
                 raise Missed(
                     f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
                     f"{_told(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
-                    _why_not_zero(sent),
+                    _why_not_zero(run.during(begin + STOPPED, end)),
                     picture="topics",
                     unsafe=unsafe,
                 )
@@ -74,10 +74,10 @@ def stops_when_it_falls_silent(run: Recording) -> None:
 @joystick.check(2, after=stops_when_it_falls_silent)
 def goes_on_afterwards(run: Recording) -> None:
     """When the joystick speaks again, the robot gets its commands again."""
-    hint = "A stop holds until the next command comes: then that one counts."
+    guess = "A stop holds until the next command comes: then that one counts."
     ends = [end for _, end in _silences(run)]
     for end, begin in itertools.zip_longest(ends, [begin for begin, _ in _silences(run)][1:]):
-        _alike(run, end + LAG, run.ended.stamp - STEP if begin is None else begin, hint)
+        _alike(run, end + LAG, run.ended.stamp - STEP if begin is None else begin, guess)
 
 
 def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
@@ -95,7 +95,7 @@ def _moments(begin: Seconds, end: Seconds) -> Iterator[Seconds]:
     return (begin + index * STEP + 0.012 for index in range(count))
 
 
-def _alike(run: Recording, begin: Seconds, end: Seconds, hint: str) -> None:
+def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
     """Raises Missed where what is sent isn't what the joystick asked for lately."""
     asked = [one for one in run.messages(ASKED) if one.ours]
     told, wrong = run.messages(SENT), []
@@ -107,7 +107,7 @@ def _alike(run: Recording, begin: Seconds, end: Seconds, hint: str) -> None:
             wrong.append((moment, _last(asked, moment), sent))
     if len(wrong) > 0.05 * len(moments):
         moment, wish, sent = wrong[0]
-        raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), hint)
+        raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), guess=guess)
 
 
 def _last(messages: list[Heard], moment: Seconds) -> Command | None:
@@ -131,8 +131,8 @@ def _told(command: Command | None) -> str:
     return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
 
 
-def _why_not_zero(sent: Command | None) -> str:
-    if sent is None:
+def _why_not_zero(rest: Recording) -> str:
+    if not rest.messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
     return (
         "The callback for a missed deadline belongs to the subscription: event_callbacks="
