@@ -29,10 +29,10 @@ class Member(NamedTuple):
 
 
 def members(seed: int) -> tuple[list[Member], list[str]]:
-    """A crowd drawn from a seed, and the topics that are asked about.
+    """A crowd drawn from a seed, and the topics that are asked about, in this order.
 
-    The first topic has one speaker; the second three, of which one joins late; nobody speaks on the third,
-    though two listen; on the fourth two speak, one of them by two publishers.
+    One topic has one speaker; one has three, of whom one joins late; on one nobody speaks, though two listen;
+    on one two speak, one of them by two publishers.
     """
     draw = random.Random(f"crowd {seed}")
     topics, names = draw.sample(TOPICS, 4), draw.sample(NAMES, 8)
@@ -44,7 +44,7 @@ def members(seed: int) -> tuple[list[Member], list[str]]:
     begins = [LATE if index == 3 else BEGIN for index in range(len(names))]
     crowd = [Member(*row) for row in zip(names, spaces, speaks, listens, begins, strict=True)]
     draw.shuffle(crowd)
-    return crowd, topics
+    return crowd, draw.sample(topics, len(topics))
 
 
 class Speaker(Node):

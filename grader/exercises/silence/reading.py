@@ -40,28 +40,14 @@ def answers_at_all(run: Recording) -> None:
         publishes(run, ANSWER, STRING)
 
 
-@graph.check(2, after=answers_at_all)
-def one_answer_each(run: Recording) -> None:
-    """Each question gets one answer, before the next one is asked."""
-    for one in _asked(run):
-        if len(one.answers) != 1:
-            raise Missed(
-                f"one answer to the question at {one.stamp:.3g} s, “{one.topic}”",
-                f"{len(one.answers)} answers" if one.answers else "none",
-                "Publish once in the callback, all names in one message: ', '.join(names)."
-                if one.answers
-                else "The callback is called with each question: publish in it, whatever the answer is.",
-            )
-
-
-@graph.check(5, after=one_answer_each)
+@graph.check(7, after=answers_at_all)
 def names_the_speakers(run: Recording) -> None:
-    """Where somebody publishes, the answer names all who do: full names, sorted, each once."""
+    """Where somebody publishes, one answer names all who do: full names, sorted, each once."""
     asked = [one for one in _asked(run.during(0.0, LATE)) if one.speakers]
     _right(run, asked, "questions about a topic on which somebody publishes")
 
 
-@graph.check(2, after=one_answer_each)
+@graph.check(2, after=names_the_speakers)
 def says_nobody(run: Recording) -> None:
     """Where nobody publishes, the answer is “nobody”."""
     asked = [one for one in _asked(run) if not one.speakers]
@@ -97,16 +83,31 @@ def _lately(heard: Heard, topic: str, moment: Seconds) -> bool:
 def _right(run: Recording, asked: list[Asked], what: str) -> None:
     if not asked:
         raise silence(run, what, "none", run.graph.publishers(QUESTION))
+    all_named = all(len(one.answers) == 1 and set(_names(one)) == set(one.speakers) for one in asked)
     for one in asked:
-        said = one.answers[0] if one.answers else "no answer"
-        if said != one.right:
+        if one.answers != (one.right,):
             expected = f"“{one.right}” for the question at {one.stamp:.3g} s, “{one.topic}”"
-            raise Missed(expected, f"“{said}”", _why_wrong(run, one, said))
+            raise Missed(expected, _told(one.answers), _why_wrong(run, one), credit=0.5 * all_named)
 
 
-def _why_wrong(run: Recording, one: Asked, said: str) -> str:
+def _names(one: Asked) -> list[str]:
+    """What stands in the first answer."""
+    return [name for name in one.answers[0].split(", ") if name]
+
+
+def _told(answers: tuple[str, ...]) -> str:
+    if len(answers) > 1:
+        return f"{len(answers)} answers"
+    return f"“{answers[0]}”" if answers else "no answer"
+
+
+def _why_wrong(run: Recording, one: Asked) -> str:
     """The usual reasons for a wrong answer."""
-    names = [name for name in said.split(", ") if name]
+    if len(one.answers) > 1:
+        return "Publish once in the callback, all names in one message: ', '.join(names)."
+    if not one.answers:
+        return "The callback is called with each question: publish in it, whatever the answer is."
+    names = _names(one)
     wanted = set(one.speakers)
     listeners = {end.node for end in run.graph.subscriptions(one.topic)}
     if names and set(names) <= listeners and not set(names) <= wanted:
