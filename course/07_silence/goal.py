@@ -9,6 +9,8 @@ from std_msgs.msg import Float32
 
 
 class Lidar(Node):
+    """Offers best effort."""
+
     def __init__(self):
         super().__init__("lidar")
         self.publisher = self.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
@@ -16,6 +18,8 @@ class Lidar(Node):
 
 
 class MapServer(Node):
+    """Keeps nothing for latecomers."""
+
     def __init__(self):
         super().__init__("map_server")
         self.publisher = self.create_publisher(OccupancyGrid, "/map", 1)
@@ -23,6 +27,8 @@ class MapServer(Node):
 
 
 class Battery(Node):
+    """Speaks in a namespace of its own."""
+
     def __init__(self):
         super().__init__("battery", namespace="robot1")
         self.publisher = self.create_publisher(Float32, "level", 10)
@@ -30,6 +36,8 @@ class Battery(Node):
 
 
 class Navigator(Node):
+    """Listens to all of them, and drives."""
+
     def __init__(self):
         super().__init__("navigator")
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -41,6 +49,8 @@ class Navigator(Node):
 
 
 class Motor(Node):
+    """Waits for commands."""
+
     def __init__(self):
         super().__init__("motor")
         self.create_subscription(Twist, "/cmd_vel", lambda msg: None, 10)
