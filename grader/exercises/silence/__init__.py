@@ -6,13 +6,14 @@ from grader.exercises.silence.joysticks import Joystick
 from grader.exercises.silence.latching import late
 from grader.exercises.silence.mending import doctor
 from grader.exercises.silence.reading import graph
-from grader.exercises.silence.senders import MapServer, RadioLidar, Visitor
+from grader.exercises.silence.senders import RADIO, MapServer, RadioLidar, Visitor
 from grader.exercises.silence.stopping import joystick
 from grader.exercises.silence.typing import pub
 from grader.exercises.silence.ward import ward
 from sim.ros2.typed import terminal
 
 __all__ = [
+    "RADIO",
     "Joystick",
     "MapServer",
     "RadioLidar",

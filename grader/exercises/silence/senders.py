@@ -12,49 +12,35 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Int32
 
-PERIODS = 0.08, 0.1, 0.16  # s between two scans
-STEPS = 4  # a scan comes up to three quarters of a period after it was measured
-UNEVEN = 0.2  # of a period; no lidar turns quite evenly
-LOST, LONGEST = 0.12, 4  # of the scans a gap begins at so many; so many scans at most
+from sim import Network
+
+PERIODS = 0.09, 0.14  # s between two scans: more than one can be later than another on the way
+UNEVEN = 0.2  # of a period
+RADIO = Network(loss=0.2, delay=0.05, jitter=0.04)
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 
 
 class RadioLidar(Node):
-    """A lidar whose scans (LaserScan on /scan, best effort) come over radio: some are lost, all come late.
+    """A lidar on the robot (LaserScan on /scan, best effort): the run's seed decides how often it measures.
 
-    The run's seed decides how often it measures, which is each scan's `scan_time`, and what gets lost.
+    That is each scan's `scan_time`. Like all lidars it turns a little unevenly.
     """
 
     def __init__(self) -> None:
         super().__init__("radio_lidar")
         self.publisher = self.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
         self.period = random.choice(PERIODS)
-        self.ticks, self.gap = 0, 0
-        self.waiting: list[tuple[int, LaserScan]] = []  # with the tick at which they arrive
-        self.create_timer(self.period / STEPS, self.tick)
+        self.create_timer(self.period, self.measure)
 
-    def tick(self) -> None:
-        """Measure at every fourth tick, and hand out what has arrived."""
-        self.ticks += 1
-        if self.ticks % STEPS == 0:
-            self.measure(self.ticks // STEPS)
-        while self.waiting and self.waiting[0][0] <= self.ticks:
-            self.publisher.publish(self.waiting.pop(0)[1])
-
-    def measure(self, number: int) -> None:
-        """Measure one scan, which may get lost; the first three don't."""
-        if not self.gap and number > 3 and random.random() < LOST:
-            self.gap = random.randint(1, LONGEST)
-        if self.gap:
-            self.gap -= 1
-            return
+    def measure(self) -> None:
+        """Measure one scan, and publish it."""
         scan = LaserScan(angle_min=-math.pi, angle_increment=math.tau / 8, range_min=0.1, range_max=5.0)
         early = Duration(seconds=random.uniform(0.0, UNEVEN) * self.period)
         scan.header.stamp, scan.header.frame_id = (self.get_clock().now() - early).to_msg(), "laser"
         scan.scan_time = self.period
         scan.ranges = [random.uniform(0.5, 4.0) for _ in range(8)]
-        self.waiting.append((self.ticks + random.randrange(STEPS), scan))
+        self.publisher.publish(scan)
 
 
 class MapServer(Node):
