@@ -1,5 +1,6 @@
 """The exercises of 07_silence, from a look at the graph to a doctor for six silent systems."""
 
+from grader.exercises.silence.commanding import pub
 from grader.exercises.silence.crowd import crowd
 from grader.exercises.silence.hearing import lidar
 from grader.exercises.silence.joysticks import Joystick
@@ -8,7 +9,6 @@ from grader.exercises.silence.mending import doctor
 from grader.exercises.silence.reading import graph
 from grader.exercises.silence.senders import RADIO, MapServer, RadioLidar, Visitor
 from grader.exercises.silence.stopping import joystick
-from grader.exercises.silence.typing import pub
 from grader.exercises.silence.ward import ward
 from sim.ros2.typed import terminal
 
