@@ -64,7 +64,11 @@ def mends_the_faults(run: Recording) -> None:
     deaf = [one for one in patients if not one.hears]
     if deaf:
         first = deaf[0]
-        done = f"{', '.join(first.changes)} was set" if first.changes else "nothing was set at the display"
+        done = (
+            f"{', '.join(first.changes)} was set"
+            if first.changes
+            else "nothing was set at the display, or it was refused"
+        )
         raise Missed(
             f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”",
             f"it hears nothing, and {done}; {len(patients) - len(deaf)} of {len(patients)} hear",

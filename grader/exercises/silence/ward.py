@@ -7,10 +7,13 @@ import random
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.validate_full_topic_name import validate_full_topic_name
 from std_msgs.msg import String
 
 FAULTS = "name", "nobody", "reliability", "durability", "deadline", "mute"
@@ -19,6 +22,9 @@ TOPICS = "temperature", "pressure", "brightness", "humidity", "loudness", "speec
 FIRST, PAUSE = 1.0, 1.0  # s: the first complaint, and the time between two
 OFFERED, WANTED = (0.3, 0.4, 0.5), 0.2  # s, deadlines
 PERIOD = 0.1  # s between two messages
+LONGEST = 1e6  # s, a deadline
+STRING = "std_msgs/msg/String"
+POLICIES = {"reliability": ("best_effort", "reliable"), "durability": ("volatile", "transient_local")}
 
 
 class Case(NamedTuple):
@@ -108,6 +114,7 @@ class Display(Node):
             self.declare_parameter(name, value)
         self.subscription: Any = None
         self.listen()
+        self.add_on_set_parameters_callback(self.check)
         self.add_post_set_parameters_callback(self.change)
 
     def listen(self) -> None:
@@ -124,6 +131,28 @@ class Display(Node):
     def hear(self, msg: String) -> None:
         """Tell what has come."""
         self.heard.publish(String(data=f"{self.case.topic} {msg.data}"))
+
+    def check(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Refuse what can't be subscribed with."""
+        wrong = [parameter.name for parameter in parameters if not self.can_be(parameter)]
+        return SetParametersResult(
+            successful=not wrong, reason=f"impossible: {', '.join(wrong)}" if wrong else ""
+        )
+
+    def can_be(self, parameter: Parameter) -> bool:
+        """Whether a subscription can have this setting."""
+        name, value = parameter.name, parameter.value
+        if name in POLICIES:
+            return value in POLICIES[name]
+        if name == "deadline":
+            return 0.0 <= value < LONGEST
+        if name != "topic":
+            return True
+        try:
+            validate_full_topic_name(value)
+        except InvalidTopicNameException:
+            return False
+        return dict(self.get_topic_names_and_types()).get(value, [STRING]) == [STRING]
 
     def change(self, parameters: list[Parameter]) -> None:
         """Subscribe anew, and tell that something was set."""

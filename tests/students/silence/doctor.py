@@ -169,6 +169,32 @@ class ShorterDeadline(Doctor):
         return super().compare(display, sensor)
 
 
+class ImpossibleValues(Doctor):
+    """What it sets can't be, so the displays refuse it."""
+
+    def set(self, end, name, value):
+        wrong = {"reliability": "best effort", "durability": "VOLATILE", "deadline": -1.0, "topic": "/rosout"}
+        super().set(end, name, wrong.get(name, value))
+
+
+class NoTopicName(Doctor):
+    def set(self, end, name, value):
+        super().set(end, name, "no name" if name == "topic" else value)
+
+
+class SetsWhatIsSet(Doctor):
+    def set(self, end, name, value):
+        same = {"reliability": "reliable", "durability": "transient_local", "deadline": 0.2}
+        super().set(end, name, same.get(name, value))
+
+
+class SilentForNobody(Doctor):
+    def hear(self, msg):
+        word = self.examine(msg.data)
+        if word != "nobody":
+            self.publisher.publish(String(data=f"{msg.data}: {word}"))
+
+
 class CapitalLetters(Doctor):
     def hear(self, msg):
         self.publisher.publish(String(data=f"{msg.data}: {self.examine(msg.data).upper()}"))

@@ -159,6 +159,20 @@ class SaysItLater(Counter):
         pass
 
 
+class SaysItATenthLater(Counter):
+    def __init__(self):
+        super().__init__()
+        self.outlet, self.publisher, self.waiting = self.publisher, self, []
+        self.create_timer(0.01, self.look)
+
+    def publish(self, msg):
+        self.waiting.append((self.get_clock().now().nanoseconds + 1e8, msg))
+
+    def look(self):
+        while self.waiting and self.waiting[0][0] <= self.get_clock().now().nanoseconds:
+            self.outlet.publish(self.waiting.pop(0)[1])
+
+
 class OtherTopic(Counter):
     def __init__(self):
         Node.__init__(self, "counter")
