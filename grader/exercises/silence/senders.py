@@ -74,6 +74,8 @@ class Visitor(Node):
         super().__init__("visitor")
         self.publisher = self.create_publisher(Int32, "/receipt", 10)
         self.subscription = None
+        # From the start on, so that another type is an error where it is made, and not here.
+        self.create_subscription(Int32, "/free", lambda msg: None, qos_profile_sensor_data)
         self.ticks = 0
         self.create_timer(1.0, self.come_or_go)
 

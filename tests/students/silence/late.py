@@ -4,7 +4,7 @@ import rclpy
 from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from std_msgs.msg import Int32
+from std_msgs.msg import Float64, Int32
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -125,6 +125,18 @@ class CountsNotOccupied(Surveyor):
 class Silent(Surveyor):
     def on_map(self, msg):
         self.count(msg.data)
+
+
+class OtherType(Surveyor):
+    """Declares a whole number, and sends another kind of it."""
+
+    def __init__(self):
+        Node.__init__(self, "surveyor")
+        self.publisher = self.create_publisher(Float64, "/free", LATCHED)
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
+
+    def on_map(self, msg):
+        self.publisher.publish(Float64(data=float(list(msg.data).count(0))))
 
 
 class OtherTopic(Surveyor):
