@@ -34,7 +34,9 @@ class Doctor(Node):
 
     def set(self, end, name, value):
         if self.mends:
-            AsyncParameterClient(self, full(end)).set_parameters([Parameter(name, value=value)])
+            client = AsyncParameterClient(self, full(end))
+            if client.wait_for_services(1.0):
+                client.set_parameters([Parameter(name, value=value)])
 
     def examine(self, topic):
         display = self.get_subscriptions_info_by_topic(topic)[0]
@@ -97,6 +99,7 @@ class ByHand(Doctor):
         kind, field = kinds[type(value)]
         setting = ParameterMsg(name=name, value=ParameterValue(type=kind, **{field: value}))
         client = self.create_client(SetParameters, f"{full(end)}/set_parameters")
+        client.wait_for_service(1.0)
         client.call_async(SetParameters.Request(parameters=[setting]))
 
     def find(self, topic, display):
