@@ -20,14 +20,18 @@ def shared_name(recording: Recording) -> str:
 
 
 def typing_slip(recording: Recording) -> str:
-    """A topic with only publishers and one with only subscriptions, whose names are nearly the same."""
-    published = {e.name: e.node for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
-    heard = {e.name: e.node for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
+    """A topic with only publishers and one with only subscriptions, whose names are nearly the same.
+
+    Between programs of ours it is what the exercise is about.
+    """
+    published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
+    heard = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
     for name, near in _nearly_met(heard, published):
-        return (
-            f"{published[near]} publishes on {near}, {heard[name]} listens on {name}: "
-            f"two different topics. {difference(near, name)}"
-        )
+        if not (published[near].ours and heard[name].ours):
+            return (
+                f"{published[near].node} publishes on {near}, {heard[name].node} listens on {name}: "
+                f"two different topics. {difference(near, name)}"
+            )
     return ""
 
 

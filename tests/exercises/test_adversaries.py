@@ -17,9 +17,10 @@ from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
 from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
+from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_topics import TestTopics as Topics
 
-ASSIGNMENTS: tuple[type[Assignment], ...] = (Nodes, Topics, Services, Actions, Sensing, Navigator)
+ASSIGNMENTS: tuple[type[Assignment], ...] = (Nodes, Topics, Services, Actions, Sensing, Navigator, Silence)
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 SECRET = "an instructor's"
 ALL_KINDS = (*KINDS, "ends early")
@@ -54,7 +55,7 @@ def wrong_in(assignment, name):
     """The kinds that do not what the exercise asks for."""
     if (assignment, name) == (Nodes, "hello"):
         return ["does nothing", "says everything"]  # it is done at once
-    if (assignment, name) in ((Topics, "imu"), (Topics, "square")):
+    if (assignment, name) in ((Topics, "imu"), (Topics, "square"), (Silence, "pub")):
         return ["does nothing", "ends early"]
     return ["does nothing", "says everything", "ends early"] if (assignment, name) in FIXED else ALL_KINDS
 

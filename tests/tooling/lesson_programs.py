@@ -14,6 +14,7 @@ import importlib
 import json
 import operator
 import os
+import re
 import signal
 import sys
 import time
@@ -33,7 +34,8 @@ def definitions(lesson: str) -> str:
     written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
     missing, kept = {"print", "display", *written}, []
     for cell in cells:
-        for statement in ast.parse(cell).body if not cell.startswith("%%") else ():
+        plain = "" if cell.startswith("%%") else re.sub("^%.*", "", cell, flags=re.M)
+        for statement in ast.parse(plain).body:
             if _is_ours(statement) or missing & set(_needed(statement)):
                 missing |= set(_defined(statement))
             elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With):

@@ -127,3 +127,13 @@ def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
     found = told(yard, tmp_path / "errors", "05_sensing", names, seconds=2, listen=COMMANDS, **raw)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
     assert found["heard"]["/cmd_vel"][-1] == 0.4
+
+
+@pytest.mark.soak
+def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_path):
+    names = ["Driver", "Joystick"]
+    found = told(yard, tmp_path / "errors", "07_silence", names, seconds=4, listen=COMMANDS)
+    assert found["ended"] == [0, 0]
+    assert "The joystick is late: stop" in found["errors"]
+    speeds = found["heard"]["/cmd_vel"]
+    assert max(speeds) == 0.4 and speeds[-1] == 0.0

@@ -1,0 +1,114 @@
+"""An exercise on the words of ros2: one command drives the robot."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+
+from grader.checks import Missed, keeps_clear, lasts, publishes, series, travelled
+from grader.checks.topics import longest_pause
+from grader.exercise import Exercise
+from sim.evidence import Recording, stamps
+
+TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
+RADIUS, SPEED = 0.5, 0.3  # m, m/s
+NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and turned
+COMPLAINT = re.compile(
+    "error:|command not found|is no command|can't be read|populate field|is invalid"
+)  # of ros2
+TIMEOUT = 0.5  # s after which the robot stops without a command
+
+pub = Exercise("pub", "Drive with one command", world="room", seconds=12)
+
+
+@pub.check(3)
+def can_be_read(run: Recording) -> None:
+    """The command can be read, and publishes Twist messages on /cmd_vel."""
+    try:
+        publishes(run, COMMANDS, TWIST)
+    except Missed as missed:
+        said = [line.strip() for _, text in run.prints for line in text.splitlines() if line.strip()]
+        wrong = next((line for line in said if COMPLAINT.search(line)), "")
+        if wrong:
+            raise Missed(missed.expected, f"“{wrong}”", _how_to_read(wrong)) from None
+        missed.guess = "`ros2 topic pub` publishes; `echo` and `hz` listen."
+        raise
+
+
+@pub.check(3, after=can_be_read)
+def comes_often_enough(run: Recording) -> None:
+    """The commands come so often, from start to end, that the robot never stops between two."""
+    pause, since = longest_pause(stamps(run.messages(COMMANDS)))
+    if pause > TIMEOUT or len(run.messages(COMMANDS)) < 2:
+        raise Missed(
+            f"a command every {TIMEOUT:g} s or more often: without one the robot stops",
+            f"{pause:.3g} s without one, from {since:.3g} s on" if pause else "one command",
+            "Without --rate a message goes out once a second, with --once a single time. Give --rate 10.",
+            picture="topics",
+        )
+    lasts(run, COMMANDS)
+
+
+@pub.check(4, after=can_be_read)
+def drives_the_circle(run: Recording) -> None:
+    """The robot drives once round a circle of 0.5 m radius, to the left, and touches nothing."""
+    keeps_clear(run, "A speed ahead without a turn leads to a wall: give both, linear.x and angular.z.")
+    far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
+    steps = itertools.pairwise(run.path)
+    turned = sum(math.remainder(after.yaw - before.yaw, math.tau) for before, after in steps)
+    way = travelled(run)
+    if max(far) > NEAR or turned < ROUND or way < ROUND * RADIUS:
+        raise Missed(
+            f"a way of {math.tau * RADIUS:.2f} m round a circle, which is a turn of 360 degrees to the left",
+            f"a way of {way:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to {max(far):.2f} m"
+            " off the circle",
+            _why_no_circle(run, turned),
+            picture="path",
+        )
+
+
+@pub.check(2, after=drives_the_circle)
+def drives_at_the_speed(run: Recording) -> None:
+    """It does so at 0.3 m/s."""
+    speeds = [speed for _, speed in series(run, COMMANDS, "linear.x")]
+    wrong = next((speed for speed in speeds if not abs(speed - SPEED) < 0.01), None)
+    if wrong is not None:
+        turn = f"{SPEED / RADIUS:g} rad/s"
+        hint = f"Speed = radius times turn: at {SPEED:g} m/s a radius of {RADIUS:g} m wants {turn}."
+        raise Missed(f"linear.x {SPEED:g}", f"{wrong:g}", hint)
+
+
+def _how_to_read(wrong: str) -> str:
+    """What to do about a complaint of ros2's."""
+    if "unrecognized arguments" in wrong:
+        return (
+            "The values are one word for the terminal: put quotes round them, '{...}', as they have spaces."
+        )
+    if "no attribute 'x:" in wrong or "no attribute 'linear:" in wrong:
+        return "YAML wants a space after each colon: {x: 0.3}, not {x:0.3}."
+    if "populate field" in wrong:
+        return "`ros2 interface show geometry_msgs/msg/Twist` shows the fields of the message."
+    if "type is invalid" in wrong:
+        return "A type has three parts, package/msg/Name: `ros2 topic info /cmd_vel` shows it."
+    if "command not found" in wrong or "is no command" in wrong:
+        return 'The text begins with the word ros2, and is returned: return "ros2 topic pub ...".'
+    return "Read the complaint; `ros2 topic pub --help` shows what the command takes, and in which order."
+
+
+def _why_no_circle(run: Recording, turned: float) -> str:
+    """The usual reasons for another way."""
+    turns = [turn for _, turn in series(run, COMMANDS, "angular.z")]
+    if not any(turns):
+        return "It never turns: angular.z is the turn, in rad/s. (angular.x and y do nothing on the ground.)"
+    if turned < 0:
+        return "It turns right. A positive angular.z turns left."
+    if not any(speed for _, speed in series(run, COMMANDS, "linear.x")):
+        return "It turns on the spot: linear.x is the speed ahead."
+    pause, _ = longest_pause(stamps(run.messages(COMMANDS)))
+    if pause > TIMEOUT:
+        return "It stops between two commands, as the line above says: that one first."
+    last = stamps(run.messages(COMMANDS))[-1]
+    if last < run.ended.stamp - 2 * TIMEOUT:
+        return f"The last command came at {last:.3g} s: without --times it goes on until it is stopped."
+    return "Radius = speed / turn. For 0.5 m at 0.3 m/s, how many rad/s is that?"

@@ -1,0 +1,140 @@
+"""An exercise on deadlines: a joystick falls silent, and the robot stops."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import math
+from collections.abc import Iterator
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.silence import silence
+from grader.exercise import Exercise
+from grader.exercises.silence.joysticks import OFFERED, PAUSE, Joystick
+from sim.evidence import Heard, Recording, Seconds
+
+TWIST, ASKED, SENT = "geometry_msgs/msg/Twist", "/joystick", "/cmd_vel"
+LAG = 0.12  # s, until a command has to be passed on
+SOON, STOPPED = 0.4, 1.0  # s of silence, after which zeros go out, and after which the robot stands
+LONGEST = 0.3  # s, a deadline that notices soon enough
+STEP, STANDING = 0.05, 0.02  # s, m/s
+Command = tuple[float, float]  # m/s, rad/s
+
+joystick = Exercise(
+    "joystick", "A joystick that falls silent", world="yard", seconds=10, companions=[Joystick], seeds=(1, 2)
+)
+
+
+@joystick.check(3)
+def stands_between(run: Recording) -> None:
+    """The node hears /joystick, and publishes Twist messages on /cmd_vel."""
+    with hinting("The joystick talks on /joystick, and the robot listens to /cmd_vel."):
+        subscribes(run, ASKED, TWIST)
+        publishes(run, SENT, TWIST, at_least=10)
+
+
+@joystick.check(5, after=stands_between)
+def passes_commands_on(run: Recording) -> None:
+    """While the joystick speaks, the robot gets its commands, from a tenth of a second later on."""
+    (begin, _), *_ = _silences(run)
+    _alike(run, 0.5, begin, "Remember the last command in the callback, and publish it in the timer.")
+
+
+@joystick.check(5, after=stands_between)
+def asks_for_a_deadline(run: Recording) -> None:
+    """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
+    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.ours]
+    shortest = min((limit for limit in asked if limit is not None), default=None)
+    if shortest is None or not OFFERED <= shortest <= LONGEST:
+        raise Missed(
+            f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription",
+            "none" if shortest is None else f"{shortest:g} s",
+            "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline.",
+        )
+
+
+@joystick.check(5, after=passes_commands_on)
+def stops_when_it_falls_silent(run: Recording) -> None:
+    """When the joystick falls silent, zeros go out within 0.4 s, and the robot stands within 1 s."""
+    for begin, end in _silences(run):
+        speed = _speed(run.during(begin + STOPPED, end))
+        unsafe = speed > STANDING
+        for moment in _moments(begin + SOON, end):
+            sent = _last(run.messages(SENT), moment)
+            if sent != (0.0, 0.0):
+                raise Missed(
+                    f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
+                    f"{_told(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
+                    _why_not_zero(run.during(begin + STOPPED, end)),
+                    picture="topics",
+                    unsafe=unsafe,
+                )
+
+
+@joystick.check(2, after=stops_when_it_falls_silent)
+def goes_on_afterwards(run: Recording) -> None:
+    """When the joystick speaks again, the robot gets its commands again."""
+    guess = "A stop holds until the next command comes: then that one counts."
+    ends = [end for _, end in _silences(run)]
+    for end, begin in itertools.zip_longest(ends, [begin for begin, _ in _silences(run)][1:]):
+        _alike(run, end + LAG, run.ended.stamp - STEP if begin is None else begin, guess)
+
+
+def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
+    """Between which two commands the joystick said nothing for long."""
+    stamps = [one.stamp for one in run.messages(ASKED) if one.ours]
+    found = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > PAUSE / 2]
+    if len(found) < 2:
+        raise silence(run, "two silences", f"{len(found)}", run.graph.publishers(ASKED))
+    return found
+
+
+def _moments(begin: Seconds, end: Seconds) -> Iterator[Seconds]:
+    """Moments beside those at which timers fire."""
+    count = max(0, int((end - begin) / STEP))
+    return (begin + index * STEP + 0.012 for index in range(count))
+
+
+def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
+    """Raises Missed where what is sent isn't what the joystick asked for lately."""
+    asked = [one for one in run.messages(ASKED) if one.ours]
+    told, wrong = run.messages(SENT), []
+    moments = list(_moments(begin, end))
+    for moment in moments:
+        wishes = {_last(asked, moment - lag) for lag in (0.0, LAG / 2, LAG)}
+        sent = _last(told, moment)
+        if sent not in wishes:
+            wrong.append((moment, _last(asked, moment), sent))
+    if len(wrong) > 0.05 * len(moments):
+        moment, wish, sent = wrong[0]
+        raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), guess=guess)
+
+
+def _last(messages: list[Heard], moment: Seconds) -> Command | None:
+    """The last command up to a moment; None without one lately."""
+    index = bisect.bisect_right(messages, moment, key=lambda one: one.stamp) - 1
+    if index < 0 or moment - messages[index].stamp > LONGEST:
+        return None
+    twist = messages[index].message
+    return twist.linear.x, twist.angular.z
+
+
+def _speed(run: Recording) -> float:
+    """The highest speed of the robot, m/s."""
+    steps = itertools.pairwise(run.path)
+    return max((math.dist(a[1:3], b[1:3]) / (b.stamp - a.stamp) for a, b in steps), default=0.0)
+
+
+def _told(command: Command | None) -> str:
+    if command is None:
+        return f"no command for {LONGEST:g} s"
+    return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
+
+
+def _why_not_zero(rest: Recording) -> str:
+    if not rest.messages(SENT):
+        return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
+    return (
+        "The callback for a missed deadline belongs to the subscription: event_callbacks="
+        "SubscriptionEventCallbacks(deadline=self.too_late). It makes the command zeros, all of it."
+    )

@@ -1,0 +1,186 @@
+"""Nodes of ours for the last exercise: six systems, each with a fault of its own, and who complains."""
+
+from __future__ import annotations
+
+import functools
+import random
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from std_msgs.msg import String
+
+FAULTS = "name", "nobody", "reliability", "durability", "deadline", "mute"
+SPACES = "kitchen", "garage", "garden", "attic", "cellar", "office", "porch", "hall", "studio", "library"
+TOPICS = "temperature", "pressure", "brightness", "humidity", "loudness", "speech", "picture", "position"
+FIRST, PAUSE = 1.0, 1.0  # s: the first complaint, and the time between two
+OFFERED, WANTED = (0.3, 0.4, 0.5), 0.2  # s, deadlines
+PERIOD = 0.1  # s between two messages
+LONGEST = 1e6  # s, a deadline
+STRING = "std_msgs/msg/String"
+POLICIES = {"reliability": ("best_effort", "reliable"), "durability": ("volatile", "transient_local")}
+
+
+class Case(NamedTuple):
+    """A system: a sensor, a display that is to hear it, and what is wrong between them."""
+
+    fault: str
+    space: str
+    topic: str  # that the display waits for, with its namespace
+    spoken: str  # that the sensor publishes on
+    deadline: float  # s, that the sensor offers; 0 without
+    durable: bool  # a decoy: what fits, and looks as if it didn't
+    weak: bool  # another one
+
+
+def cases(seed: int) -> list[Case]:
+    """Six systems drawn from a seed, one with each fault, in the order of the complaints."""
+    draw = random.Random(f"ward {seed}")
+    spaces, topics = draw.sample(SPACES, 6), draw.sample(TOPICS, 6)
+    found = []
+    for fault, space, word in zip(draw.sample(FAULTS, 6), spaces, topics, strict=True):
+        topic = spoken = f"/{space}/{word}"
+        if fault == "name":
+            spoken = f"/{space}/{_misspelt(word, draw)}"
+        offered = draw.choice(OFFERED) if fault == "deadline" else draw.choice((0.0, 0.15, 0.2))
+        row = fault, space, topic, spoken, offered, draw.random() < 0.5, draw.random() < 0.5
+        found.append(Case(*row))
+    return found
+
+
+def _misspelt(word: str, draw: random.Random) -> str:
+    """The word with two letters in the other's place, or without one."""
+    place = draw.choice([at for at in range(1, len(word) - 1) if word[at] != word[at + 1]])
+    if draw.random() < 0.5:
+        return word[:place] + word[place + 1] + word[place] + word[place + 2 :]
+    return word[:place] + word[place + 1 :]
+
+
+def _reliability(best_effort: bool) -> ReliabilityPolicy:
+    return ReliabilityPolicy.BEST_EFFORT if best_effort else ReliabilityPolicy.RELIABLE
+
+
+def _durability(transient: bool) -> DurabilityPolicy:
+    return DurabilityPolicy.TRANSIENT_LOCAL if transient else DurabilityPolicy.VOLATILE
+
+
+class Sensor(Node):
+    """Publishes String messages, ten a second, while its parameter `running` is true."""
+
+    def __init__(self, case: Case) -> None:
+        super().__init__("sensor", namespace=case.space)
+        profile = QoSProfile(depth=5)
+        profile.reliability = _reliability(case.fault == "reliability" or case.weak)
+        profile.durability = _durability(case.fault != "durability" and case.durable)
+        profile.deadline = Duration(seconds=case.deadline)
+        self.count = random.randrange(10**9)  # nobody else can say what this sensor says
+        self.declare_parameter("running", case.fault != "mute")
+        self.publisher = self.create_publisher(String, case.spoken, profile)
+        self.create_timer(PERIOD, self.speak)
+
+    def speak(self) -> None:
+        """Say the next number."""
+        if self.get_parameter("running").value:
+            self.count += 1
+            self.publisher.publish(String(data=str(self.count)))
+
+
+class Display(Node):
+    """Waits for the messages of a sensor. Its parameters say on which topic, and with which settings.
+
+    Each time one of them is set it subscribes anew. What it hears it tells on /heard, and what is set on
+    /changes, both after the name of the topic that it has at the beginning.
+    """
+
+    def __init__(self, case: Case) -> None:
+        super().__init__("display", namespace=case.space)
+        self.case = case
+        weak = case.fault != "reliability" and case.weak
+        settings = {
+            "topic": case.topic,
+            "reliability": _reliability(weak).name.lower(),
+            "durability": _durability(case.fault == "durability").name.lower(),
+            "deadline": WANTED if case.fault == "deadline" else 0.0,
+        }
+        self.heard = self.create_publisher(String, "/heard", 10)
+        self.changes = self.create_publisher(String, "/changes", 10)
+        for name, value in settings.items():
+            self.declare_parameter(name, value)
+        self.subscription: Any = None
+        self.listen()
+        self.add_on_set_parameters_callback(self.check)
+        self.add_post_set_parameters_callback(self.change)
+
+    def listen(self) -> None:
+        """Subscribe, as the parameters say."""
+        given = {name: self.get_parameter(name).value for name in ("topic", "reliability", "durability")}
+        profile = QoSProfile(depth=5)
+        profile.reliability = ReliabilityPolicy[given["reliability"].upper()]
+        profile.durability = DurabilityPolicy[given["durability"].upper()]
+        profile.deadline = Duration(seconds=self.get_parameter("deadline").value)
+        if self.subscription is not None:
+            self.destroy_subscription(self.subscription)
+        self.subscription = self.create_subscription(String, given["topic"], self.hear, profile)
+
+    def hear(self, msg: String) -> None:
+        """Tell what has come."""
+        self.heard.publish(String(data=f"{self.case.topic} {msg.data}"))
+
+    def check(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Refuse what can't be subscribed with."""
+        wrong = [parameter.name for parameter in parameters if not self.can_be(parameter)]
+        return SetParametersResult(
+            successful=not wrong, reason=f"impossible: {', '.join(wrong)}" if wrong else ""
+        )
+
+    def can_be(self, parameter: Parameter) -> bool:
+        """Whether a subscription can have this setting."""
+        name, value = parameter.name, parameter.value
+        if name in POLICIES:
+            return value in POLICIES[name]
+        if name == "deadline":
+            return 0.0 <= value < LONGEST
+        if name != "topic":
+            return True
+        try:
+            validate_full_topic_name(value)
+        except InvalidTopicNameException:
+            return False
+        return dict(self.get_topic_names_and_types()).get(value, [STRING]) == [STRING]
+
+    def change(self, parameters: list[Parameter]) -> None:
+        """Subscribe anew, and tell that something was set."""
+        for parameter in parameters:
+            self.changes.publish(String(data=f"{self.case.topic} {parameter.name}"))
+        self.listen()
+
+
+class Caller(Node):
+    """Complains on /complaint (String) of one display after another: the topic that it hears nothing on."""
+
+    def __init__(self, topics: list[str]) -> None:
+        super().__init__("caller")
+        self.publisher = self.create_publisher(String, "/complaint", 10)
+        self.topics = topics[::-1]
+        self.create_timer(PAUSE, self.complain)
+
+    def complain(self) -> None:
+        """Complain of the next one, as long as there is one."""
+        if self.topics:
+            self.publisher.publish(String(data=self.topics.pop()))
+
+
+def ward(seed: int) -> list[Callable[[], Node]]:
+    """The six systems of a seed and the one who complains, as companions of a run."""
+    made: list[Callable[[], Node]] = []
+    for case in cases(seed):
+        made.append(functools.partial(Display, case))
+        if case.fault != "nobody":
+            made.append(functools.partial(Sensor, case))
+    return [*made, functools.partial(Caller, [case.topic for case in cases(seed)])]

@@ -1,0 +1,43 @@
+"""The words of ros2 as a program of a run."""
+
+import pytest
+
+from sim import run
+from sim.ros2.typed import terminal
+
+TWIST = "geometry_msgs/msg/Twist '{linear: {x: 0.3}}'"
+SAID = {
+    "ros topic list": "ros: command not found\n",
+    "ros2 topic pub '": "\"ros2 topic pub '\" can't be read: No closing quotation.\n",
+    "ros2 topic pub /cmd_vel Twist": "The passed message type is invalid\n",
+    "ros2 topic pub '/a b' std_msgs/msg/Empty": "Invalid topic name: topic name must not contain characters",
+    "ros2 topic list": "/bumper\n/clock\n/cmd_vel\n",
+    "ros2 topic hz /odom": "average rate: 20.000\n",
+}
+
+
+def typed(command):
+    return run(terminal(command), world="yard", seconds=2, quiet=True)
+
+
+def test_a_command_takes_part_in_a_run():
+    recording = typed(f"ros2 topic pub -r 10 /cmd_vel {TWIST}")
+    heard = recording.messages("/cmd_vel")
+    assert {one.sender for one in heard} == {"/_ros2cli"}
+    assert [one.stamp for one in heard[:3]] == [0.0, 0.1, 0.2]
+    assert recording.path[-1].x > 0.4
+
+
+@pytest.mark.parametrize("command", SAID)
+def test_what_it_says_is_printed(command):
+    text = "".join(text for _, text in typed(command).prints)
+    assert text.startswith(SAID[command])
+
+
+def test_a_function_gives_the_command_when_the_program_starts():
+    assert typed(lambda: "ros2 node list").prints[0][1] == "/robot"
+
+
+def test_what_is_no_command_is_named():
+    says = "None is no command: expected a text such as 'ros2 topic list'."
+    assert typed(lambda: None).prints[0][1] == says

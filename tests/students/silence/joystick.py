@@ -1,0 +1,159 @@
+"""Drivers that stop when the joystick falls silent: right ones, and wrong ones named by their defect."""
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.duration import Duration
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+
+class Driver(Node):
+    """As one would write it; the wrong ones change one thing each."""
+
+    deadline = 0.2  # s
+
+    def __init__(self):
+        super().__init__("driver")
+        self.command = Twist()
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.listen()
+        self.create_timer(0.05, self.repeat)
+
+    def listen(self):
+        qos = QoSProfile(depth=1, deadline=Duration(seconds=self.deadline))
+        events = SubscriptionEventCallbacks(deadline=self.too_late)
+        self.create_subscription(Twist, "/joystick", self.hear, qos, event_callbacks=events)
+
+    def hear(self, msg):
+        self.command = msg
+
+    def too_late(self, event):
+        self.command = Twist()
+
+    def repeat(self):
+        self.publisher.publish(self.command)
+
+
+class AtOnce(Driver):
+    """Passes each command on as it comes, too; and asks for what the joystick offers."""
+
+    deadline = 0.1
+
+    def hear(self, msg):
+        super().hear(msg)
+        self.repeat()
+
+
+class BestEffort(Driver):
+    deadline = 0.25
+
+    def listen(self):
+        qos = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+        qos.deadline = Duration(nanoseconds=250_000_000)
+        events = SubscriptionEventCallbacks()
+        events.deadline = lambda event: self.too_late(event)
+        self.create_subscription(Twist, "/joystick", self.hear, qos, event_callbacks=events)
+
+
+def main_without_a_class():
+    rclpy.init()
+    node = rclpy.create_node("driver")
+    publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+    last = [Twist()]
+    node.create_subscription(
+        Twist,
+        "/joystick",
+        lambda msg: last.append(msg),
+        QoSProfile(depth=1, deadline=Duration(seconds=0.15)),
+        event_callbacks=SubscriptionEventCallbacks(deadline=lambda event: last.append(Twist())),
+    )
+    node.create_timer(0.05, lambda: publisher.publish(last[-1]))
+    rclpy.spin(node)
+
+
+class NoCallback(Driver):
+    """Asks for a deadline, and nobody is told."""
+
+    def listen(self):
+        qos = QoSProfile(depth=1, deadline=Duration(seconds=self.deadline))
+        self.create_subscription(Twist, "/joystick", self.hear, qos)
+
+
+class NoDeadline(Driver):
+    def listen(self):
+        self.create_subscription(Twist, "/joystick", self.hear, 10)
+
+
+class AsksTooMuch(Driver):
+    """The joystick promises a command every 0.1 s, and no more."""
+
+    deadline = 0.05
+
+
+class AsksTooLittle(Driver):
+    deadline = 1.0
+
+
+class OnlyLogs(Driver):
+    def too_late(self, event):
+        self.get_logger().warning("The joystick is late")
+
+
+class FallsSilentToo(Driver):
+    """Sends nothing more; the robot stops by itself, later."""
+
+    def too_late(self, event):
+        self.command = None
+
+    def repeat(self):
+        if self.command is not None:
+            super().repeat()
+
+
+class StopsTheSpeedOnly(Driver):
+    def too_late(self, event):
+        self.command.linear.x = 0.0
+
+
+class SlowsDown(Driver):
+    def too_late(self, event):
+        self.command.linear.x *= 0.9
+
+
+class NeverGoesOn(Driver):
+    stopped = False
+
+    def too_late(self, event):
+        super().too_late(event)
+        self.stopped = True
+
+    def hear(self, msg):
+        if not self.stopped:
+            super().hear(msg)
+
+
+class AlwaysStops(Driver):
+    def repeat(self):
+        self.publisher.publish(Twist())
+
+
+class OneMessageLate(Driver):
+    """Sends what came half a second ago."""
+
+    def __init__(self):
+        self.waiting = []
+        super().__init__()
+
+    def hear(self, msg):
+        self.waiting.append(msg)
+        if len(self.waiting) > 10:
+            super().hear(self.waiting.pop(0))
+
+
+class OwnDriver(Driver):
+    """Hears another topic, and drives on its own."""
+
+    def listen(self):
+        self.create_subscription(Twist, "/gamepad", self.hear, 10)
+        self.command.linear.x = 0.2

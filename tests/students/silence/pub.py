@@ -1,0 +1,60 @@
+"""Commands that drive the robot: right ones, and wrong ones named by their defect."""
+
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+from grader.exercises.silence import terminal
+
+TYPE = "geometry_msgs/msg/Twist"
+
+Plain = terminal(f"ros2 topic pub --rate 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
+InJson = terminal(
+    f'ros2 topic pub cmd_vel {TYPE} \'{{"linear": {{"x": 0.3}}, "angular": {{"z": 0.6}}}}\' -r 5'
+)
+Whole = terminal(
+    lambda: (
+        f'ros2 topic pub -r 20 /cmd_vel {TYPE} "linear: {{x: 0.3, y: 0, z: 0}}\nangular: {{x: 0, z: 0.6}}"'
+    )
+)
+
+
+class ANode(Node):
+    """It was to be a command; but it does the same."""
+
+    def __init__(self):
+        super().__init__("circler")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.linear.x, command.angular.z = 0.3, 0.6
+        self.publisher.publish(command)
+
+
+OnceASecond = terminal(f"ros2 topic pub /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
+Once = terminal(f"ros2 topic pub --once /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
+StopsEarly = terminal(
+    f"ros2 topic pub -r 10 -t 50 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'"
+)
+MisspeltTopic = terminal(
+    f"ros2 topic pub -r 10 /cmd_val {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'"
+)
+OtherType = terminal(
+    "ros2 topic pub -r 10 /cmd_vel geometry_msgs/msg/TwistStamped '{twist: {linear: {x: 0.3}}}'"
+)
+ShortType = terminal("ros2 topic pub -r 10 /cmd_vel Twist '{linear: {x: 0.3}, angular: {z: 0.6}}'")
+NoQuotes = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} {{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}")
+NoSpaces = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear:{{x:0.3}}, angular:{{z:0.6}}}}'")
+OpenQuote = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}")
+WrongField = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{speed: 0.3, turn: 0.6}}'")
+WrongVerb = terminal(f"ros2 topic send -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
+NoRos2 = terminal(f"topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
+NothingReturned = terminal(lambda: None)
+Straight = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.6}}}}'")
+WrongAxis = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.1}}, angular: {{x: 0.6}}}}'")
+ToTheRight = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: -0.6}}}}'")
+OnTheSpot = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{angular: {{z: 0.6}}}}'")
+TooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.3}}}}'")
+TooFast = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.5}}, angular: {{z: 1.0}}}}'")
+Listens = terminal("ros2 topic echo /odom")
