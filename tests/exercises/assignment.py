@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import pytest
 
 from grader import Exercise
+from grader.cast import LocalCast
 from grader.diagnosis import find_flaw
 from tests.exercises.at_times import TIMES, working
 from tests.exercises.evidence import Evidence
@@ -24,6 +25,7 @@ from tests.exercises.score_tables import (
     students,
 )
 
+PRIVATE = 8  # other seeds, as students get them when a class is marked
 LONG = 50.0  # s of simulated time, of all runs of an exercise
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
@@ -131,6 +133,14 @@ class Assignment:
         score = self.judge(exercise).grade(program)
         assert shown(node, score) == page(self.topic(), exercise).get(node)
         assert score.broken == []
+
+    @pytest.mark.soak
+    def test_right_nodes_earn_everything_with_every_students_seeds(self, exercise):
+        judge, nodes, right = self.judge(exercise), students(self.topic(), exercise), self.right(exercise)
+        for number in range(PRIVATE):
+            name = right[number % len(right)]
+            score = judge.judge(LocalCast([nodes[name]]), f"secret {number}")
+            assert shown(name, score) == f"{name}: {judge.points:g}"
 
     def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
         """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""

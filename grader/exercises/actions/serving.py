@@ -20,7 +20,7 @@ from sim.evidence import Goal, Recording, stamps
 
 OFFER = 'ActionServer(self, Fibonacci, "/fibonacci", self.execute): node, type, name and callback.'
 
-fibonacci = Exercise("fibonacci", "A first action", seconds=20, companions=[Mathematician], seeds=(1, 2))
+fibonacci = Exercise("fibonacci", "A first action", seconds=45, companions=[Mathematician], seeds=(1, 2))
 
 
 @fibonacci.check(3)
