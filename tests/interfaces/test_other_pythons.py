@@ -9,7 +9,6 @@ from pathlib import Path
 import install
 import pytest
 
-OTHERS = [minor for minor in ("3.11", "3.12", "3.13", "3.14") if minor != f"3.{sys.version_info.minor}"]
 UV = shutil.which("uv", path=str(Path(sys.executable).parent))
 
 
@@ -21,6 +20,13 @@ def interpreter(minor: str) -> str | None:
         if subprocess.run(command, capture_output=True, check=False, timeout=120).returncode == 0:
             return str(candidate)
     return None
+
+
+OTHERS = {
+    minor: found
+    for minor in ("3.11", "3.12", "3.13", "3.14")
+    if minor != f"3.{sys.version_info.minor}" and (found := interpreter(minor))
+}
 
 
 def environment(python: str, directory: Path) -> Path:
@@ -45,7 +51,4 @@ def environment(python: str, directory: Path) -> Path:
 @pytest.mark.skipif(not UV, reason="uv, which makes the other environments, is not installed")
 @pytest.mark.parametrize("minor", OTHERS)
 def test_the_wheel_works_under_another_python(minor, tmp_path, came_back, came_back_under):
-    python = interpreter(minor)
-    if not python:
-        pytest.skip(f"no Python {minor} on this machine")
-    assert came_back_under(environment(python, tmp_path / "environment")) == came_back
+    assert came_back_under(environment(OTHERS[minor], tmp_path / "environment")) == came_back
