@@ -14,16 +14,16 @@ from rclpy.exceptions import InvalidHandle
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.agenda import Agenda
-from sim.ros.engine.channels import Links
+from sim.ros.engine.delivery.channels import Links
+from sim.ros.engine.delivery.post import Post
+from sim.ros.engine.delivery.topics import Topics
 from sim.ros.engine.endings import conclusion
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import Limits
 from sim.ros.engine.own import ChanceBytes, OwnRclpy
-from sim.ros.engine.post import Post
 from sim.ros.engine.processes import StudentProcess, destroy
 from sim.ros.engine.program import Process
 from sim.ros.engine.simtime import SimulatedTime
-from sim.ros.engine.topics import Topics
 from sim.ros.fibers.exceptions import Livelock, RemoteLost, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler, activate

@@ -13,8 +13,8 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
-from sim.ros.engine.action_ends import taken_by_client, taken_by_server
 from sim.ros.engine.callbacks import Work, suspended
+from sim.ros.engine.delivery.action_ends import taken_by_client, taken_by_server
 from sim.ros.engine.waitables import is_ready
 from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.kept import ServiceRecord

@@ -13,9 +13,9 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
-from sim.ros.engine.qos import NO_LIMIT
-from sim.ros.engine.reader import Reader, Sent
-from sim.ros.engine.writer import Writer
+from sim.ros.engine.delivery.qos import NO_LIMIT
+from sim.ros.engine.delivery.reader import Reader, Sent
+from sim.ros.engine.delivery.writer import Writer
 from sim.ros.remote import events
 from sim.ros.remote.checked import packed
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from sim.evidence import Call, Goal, Heard
-from sim.ros.engine.reader import Reader, Sent
+from sim.ros.engine.delivery.reader import Reader, Sent
 from sim.ros.messages.codec import encode
 from sim.ros.remote import events
 from sim.ros.remote.checked import packed

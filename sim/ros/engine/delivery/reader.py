@@ -12,8 +12,16 @@ from rclpy.qos import QoSProfile
 
 from sim.nanoseconds import Nanoseconds
 from sim.network import LAPTOP
-from sim.ros.engine.qos import FOREVER, queue_length, settled
-from sim.ros.engine.statuses import CHANGED, MISSED, OF_READER, REQUESTED, deadline, liveliness, statuses
+from sim.ros.engine.delivery.qos import FOREVER, queue_length, settled
+from sim.ros.engine.delivery.statuses import (
+    CHANGED,
+    MISSED,
+    OF_READER,
+    REQUESTED,
+    deadline,
+    liveliness,
+    statuses,
+)
 from sim.ros.fibers.fiber import Program
 from sim.ros.messages.decoder import decode_message
 

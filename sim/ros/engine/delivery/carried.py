@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from rclpy.duration import Duration
 
-from sim.ros.engine.qos import latches
-from sim.ros.engine.reader import Reader, Sent
-from sim.ros.engine.writer import Writer
+from sim.ros.engine.delivery.qos import latches
+from sim.ros.engine.delivery.reader import Reader, Sent
+from sim.ros.engine.delivery.writer import Writer
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 

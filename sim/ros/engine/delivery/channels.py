@@ -17,10 +17,10 @@ from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
 from sim.network import Network
 
 if TYPE_CHECKING:
+    from sim.ros.engine.delivery.outgoing import History
+    from sim.ros.engine.delivery.reader import Reader, Sent
+    from sim.ros.engine.delivery.writer import Writer
     from sim.ros.engine.engine import Engine
-    from sim.ros.engine.outgoing import History
-    from sim.ros.engine.reader import Reader, Sent
-    from sim.ros.engine.writer import Writer
 
 MOST_WAITING: Nanoseconds = SECOND  # of data before a narrow link; what comes on top of that is lost
 RESPONSE: Nanoseconds = SECOND // 200  # until either side answers the other's heartbeat or request

@@ -18,10 +18,10 @@ from rclpy.action import ActionClient, ActionServer
 from sim.evidence import Call, Seconds
 from sim.nanoseconds import Nanoseconds, nanoseconds
 from sim.network import LAPTOP
-from sim.ros.engine.action_ends import taken_by_client, taken_by_server
-from sim.ros.engine.channels import RESPONSE, Link
-from sim.ros.engine.outgoing import HEARTBEAT
-from sim.ros.engine.qos import queue_length
+from sim.ros.engine.delivery.action_ends import taken_by_client, taken_by_server
+from sim.ros.engine.delivery.channels import RESPONSE, Link
+from sim.ros.engine.delivery.outgoing import HEARTBEAT
+from sim.ros.engine.delivery.qos import queue_length
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.calls import alive

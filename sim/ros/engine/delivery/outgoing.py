@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from rclpy.qos import ReliabilityPolicy
 
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.engine.channels import Channel, ReliableChannel
-from sim.ros.engine.qos import latches, queue_length
+from sim.ros.engine.delivery.channels import Channel, ReliableChannel
+from sim.ros.engine.delivery.qos import latches, queue_length
 
 if TYPE_CHECKING:
-    from sim.ros.engine.reader import Reader, Sent
-    from sim.ros.engine.writer import Writer
+    from sim.ros.engine.delivery.reader import Reader, Sent
+    from sim.ros.engine.delivery.writer import Writer
 
 HEARTBEAT: Nanoseconds = 3 * SECOND
 MOST_KEPT = 5000  # messages that Fast DDS has room for in a history without a limit

@@ -10,10 +10,10 @@ from rclpy.event_handler import EventHandler
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-from sim.ros.engine.outgoing import Outgoing
-from sim.ros.engine.qos import FOREVER, latches, queue_length, settled, suit
-from sim.ros.engine.reader import Reader, Sent, host_of, program_of
-from sim.ros.engine.statuses import LOST, OF_WRITER, OFFERED, deadline, promise, statuses
+from sim.ros.engine.delivery.outgoing import Outgoing
+from sim.ros.engine.delivery.qos import FOREVER, latches, queue_length, settled, suit
+from sim.ros.engine.delivery.reader import Reader, Sent, host_of, program_of
+from sim.ros.engine.delivery.statuses import LOST, OF_WRITER, OFFERED, deadline, promise, statuses
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 

@@ -15,11 +15,11 @@ from rclpy.event_handler import EventHandler, QoSPublisherEventType, QoSSubscrip
 from rclpy.qos import LivelinessPolicy, QoSProfile
 
 from sim.nanoseconds import Nanoseconds
-from sim.ros.engine.qos import FOREVER
+from sim.ros.engine.delivery.qos import FOREVER
 
 if TYPE_CHECKING:
+    from sim.ros.engine.delivery.writer import Writer
     from sim.ros.engine.engine import Engine
-    from sim.ros.engine.writer import Writer
 
 REQUESTED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED
 CHANGED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED

@@ -10,9 +10,9 @@ import os
 from collections import Counter, defaultdict
 from typing import TYPE_CHECKING, Any
 
-from sim.ros.engine.carried import CarriedReader, CarriedWriter
-from sim.ros.engine.reader import Reader
-from sim.ros.engine.writer import Writer
+from sim.ros.engine.delivery.carried import CarriedReader, CarriedWriter
+from sim.ros.engine.delivery.reader import Reader
+from sim.ros.engine.delivery.writer import Writer
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
