@@ -10,6 +10,7 @@ from grader.checks.actions import (
     serves_action,
 )
 from grader.checks.check import Check, Missed, check, hinting
+from grader.checks.joints import commands_within, draws, keeps_off, tip_at, tip_path
 from grader.checks.judge import Verdict, judge
 from grader.checks.logs import Said, answers, come_every, logs
 from grader.checks.mistakes import usual_mistake
@@ -39,6 +40,8 @@ __all__ = [
     "cancels",
     "check",
     "come_every",
+    "commands_within",
+    "draws",
     "ends_with_a_stop",
     "finishes",
     "follows",
@@ -47,6 +50,7 @@ __all__ = [
     "hinting",
     "judge",
     "keeps_clear",
+    "keeps_off",
     "lasts",
     "logs",
     "named",
@@ -62,6 +66,8 @@ __all__ = [
     "serves_action",
     "stands_still",
     "subscribes",
+    "tip_at",
+    "tip_path",
     "travelled",
     "until_a_touch",
     "usual_mistake",

@@ -114,6 +114,22 @@ class Recording:
         index = bisect.bisect_left(self.path, stamp - 1e-6, key=lambda pose: pose.stamp)
         return self.path[min(index, len(self.path) - 1)]
 
+    @property
+    def tip(self) -> list[Pose]:
+        """Where the far end of a machine's last link was, and which way that link pointed.
+
+        Empty for a run without a machine that is made of links.
+        """
+        bodies = self.world.bodies if self.world is not None else ()
+        if not bodies or any(body.kind != "link" for body in bodies):
+            return []
+        along = [x for x, _ in bodies[-1].outline]
+        length = min(along) + max(along)  # it reaches as far behind its joint as beyond the tip
+        return [
+            Pose(stamp, x + length * math.cos(yaw), y + length * math.sin(yaw), yaw)
+            for stamp, x, y, yaw in self.tracks.get(bodies[-1].name, [])
+        ]
+
     def is_ours(self, name: str) -> bool:
         """Whether a node, or the node of a logger, is not the student's: "/pilot", "robot1.driver"."""
         return (name if name.startswith("/") else "/" + name.replace(".", "/")) in self.ours

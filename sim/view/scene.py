@@ -33,7 +33,8 @@ MARGIN = 0.2  # metres around what is shown
 def plot_path(recording: Recording) -> Plot:
     """The robot's path over its world, with start, goal and contacts.
 
-    Other robots have a path too; boxes and links are drawn where they were at first and at last.
+    Other robots have a path too, and so has the tip of an arm; boxes and links are drawn where they were at
+    first and at last.
     Raises ValueError for a run in which nothing moves.
     """
     figure, axes = scene(recording)
@@ -52,6 +53,9 @@ def plot_path(recording: Recording) -> Plot:
         _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)
         end = f"end, {track[-1].stamp:.3g} s" if first else None
         _draw(axes, body, track[-1], colour, 0.45 if body.kind == "robot" else 0.9, end)
+    if recording.tip:
+        way = [pose.x for pose in recording.tip], [pose.y for pose in recording.tip]
+        axes.plot(*way, color=ROBOTS[0], linewidth=1.8, label="tip's path")
     if recording.contacts:
         touched = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*touched.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")

@@ -12,7 +12,7 @@ from tf2_msgs.msg import TFMessage
 from sim.ros.messages.template import STAMP, Template
 from sim.ros.robots.machine import MachineNode
 from sim.ros.robots.trajectory_server import TrajectoryServer
-from sim.world.machines import Arm
+from sim.world.machines import Arm, urdf
 
 JOINTS = ["shoulder_joint", "elbow_joint"]
 FRAMES = ["base_link", "upper_arm", "forearm", "tip"]
@@ -22,16 +22,17 @@ class ArmNode(MachineNode):
     """Moves to positions, or along trajectories; the newest order counts.
 
     Subscribes /joint_commands (std_msgs/Float64MultiArray: the angles of shoulder and elbow, rad). Publishes
-    at 20 Hz /joint_states and /tf (base_link -> upper_arm -> forearm -> tip). Offers the action
-    /arm_controller/follow_joint_trajectory (control_msgs/FollowJointTrajectory).
+    at 20 Hz /joint_states and /tf (base_link -> upper_arm -> forearm -> tip), and once /robot_description,
+    latched. Offers the action /arm_controller/follow_joint_trajectory (control_msgs/FollowJointTrajectory).
     """
 
     def __init__(self, scene: Arm) -> None:
-        super().__init__(scene, "arm", JOINTS)
+        super().__init__(scene, "arm", JOINTS[:: -1 if scene.model.elbow_first else 1])
         self.tf_message = self._transforms()
         self.tf_pub = self.create_publisher(TFMessage, "/tf", 100)
         self.create_subscription(Float64MultiArray, "joint_commands", self.on_command, 10)
         self._trajectories = TrajectoryServer(self, JOINTS)
+        self.describe(urdf("arm", JOINTS, scene.model.joints, FRAMES))
         self.begin()
 
     def on_command(self, command: Float64MultiArray) -> None:
@@ -40,8 +41,9 @@ class ArmNode(MachineNode):
             self._trajectories.replaced("a command on /joint_commands")
 
     def joints(self) -> tuple[float, ...]:
-        """Angles (rad) and rates (rad/s) of shoulder and elbow."""
-        return *self.scene.positions, *self.scene.velocities
+        """Angles (rad) and then rates (rad/s), in the order of the names in /joint_states."""
+        order = -1 if self.scene.model.elbow_first else 1
+        return *self.scene.positions[::order], *self.scene.velocities[::order]
 
     def sense(self, stamp: tuple[int, int]) -> None:
         """Publish where the links are, and watch over a trajectory under way."""

@@ -5,15 +5,19 @@ from __future__ import annotations
 from std_msgs.msg import Float64
 
 from sim.ros.robots.machine import MachineNode
-from sim.world.machines import Joint
+from sim.world.machines import Joint, urdf
 
 
 class JointNode(MachineNode):
-    """Subscribes /joint_commands (std_msgs/Float64: the angle, rad); publishes /joint_states at 20 Hz."""
+    """Subscribes /joint_commands (std_msgs/Float64: the angle, rad); publishes /joint_states at 20 Hz.
+
+    And once /robot_description, latched.
+    """
 
     def __init__(self, scene: Joint) -> None:
         super().__init__(scene, "joint", ["joint"])
         self.create_subscription(Float64, "joint_commands", self.on_command, 10)
+        self.describe(urdf("joint", ["joint"], [scene.world.machine], ["base_link", "link", "tip"]))
         self.begin()
 
     def on_command(self, command: Float64) -> None:

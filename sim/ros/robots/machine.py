@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
+from std_msgs.msg import String
 
 from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
@@ -46,6 +48,11 @@ class MachineNode(Node):
         """Begin to publish; the last that a machine does when it is made."""
         self._tick()
         self.create_timer(self._period, self._tick)
+
+    def describe(self, urdf: str) -> None:
+        """Publish what the machine looks like on /robot_description, kept for those who come later."""
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.create_publisher(String, "robot_description", latched).publish(String(data=urdf))
 
     def joints(self) -> tuple[float, ...]:
         """Positions and then velocities of all joints, as they are measured."""

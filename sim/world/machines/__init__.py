@@ -8,6 +8,7 @@ from sim.world.machines.joint import Joint
 from sim.world.machines.machine import Machine
 from sim.world.machines.servo import JointModel
 from sim.world.machines.trajectory import Trajectory, Waypoint
+from sim.world.machines.urdf import urdf
 from sim.world.model import Model
 
 
@@ -46,4 +47,5 @@ __all__ = [
     "Trajectory",
     "Waypoint",
     "kind_of",
+    "urdf",
 ]

@@ -23,10 +23,14 @@ class ArmModel(Model):
     """Two links in a row, each turned by a joint; the elbow's angle is 0 where the arm is straight.
 
     Places are in the arm's own frame: metres, its shoulder at the origin, x along the arm at angles 0, 0.
+
+    Attributes:
+        elbow_first: /joint_states names the elbow first, as many drivers have an order of their own.
     """
 
     shoulder: JointModel = field(default_factory=JointModel)
     elbow: JointModel = field(default_factory=lambda: JointModel(lower=-2.5, upper=2.5, length=0.4))
+    elbow_first: bool = False
 
     @property
     def joints(self) -> tuple[JointModel, JointModel]:

@@ -1,11 +1,12 @@
 """The arm as a ROS node: positions, frames, and goals of follow_joint_trajectory with all their ends."""
 
 import math
+from dataclasses import replace
 
 import pytest
 import rclpy
 
-from sim import run
+from sim import World, run
 from tests.sim.ros.evidence import said
 from tests.students.machines import arm as students
 from tests.students.machines.arm import following, goal, point
@@ -39,6 +40,28 @@ def test_it_speaks_twenty_times_a_second_and_is_tracked():
     assert [(e.node, e.name, e.type) for e in servers] == [
         ("/arm", "/arm_controller/follow_joint_trajectory", "control_msgs/action/FollowJointTrajectory")
     ]
+
+
+def test_what_it_looks_like_is_kept_for_those_who_come_later():
+    recording = run(world="arm", seconds=0.1, quiet=True)
+    ((stamp, _, type_, *_, told),) = [
+        (*h[:3], h.message.data) for h in recording.messages("/robot_description")
+    ]
+    assert (stamp, type_) == (0.0, "std_msgs/msg/String")
+    assert told.startswith('<robot name="arm">') and '<limit lower="-2.4" upper="2.4"' in told
+    (end,) = [end for end in recording.graph.publishers() if end.name == "/robot_description"]
+    assert (end.qos["durability"], end.qos["depth"]) == ("transient_local", 1)
+
+
+def test_joint_states_may_name_the_elbow_first():
+    world = World.load("arm")
+    mirrored = replace(world, machine=replace(world.machine, elbow_first=True))
+    recording = run(students.Commander, world=mirrored, seconds=3, quiet=True)
+    last = recording.messages("/joint_states")[-1].message
+    assert list(last.name) == students.JOINTS[::-1]
+    assert list(last.position) == [-0.5, 1.0]
+    moving = recording.during(1.0).messages("/joint_states")[0].message
+    assert moving.velocity[0] < 0 < moving.velocity[1]
 
 
 def test_positions_are_gone_to_and_the_frames_follow():
@@ -247,8 +270,7 @@ REFUSALS = {
     ),
     "a moving end": (
         goal(point(1.0, (0.0, 0.0), (0.1, 0.0))),
-        "INVALID_GOAL: its last point has velocities; "
-        "the arm stays there, so make them 0 or leave them out.",
+        "INVALID_GOAL: its last point has velocities; the arm stays there, so make them 0 or leave them out.",
     ),
     "a tolerance for another joint": (
         goal(point(1.0, (0.0, 0.0)), end=[("wrist_joint", 0.1)]),

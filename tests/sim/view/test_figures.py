@@ -58,7 +58,9 @@ def test_a_machine_is_drawn_at_start_and_end():
     up = [Pose(2.0, 0.0, 0.0, np.pi / 2), Pose(2.0, 0.0, 0.5, np.pi / 2)]
     tracks = {"upper_arm": [Pose(0.0, 0.0, 0.0, 0.0), up[0]], "forearm": [Pose(0.0, 0.5, 0.0, 0.0), up[1]]}
     figure = plot_path(Recording(world=World.load("arm"), tracks=tracks))
-    assert (figure.axes[0].get_title(), labels(figure)) == ("arm", ["start", "end, 2 s"])
+    assert (figure.axes[0].get_title(), labels(figure)) == ("arm", ["start", "end, 2 s", "tip's path"])
+    (tip,) = figure.axes[0].lines
+    assert tip.get_xydata() == pytest.approx(np.array([(0.9, 0.0), (0.0, 0.9)]))
     corners = figure.axes[0].patches[2].get_xy()[:4]  # behind the base and the upper arm's start
     assert corners == pytest.approx(
         np.array([(0.03, -0.03), (0.03, 0.53), (-0.03, 0.53), (-0.03, -0.03)]), abs=1e-9
