@@ -1,0 +1,47 @@
+"""A node of ours for the last exercise of 08_joints: it has figures to be drawn."""
+
+from __future__ import annotations
+
+import functools
+import math
+import random
+from collections.abc import Callable
+
+from geometry_msgs.msg import Point32, Polygon
+from rclpy.node import Node
+
+from grader.exercises.joints.crew import LATCHED
+from grader.exercises.joints.places import desk_of, side_of
+
+POINTS = 36
+SHAPES = {
+    "circle": lambda angle: 1.0,
+    "flower": lambda angle: 1.0 + 0.2 * math.cos(5 * angle),
+    "egg": lambda angle: 1.0 + 0.25 * math.sin(angle),
+}
+
+
+def figure(seed: int) -> list[tuple[float, float]]:
+    """A closed figure in front of the arm of `desk_of(seed)`, as points (m) in its base_link."""
+    draw, arm = random.Random(f"figure {seed}"), desk_of(seed).machine
+    shape = SHAPES[draw.choice(sorted(SHAPES)) if seed > 2 else "circle"]
+    far = (arm.shoulder.length + arm.elbow.length) * draw.uniform(0.58, 0.64)
+    where, size = draw.uniform(0.5, 0.64), draw.uniform(0.08, 0.11)
+    x, y = far * math.cos(where), far * math.sin(where)
+    angles = [math.tau * index / POINTS for index in range(POINTS + 1)]
+    rows = [(size * shape(a) * math.cos(a), size * shape(a) * math.sin(a)) for a in angles]
+    return [(round(x + dx, 4), round(side_of(seed) * (y + dy), 4)) for dx, dy in rows]
+
+
+class Designer(Node):
+    """Says once, for all who come, what to draw: /figure (Polygon), latched."""
+
+    def __init__(self, points: list[tuple[float, float]]) -> None:
+        super().__init__("designer")
+        self.publisher = self.create_publisher(Polygon, "/figure", LATCHED)
+        self.publisher.publish(Polygon(points=[Point32(x=x, y=y) for x, y in points]))
+
+
+def designer(seed: int) -> list[Callable[[], Node]]:
+    """The designer of a seed, as companions of a run in `desk_of(seed)`."""
+    return [functools.partial(Designer, figure(seed))]

@@ -1,0 +1,149 @@
+"""Nodes of ours for 08_joints: a lift that gets stuck, and somebody who wants it at places it can't go to."""
+
+from __future__ import annotations
+
+import functools
+import math
+import random
+from collections.abc import Callable
+from typing import NamedTuple
+
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, String
+
+from grader.exercises.joints.crew import LATCHED
+from sim.world.machines import JointModel, urdf
+from sim.world.machines.urdf import EFFORT
+
+JOINT, OTHER = "lift_joint", "fan_joint"
+PERIOD, SPEED = 0.05, 0.6  # s, rad/s
+START = 4  # periods in which a lift that stood pulls with all its might before it moves
+MOVING, HOLDING = 0.3 * EFFORT, 0.05 * EFFORT  # N m
+FREED = 0.05  # rad; told to stay so near to where it is stuck, it comes free
+BEGIN, PAUSE = 1.0, 2.8  # s: the first wish, and between two
+
+
+class Plan(NamedTuple):
+    """The lift of a seed, and what is wanted of it."""
+
+    lower: float  # rad
+    upper: float
+    fan_first: bool  # in /joint_states
+    wishes: list[float]  # rad; some beyond the limits, one no number
+    jams: list[float]  # where the lift gets stuck, once each
+
+
+def plan(seed: int) -> Plan:
+    """The plan of a seed: five places that the lift can go to, on the way to two of which it gets stuck."""
+    draw = random.Random(f"lift {seed}")
+    lower, upper = -round(draw.uniform(0.6, 1.0), 2), round(draw.uniform(1.2, 1.8), 2)
+    middle, places = (lower + upper) / 2, []
+    for index in range(5):  # up and down in turns
+        ahead = 1 if index % 2 else -1
+        places.append(round(middle + ahead * draw.uniform(0.3, 0.6), 2))
+    if draw.random() < 0.5:
+        places = [round(2 * middle - place, 2) for place in places]
+    first = draw.choice((1, 2))  # not one after the other, for the next way then begins elsewhere
+    jams = [_halfway(places, index) for index in (first, first + draw.choice((1, 2)))]
+    wishes = list(places)
+    bad = [upper + draw.uniform(0.05, 0.3), lower - draw.uniform(0.05, 0.3), math.nan]
+    for wrong in draw.sample(bad, 3):
+        wishes.insert(draw.randrange(1, len(wishes)), round(wrong, 2))
+    return Plan(lower, upper, draw.random() < 0.7 or seed == 1, wishes, jams)
+
+
+def _halfway(places: list[float], index: int) -> float:
+    return (places[index - 1] + places[index]) / 2
+
+
+class Lift(Node):
+    """A lift: takes /joint_commands (Float64), gives /joint_states with effort, and /robot_description.
+
+    Where it is stuck it pulls with all its might until it is told to stay there.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        super().__init__("lift")
+        self.plan, self.jams = plan, list(plan.jams)
+        self.position = self.target = self.velocity = self.effort = 0.0
+        self.stuck, self.starting, self.turns = False, 0, 0.0
+        model = JointModel(plan.lower, plan.upper, 0.0, SPEED)
+        self.description = self.create_publisher(String, "/robot_description", LATCHED)
+        text = urdf("lift", [JOINT], [model], ["base_link", "platform", "top"])
+        self.description.publish(String(data=text))
+        self.states = self.create_publisher(JointState, "/joint_states", 10)
+        self.create_subscription(Float64, "/joint_commands", self.obey, 10)
+        self.create_timer(PERIOD, self.step)
+
+    def obey(self, msg: Float64) -> None:
+        """Go there from now on, as far as the limits let the lift; what is no number is left alone."""
+        if math.isnan(msg.data):
+            return
+        self.target = min(max(msg.data, self.plan.lower), self.plan.upper)
+        if self.stuck and abs(self.target - self.position) < FREED:
+            self.stuck, self.target = False, self.position
+        self.starting = 0 if self.velocity else START
+
+    def step(self) -> None:
+        """Move for one period, and say where the lift is."""
+        gap = self.target - self.position
+        ahead = math.copysign(1.0, gap)
+        self.velocity, self.effort = 0.0, HOLDING
+        if abs(gap) > 1e-6:
+            self.effort = ahead * EFFORT
+            if self.starting:
+                self.starting -= 1
+            elif not self.stuck:
+                self._move(ahead * min(abs(gap), SPEED * PERIOD))
+        self._report()
+
+    def _move(self, way: float) -> None:
+        after = self.position + way
+        jam = next(
+            (jam for jam in self.jams[:1] if min(self.position, after) <= jam <= max(self.position, after)),
+            None,
+        )
+        if jam is not None:
+            self.jams.remove(jam)
+            self.stuck, after = True, jam
+        else:
+            self.velocity, self.effort = way / PERIOD, math.copysign(MOVING, way)
+        self.position = after
+
+    def _report(self) -> None:
+        self.turns += 0.3
+        rows = [(JOINT, self.position, self.velocity, self.effort), (OTHER, self.turns, 6.0, EFFORT)]
+        if self.plan.fan_first:
+            rows.reverse()
+        names, *values = zip(*rows, strict=True)
+        message = JointState(name=names, position=values[0], velocity=values[1], effort=values[2])
+        message.header.stamp = self.get_clock().now().to_msg()
+        self.states.publish(message)
+
+
+class Caller(Node):
+    """Wants the lift somewhere: /wanted (Float64), one place after another."""
+
+    def __init__(self, wishes: list[float]) -> None:
+        super().__init__("caller")
+        self.wishes = wishes[::-1]
+        self.publisher = self.create_publisher(Float64, "/wanted", 10)
+        self.begin = self.create_timer(BEGIN, self.start)
+
+    def start(self) -> None:
+        """Call for the first time."""
+        self.begin.cancel()
+        self.call()
+        self.create_timer(PAUSE, self.call)
+
+    def call(self) -> None:
+        """Want the next place, if there is one."""
+        if self.wishes:
+            self.publisher.publish(Float64(data=self.wishes.pop()))
+
+
+def lift(seed: int) -> list[Callable[[], Node]]:
+    """The lift of a seed and who calls it, as companions of a run."""
+    made = plan(seed)
+    return [functools.partial(Lift, made), functools.partial(Caller, made.wishes)]
