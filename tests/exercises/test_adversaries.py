@@ -14,6 +14,7 @@ from tests.exercises.cards import Card
 from tests.exercises.evidence import Evidence
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
+from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
 from tests.exercises.test_sensing import TestSensing as Sensing
@@ -21,7 +22,9 @@ from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_topics import TestTopics as Topics
 
-ASSIGNMENTS: tuple[type[Assignment], ...] = (Nodes, Topics, Services, Actions, Sensing, Navigator, Silence)
+ASSIGNMENTS: tuple[type[Assignment], ...] = (
+    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence, Joints),
+)
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 SECRET = "an instructor's"
 ALL_KINDS = (*KINDS, "ends early")
@@ -30,6 +33,7 @@ EARLY, AT_ONCE = 0.3, 0.1  # of the time; where a program may end when it is don
 # but who says everything is not; save where a part of what is said is right: of an IMU, and of a square.
 FIXED = {(Nodes, name) for name in Nodes.names}
 FIXED |= {(Topics, name) for name in ("greeting", "temperature", "imu", "remapping", "square")}
+FIXED |= {(Joints, "seven")}
 
 
 def for_being_there(exercise):

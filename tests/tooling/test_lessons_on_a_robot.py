@@ -137,3 +137,24 @@ def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_p
     assert "The joystick is late: stop" in found["errors"]
     speeds = found["heard"]["/cmd_vel"]
     assert max(speeds) == 0.4 and speeds[-1] == 0.0
+
+
+@pytest.mark.soak
+def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path):
+    with robot("--world", "joint", "--headless") as joint:
+        listen = {"/joint_commands": ("std_msgs/msg/Float64", "data")}
+        names = ["JointPublisher", "JointSubscriber"]
+        found = told(joint, tmp_path / "errors", "08_joints", names, seconds=17, listen=listen)
+    assert found["ended"] == [0, 0]
+    assert found["heard"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
+    assert found["errors"].count("]: Received joint position: ") == 7
+    assert found["errors"].count("]: All positions are sent") == 1
+
+
+@pytest.mark.soak
+def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
+    with robot("--world", "arm", "--headless") as arm:
+        listen = {"/joint_states": ("sensor_msgs/msg/JointState", "header.stamp.sec")}
+        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], seconds=15, listen=listen)
+    assert found["ended"] == [0]
+    assert "]: The goal was reached." in found["errors"]

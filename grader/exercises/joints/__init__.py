@@ -2,7 +2,7 @@
 
 from grader.exercises.joints.arriving import arrive
 from grader.exercises.joints.crew import foreman, gymnast, teacher
-from grader.exercises.joints.designer import designer
+from grader.exercises.joints.designer import Designer, designer
 from grader.exercises.joints.drawing import draw
 from grader.exercises.joints.following import follow
 from grader.exercises.joints.lift import lift
@@ -12,6 +12,7 @@ from grader.exercises.joints.refusing import careful
 from grader.exercises.joints.watching import limits
 
 __all__ = [
+    "Designer",
     "arm_of",
     "arrive",
     "careful",

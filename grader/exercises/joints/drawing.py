@@ -39,8 +39,8 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
 def keeps_off_the_table(run: Recording) -> None:
     """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
     hint = (
-        "To every place there are two ways to bend the arm, mirrored. Of the two, take the one whose elbow "
-        "is on the figure's side, away from the table: elbow angle negative where y > 0, positive where y < 0."
+        "To every place there are two ways to bend the arm, mirrored. Take the one whose elbow "
+        "is on the figure's side, away from the table: its angle negative where y > 0, positive where y < 0."
     )
     if not _near(run, _line(run)[:1]):
         hint = "The tip doesn't come to the figure either, as the other line says: that one first."

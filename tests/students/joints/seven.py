@@ -122,3 +122,11 @@ class DestroysOnly(JointPublisher):
 
 class Float32Instead(JointPublisher):
     kind = Float32
+
+
+class NeverStarts(JointPublisher):
+    """Without a timer nobody calls send()."""
+
+    def __init__(self):
+        Node.__init__(self, "joint_publisher")
+        self.publisher = self.create_publisher(Float64, "/joint_commands", 10)
