@@ -26,7 +26,7 @@ def star(steps):
     corners = []
     for index in range(6):
         angle = 0.3 + index * 2 * math.tau / 5
-        corners.append((0.45 + 0.25 * math.cos(angle), 0.35 + 0.25 * math.sin(angle)))
+        corners.append((0.48 + 0.25 * math.cos(angle), 0.38 + 0.25 * math.sin(angle)))
     places = corners[:1]
     for index in range(5):
         (x0, y0), (x1, y1) = corners[index], corners[index + 1]
