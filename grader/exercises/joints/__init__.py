@@ -4,7 +4,7 @@ from grader.exercises.joints.arriving import arrive
 from grader.exercises.joints.crew import foreman, gymnast, teacher
 from grader.exercises.joints.designer import Designer, designer
 from grader.exercises.joints.drawing import draw
-from grader.exercises.joints.following import follow
+from grader.exercises.joints.following import trajectory
 from grader.exercises.joints.lift import lift
 from grader.exercises.joints.places import arm_of, desk_of, joint_of
 from grader.exercises.joints.publishing import seven
@@ -19,7 +19,6 @@ __all__ = [
     "designer",
     "desk_of",
     "draw",
-    "follow",
     "foreman",
     "gymnast",
     "joint_of",
@@ -27,4 +26,5 @@ __all__ = [
     "limits",
     "seven",
     "teacher",
+    "trajectory",
 ]

@@ -24,8 +24,8 @@ WAITS = (
     "that waits in a callback hears nothing, not even the answer."
 )
 
-follow = Exercise(
-    "follow", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher, seeds=(1, 2)
+trajectory = Exercise(
+    "trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher, seeds=(1, 2)
 )
 
 
@@ -36,14 +36,14 @@ class Lesson(NamedTuple):
     goal: Goal
 
 
-@follow.check(2)
+@trajectory.check(2)
 def sends_a_goal(run: Recording) -> None:
     """The node sends goals to /arm_controller/follow_joint_trajectory."""
     with hinting("Send it in the callback of /path: self.client.send_goal_async(goal, self.on_feedback)."):
         sends_goals(run, ACTION, TYPE)
 
 
-@follow.check(5, after=sends_a_goal)
+@trajectory.check(5, after=sends_a_goal)
 def by_their_names(run: Recording) -> list[Lesson]:
     """Each path becomes one goal: the same points, each joint under its own name."""
     lessons = _lessons(run)
@@ -57,24 +57,24 @@ def by_their_names(run: Recording) -> list[Lesson]:
     return lessons
 
 
-@follow.check(4, after=by_their_names)
+@trajectory.check(4, after=by_their_names)
 def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
     """From point to point, and from where the arm is to the first, the faster joint turns at 0.8 rad/s."""
     for _, goal in lessons:
-        trajectory, before, since = goal.request.trajectory, _positions_at(run, goal), 0.0
-        for number, point in enumerate(trajectory.points, start=1):
-            now = dict(zip(trajectory.joint_names, point.positions, strict=True))
+        sent, before, since = goal.request.trajectory, _positions_at(run, goal), 0.0
+        for number, point in enumerate(sent.points, start=1):
+            now = dict(zip(sent.joint_names, point.positions, strict=True))
             time = point.time_from_start.sec + point.time_from_start.nanosec / 1e9
             needed = max(abs(now[name] - before[name]) for name in now) / CRUISE
             if not needed - 0.01 <= time - since <= SLOW * needed + REST:
                 saw = f"{time - since:.3g} s (time_from_start is {time:.3g} s)"
-                hint = _why_time(trajectory.points, needed, time, since)
+                hint = _why_time(sent.points, needed, time, since)
                 where = f"point {number} of the goal at {goal.asked:.3g} s"
                 raise Missed(f"{needed:.3g} s or a little more on the way to {where}", saw, hint)
             before, since = now, time
 
 
-@follow.check(4, after=by_their_names)
+@trajectory.check(4, after=by_their_names)
 def tells_how_far_off(run: Recording, lessons: list[Lesson]) -> None:
     """With each feedback, the larger of the two joints' errors goes out on /worst_error, without a sign."""
     if not any(goal.feedback for _, goal in lessons):
@@ -94,7 +94,7 @@ def tells_how_far_off(run: Recording, lessons: list[Lesson]) -> None:
             )
 
 
-@follow.check(5, after=by_their_names)
+@trajectory.check(5, after=by_their_names)
 def tells_how_it_ended(run: Recording, lessons: list[Lesson]) -> None:
     """Each goal's end goes out on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     said = publishes(run, "/outcome", "std_msgs/msg/String")
@@ -132,9 +132,9 @@ def _lessons(run: Recording) -> list[Lesson]:
     return found
 
 
-def _by_name(trajectory: Any) -> list[dict[str, float]]:
-    names = list(trajectory.joint_names)
-    return [dict(zip(names, point.positions, strict=False)) for point in trajectory.points]
+def _by_name(path: Any) -> list[dict[str, float]]:
+    names = list(path.joint_names)
+    return [dict(zip(names, point.positions, strict=False)) for point in path.points]
 
 
 def _first_difference(wanted: list[dict], given: list[dict]) -> tuple[int, tuple[str, str]]:
