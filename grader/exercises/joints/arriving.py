@@ -62,7 +62,7 @@ def goes_to_all(run: Recording, orders: list[Order], _: None) -> None:
     """The joint is sent to all of the positions, in their order, each of them once."""
     wanted, told = _wanted(run), [one.position for one in orders]
     if len(told) != len(wanted) or any(abs(a - b) > 1e-6 for a, b in zip(told, wanted, strict=True)):
-        raise Missed(_listed(wanted), _listed(told), _why_not_all(told, wanted))
+        raise Missed(_listed(wanted), _listed(told), _why_not_all(orders, told, wanted))
 
 
 @arrive.check(2, after=(begins_with_the_first, goes_to_all))
@@ -134,7 +134,13 @@ def _why_early(orders: list[Order], gap: float) -> str:
     )
 
 
-def _why_not_all(told: list[float], wanted: list[float]) -> str:
+def _why_not_all(orders: list[Order], told: list[float], wanted: list[float]) -> str:
+    """The usual reasons for another list."""
+    if 1 < len(told) < len(wanted):
+        last = orders[-1].stamp
+        return (
+            f"The time is over before all had their turn, the last one at {last:.3g} s: don't wait so long."
+        )
     if len(told) < len(wanted):
         return (
             "It never counts as arrived. Compare the position, in radians, with the target, with a tolerance "

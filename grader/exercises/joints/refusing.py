@@ -27,6 +27,7 @@ class State(NamedTuple):
     stamp: Seconds
     position: float
     pulling: bool  # with all its might, and doesn't move
+    effort: float  # N m
 
 
 @careful.check(2)
@@ -88,8 +89,7 @@ def frees_what_is_stuck(run: Recording) -> None:
     jams = _jams(run)
     for state in jams:
         sent = [one for one in run.messages(COMMANDS) if state.stamp <= one.stamp < state.stamp + REACTION]
-        holds = [one for one in sent if abs(one.message.data - state.position) < HERE]
-        if not holds:
+        if not _is_held(run, state):
             raise Missed(
                 f"{state.position:.2f}, where it is stuck, on /joint_commands within {REACTION:g} s of "
                 f"{state.stamp:.3g} s",
@@ -126,6 +126,15 @@ def _is_wish(run: Recording, command: Heard) -> bool:
     return bool(wishes) and abs(wishes[-1].message.data - command.message.data) < 1e-6
 
 
+def _is_held(run: Recording, state: State) -> bool:
+    """Whether the lift that is stuck is told in time to stay where it is."""
+    return any(
+        state.stamp <= command.stamp < state.stamp + REACTION
+        and abs(command.message.data - state.position) < HERE
+        for command in run.messages(COMMANDS)
+    )
+
+
 def _is_answer(run: Recording, command: Heard) -> bool:
     """Whether the command holds the lift where it was stuck."""
     return any(
@@ -142,7 +151,7 @@ def _states(run: Recording) -> list[State]:
             message = heard.message
             index = list(message.name).index(JOINT)
             pulling = abs(message.effort[index]) >= EFFORT and abs(message.velocity[index]) < 1e-6
-            found.append(State(heard.stamp, message.position[index], pulling))
+            found.append(State(heard.stamp, message.position[index], pulling, message.effort[index]))
     return found
 
 
@@ -186,6 +195,8 @@ def _why_beyond(run: Recording, lower: float, upper: float) -> str:
 
 def _why_not_freed(run: Recording, state: State) -> str:
     later = [one for one in run.messages(COMMANDS) if one.stamp >= state.stamp and not _is_wish(run, one)]
+    if state.effort < 0 and any(one.effort > 0 and _is_held(run, one) for one in _jams(run)):
+        return "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit."
     if later and abs(later[0].message.data - state.position) < HERE:
         return "That is late: half a second of pulling without a movement is enough to know."
     if later:
