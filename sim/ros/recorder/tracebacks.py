@@ -8,8 +8,9 @@ import traceback
 from pathlib import Path
 from types import FrameType
 
-# Code that is no student's: this package, installed libraries, Python's own.
-_LIBRARIES = (str(Path(__file__).parents[2]), *sysconfig.get_paths().values(), "<frozen ")
+_COURSE = Path(__file__).parents[3]
+# Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
+_LIBRARIES = (str(_COURSE / "sim"), str(_COURSE / "interfaces"), *sysconfig.get_paths().values(), "<frozen ")
 
 
 def is_library(filename: str) -> bool:
