@@ -16,7 +16,7 @@ WHO = "default_authority"  # a message doesn't say who sent it
 
 
 class TransformListener:
-    """Listens to transforms for as long as somebody keeps it: self.listener = TransformListener(...)."""
+    """Listens to transforms, until unregister is called."""
 
     def __init__(
         self,

@@ -1,0 +1,139 @@
+"""Nodes that follow a leader: right ones, and wrong ones named by their defect."""
+
+import math
+
+import rclpy
+import tf2_geometry_msgs
+from geometry_msgs.msg import PointStamped, Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformException, TransformListener
+
+
+class Follower(Node):
+    """As one would write it; the wrong ones change one thing each."""
+
+    behind, own, leader, near = 1.0, "base_link", "leader/base_link", 0.1
+
+    def __init__(self):
+        super().__init__("follower")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.follow)
+
+    def follow(self):
+        try:
+            found = self.buffer.lookup_transform(self.own, self.leader, Time())
+        except TransformException as error:
+            self.get_logger().info(str(error))
+            self.publisher.publish(Twist())
+            return
+        self.drive(*self.goal(found))
+
+    def goal(self, found):
+        point = PointStamped()
+        point.point.x = -self.behind
+        moved = tf2_geometry_msgs.do_transform_point(point, found).point
+        return moved.x, moved.y
+
+    def drive(self, x, y):
+        command, distance, angle = Twist(), math.hypot(x, y), math.atan2(y, x)
+        if distance > self.near:
+            command.linear.x = min(0.4, 1.5 * distance) * max(0.0, math.cos(angle))
+            command.angular.z = max(-1.5, min(1.5, 2.0 * angle))
+        self.publisher.publish(command)
+
+
+class ByHand(Follower):
+    """Computes the point from the quaternion itself."""
+
+    def goal(self, found):
+        shift, turn = found.transform.translation, found.transform.rotation
+        yaw = 2 * math.atan2(turn.z, turn.w)
+        return shift.x - math.cos(yaw), shift.y - math.sin(yaw)
+
+
+class ByTransform(Follower):
+    def follow(self):
+        point = PointStamped()
+        point.header.frame_id, point.point.x = "leader/base_link", -1.0
+        try:
+            moved = self.buffer.transform(point, "base_link").point
+        except TransformException:
+            return
+        self.drive(moved.x, moved.y)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Follower())
+
+
+class DrivesAtTheLeader(Follower):
+    behind = 0.0
+
+
+class HalfTheGap(Follower):
+    behind = 0.45
+
+
+class InFront(Follower):
+    behind = -1.0
+
+
+class Swapped(Follower):
+    own, leader = "leader/base_link", "base_link"
+
+
+class MisspeltFrame(Follower):
+    leader = "leader_base_link"
+
+
+class NeverRests(Follower):
+    near = 0.0
+
+    def drive(self, x, y):
+        command = Twist()
+        command.linear.x = 0.22
+        command.angular.z = max(-2.0, min(2.0, 3.0 * math.atan2(y, x)))
+        self.publisher.publish(command)
+
+
+class Slow(Follower):
+    def drive(self, x, y):
+        command = Twist()
+        command.linear.x, command.angular.z = 0.1, math.atan2(y, x)
+        self.publisher.publish(command)
+
+
+class OwnOdomForMap(Follower):
+    """Takes the numbers of two odometries for places on one map."""
+
+    here = there = None
+
+    def __init__(self):
+        super().__init__()
+        self.create_subscription(Odometry, "/odom", lambda msg: setattr(self, "here", msg.pose.pose), 10)
+        self.create_subscription(
+            Odometry, "/leader/odom", lambda msg: setattr(self, "there", msg.pose.pose), 10
+        )
+
+    def follow(self):
+        if not self.here or not self.there:
+            return
+        turn = self.here.orientation
+        yaw = 2 * math.atan2(turn.z, turn.w)
+        dx = self.there.position.x - self.here.position.x
+        dy = self.there.position.y - self.here.position.y
+        x, y = math.cos(yaw) * dx + math.sin(yaw) * dy, math.cos(yaw) * dy - math.sin(yaw) * dx
+        self.drive(x - 1.0, y)
+
+
+class Degrees(Follower):
+    def drive(self, x, y):
+        command = Twist()
+        command.linear.x = 0.2
+        command.angular.z = max(-2.0, min(2.0, math.degrees(math.atan2(y, x))))
+        self.publisher.publish(command)

@@ -1,0 +1,61 @@
+"""Ways to start the watcher: right ones, and wrong ones named by their defect."""
+
+import rclpy
+
+from grader.exercises.frames import Watcher
+from sim import Process
+
+
+def launch():
+    return Process(Watcher, parameters={"target": "scout"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
+
+
+def launch_in_a_namespace():
+    return Process(Watcher, parameters=[{"target": "scout"}], remappings=[("/cmd_vel", "/tower/cmd_vel")])
+
+
+def launch_with_words():
+    words = ["--ros-args", "-p", "target:=scout", "-r", "cmd_vel:=/tower/cmd_vel"]
+    return Process(Watcher, arguments=words)
+
+
+def main():
+    rclpy.init(args=["--ros-args", "-p", "target:=scout", "-r", "cmd_vel:=tower/cmd_vel"])
+    rclpy.spin(Watcher())
+
+
+def as_it_is():
+    return Process(Watcher)
+
+
+def target_alone():
+    return Process(Watcher, parameters={"target": "scout"})
+
+
+def remapping_alone():
+    return Process(Watcher, remappings=[("cmd_vel", "/tower/cmd_vel")])
+
+
+def misspelt_parameter():
+    return Process(Watcher, parameters={"targt": "scout"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
+
+
+def misspelt_robot():
+    return Process(Watcher, parameters={"target": "scouts"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
+
+
+def watches_itself():
+    return Process(Watcher, parameters={"target": "tower"}, remappings=[("cmd_vel", "/tower/cmd_vel")])
+
+
+def remapped_the_other_way():
+    return Process(Watcher, parameters={"target": "scout"}, remappings=[("/tower/cmd_vel", "cmd_vel")])
+
+
+def remapped_to_the_scout():
+    return Process(Watcher, parameters={"target": "scout"}, remappings=[("cmd_vel", "/scout/cmd_vel")])
+
+
+def another_name():
+    remappings = [("cmd_vel", "/tower/cmd_vel"), ("__node", "guard")]
+    return Process(Watcher, parameters={"target": "scout"}, remappings=remappings)
