@@ -101,6 +101,16 @@ class NeverRests(Follower):
         self.publisher.publish(command)
 
 
+class Silent(Follower):
+    def drive(self, x, y):
+        self.get_logger().info(f"{x:.2f} {y:.2f}", throttle_duration_sec=1.0)
+
+    def __init__(self):
+        super().__init__()
+        self.destroy_publisher(self.publisher)
+        self.publisher = self.create_publisher(Twist, "/follower/cmd_vel", 10)
+
+
 class Slow(Follower):
     def drive(self, x, y):
         command = Twist()

@@ -116,6 +116,11 @@ class SaysNothing(Placer):
         self.get_logger().warning(str(error))
 
 
+class HearsNoFrames(Placer):
+    def listen(self):
+        """Leaves the buffer empty."""
+
+
 class StampedNow(Placer):
     def moved(self, msg):
         point = super().moved(msg)
