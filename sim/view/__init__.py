@@ -2,6 +2,7 @@
 
 from sim.view.animation import animate
 from sim.view.figure import png
+from sim.view.frames import plot_frames
 from sim.view.graph import plot_graph
 from sim.view.map import plot_map
 from sim.view.replay import replay
@@ -10,6 +11,7 @@ from sim.view.timeline import plot_logs, plot_signal, plot_topics
 
 __all__ = [
     "animate",
+    "plot_frames",
     "plot_graph",
     "plot_logs",
     "plot_map",

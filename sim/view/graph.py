@@ -54,7 +54,11 @@ def plot_graph(recording: Recording) -> GraphPlot:
 
     The `words` of what this returns say the same.
     """
-    shown = wiring(recording)
+    return drawn(wiring(recording))
+
+
+def drawn(shown: Wiring) -> GraphPlot:
+    """The picture of boxes and arrows, with the reasons for what is missing below."""
     sizes = {key: _size(box) for key, box in columns(shown)}
     layout = layered(sizes, shown.arrows)
     down = layout.along > WIDEST

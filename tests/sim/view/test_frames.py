@@ -1,0 +1,63 @@
+"""The picture of a tree of frames: what is in it, what is no tree, and that it says the same in words."""
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+
+from sim import run
+from sim.view import plot_frames, png
+from tests.sim.view.test_graph import red, texts
+
+
+def telling(*pairs, moving=()):
+    """A node that tells of frames, each a parent and a child."""
+
+    class Telling(Node):
+        def __init__(self):
+            super().__init__("telling")
+            self.static, self.moving = StaticTransformBroadcaster(self), TransformBroadcaster(self)
+            if pairs:
+                self.static.sendTransform([transform(*pair) for pair in pairs])
+            if moving:
+                self.create_timer(
+                    0.1, lambda: self.moving.sendTransform([transform(*pair) for pair in moving])
+                )
+
+    return Telling
+
+
+def transform(parent, child):
+    sent = TransformStamped(child_frame_id=child)
+    sent.header.frame_id, sent.transform.rotation.w = parent, 1.0
+    return sent
+
+
+def told(*nodes, **options):
+    return plot_frames(run(*nodes, seconds=1, quiet=True, **options))
+
+
+def test_it_shows_each_frame_in_its_parent_and_who_says_so():
+    figure = told(telling(("base_link", "base_scan"), moving=[("map", "odom")]), world="yard")
+    assert figure.words == (
+        "base_scan in base_link: static, /telling\nbase_link in odom: 20 Hz, /robot\nodom in map: 10 Hz, /telling"
+    )
+    assert {"map", "odom", "10 Hz, /telling", "base_scan", "static, /telling"} <= set(texts(figure))
+    assert red(figure) == []
+    assert figure._repr_png_() == (png(figure), {"alt": figure.words})
+
+
+def test_two_trees_are_told():
+    figure = told(telling(("map", "dock"), ("sea", "island")))
+    assert figure.words.endswith("Missing:\n1. There are 2 trees, and no way leads between map and sea.")
+
+
+def test_a_frame_with_two_parents_is_red():
+    other = telling(moving=[("map", "laser"), ("map", "base_link")])
+    figure = told(telling(("base_link", "laser")), other)
+    assert figure.words.endswith("Missing:\n1. laser has two parents, base_link and map: that is no tree.")
+    assert len(red(figure)) == 2
+
+
+def test_a_run_without_frames_says_so():
+    figure = told(telling())
+    assert (figure.words, texts(figure)) == ("No node told of a frame.", ["no frames"])
