@@ -2,9 +2,9 @@
 
 import math
 
+import tf2_geometry_msgs  # noqa: F401 - with it, Buffer.transform knows points
 from geometry_msgs.msg import PointStamped, TransformStamped, Twist
 from rclpy.node import Node
-import tf2_geometry_msgs  # noqa: F401 - with it, Buffer.transform knows points
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, TransformListener
 
 STARTS = {"odom": (-2.6, -1.8), "leader/odom": (-1.6, -1.8)}  # x and y in the map, m
@@ -19,6 +19,7 @@ class Localization(Node):
         self.broadcaster.sendTransform([self.start(frame, *place) for frame, place in STARTS.items()])
 
     def start(self, frame, x, y):
+        """Where a frame lies in the map; it is not turned."""
         sent = TransformStamped(child_frame_id=frame)
         sent.header.frame_id = "map"
         sent.transform.translation.x, sent.transform.translation.y = x, y
@@ -37,6 +38,7 @@ class Shadow(Node):
         self.create_timer(0.1, self.follow)
 
     def follow(self):
+        """Look up the point, and drive towards it; stand while there is no transform."""
         point, command = PointStamped(), Twist()
         point.header.frame_id, point.point.x = "leader/base_link", -1.0
         try:
