@@ -6,7 +6,7 @@ from importlib import metadata
 from pathlib import Path
 
 CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim")
+PACKAGES = ("grader", "sim", "interfaces")  # in the last is tf2_ros
 LIBRARIES = ("ros-jazzy-rclpy", "numpy", "pymunk", "ipython", "matplotlib")
 
 

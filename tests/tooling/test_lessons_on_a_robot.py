@@ -158,3 +158,10 @@ def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
         found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], seconds=15, listen=listen)
     assert found["ended"] == [0]
     assert "]: The goal was reached." in found["errors"]
+
+
+@pytest.mark.soak
+def test_the_follower_of_lesson_9_drives_after_its_carrot(yard, tmp_path):
+    found = told(yard, tmp_path / "errors", "09_frames", ["Carrot", "Follower"], seconds=4, listen=COMMANDS)
+    assert found["ended"] == [0, 0]
+    assert max(found["heard"]["/cmd_vel"]) > 0.2

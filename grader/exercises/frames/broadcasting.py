@@ -72,14 +72,25 @@ def hears_and_sends(run: Recording) -> None:
         publishes(run, "/tf", TF)
 
 
-@odometry.check(3, after=hears_and_sends)
-def names_both_frames(run: Recording) -> None:
-    """The parent is odom, the child base_link."""
-    _told(run)
-    named_right(list(sent_frames(run, "/tf")), "odom", "base_link", "/tf")
+@odometry.check(5, after=hears_and_sends)
+def puts_it_there(run: Recording) -> None:
+    """The parent is odom, the child base_link, and it is where the odometry has it, turned as it is."""
+    told = _told(run)
+    for sent, one in named_right(list(sent_frames(run, "/tf")), "odom", "base_link", "/tf"):
+        before = [message.pose.pose for stamp, message in told if stamp <= sent + 1e-6]
+        if not before:
+            continue
+        turn, position = before[-1].orientation, before[-1].position
+        wanted = position.x, position.y, 2 * math.atan2(turn.z, turn.w)
+        wanted = (*wanted[:2], math.remainder(wanted[2], math.tau))
+        if not is_turn(one.transform) or not alike(flat(one.transform), wanted):
+            hint = "Parts of rotation are those of pose.pose.orientation, all four. " + FULL_TURN
+            if math.dist(flat(one.transform)[:2], wanted[:2]) > 0.02:
+                hint = "translation is the position, pose.pose.position: x and y of the same message."
+            raise Missed(f"{place(wanted)} at {sent:.3g} s", place(flat(one.transform)), hint)
 
 
-@odometry.check(3, after=names_both_frames)
+@odometry.check(3, after=puts_it_there)
 def one_for_each(run: Recording) -> None:
     """Each odometry gives one transform, at once."""
     sent = [stamp for stamp, _ in sent_frames(run, "/tf")]
@@ -94,7 +105,7 @@ def one_for_each(run: Recording) -> None:
             )
 
 
-@odometry.check(3, after=names_both_frames)
+@odometry.check(4, after=puts_it_there)
 def stamps_it(run: Recording) -> None:
     """The transform has the odometry's stamp: when it was measured, and not when it was sent."""
     stamps = [_seconds(message.header.stamp) for _, message in _told(run)]
@@ -108,24 +119,6 @@ def stamps_it(run: Recording) -> None:
             )
             nearest = max((known for known in stamps if known <= sent), default=stamps[0])
             raise Missed(f"the stamp {nearest:.3f} s", f"{stamp:.3f} s", hint)
-
-
-@odometry.check(3, after=names_both_frames)
-def puts_it_there(run: Recording) -> None:
-    """base_link is where the odometry has the robot, and turned as it is."""
-    told = _told(run)
-    for sent, one in sent_frames(run, "/tf"):
-        before = [message.pose.pose for stamp, message in told if stamp <= sent + 1e-6]
-        if not before:
-            continue
-        turn, position = before[-1].orientation, before[-1].position
-        wanted = position.x, position.y, 2 * math.atan2(turn.z, turn.w)
-        wanted = (*wanted[:2], math.remainder(wanted[2], math.tau))
-        if not is_turn(one.transform) or not alike(flat(one.transform), wanted):
-            hint = "Parts of rotation are those of pose.pose.orientation, all four. " + FULL_TURN
-            if math.dist(flat(one.transform)[:2], wanted[:2]) > 0.02:
-                hint = "translation is the position, pose.pose.position: x and y of the same message."
-            raise Missed(f"{place(wanted)} at {sent:.3g} s", place(flat(one.transform)), hint)
 
 
 def _told(run: Recording) -> list[tuple[float, Odometry]]:

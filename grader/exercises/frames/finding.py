@@ -56,45 +56,18 @@ watch = Exercise(
 )
 
 
-@watch.check(1)
+@watch.check(2)
 def starts_the_watcher(run: Recording) -> None:
     """The watcher is started, as /watcher."""
     with hinting("launch hands back what is to be started: return Process(...), with frames.Watcher in it."):
         named(run, "/watcher")
 
 
-@watch.check(5, after=starts_the_watcher)
-def finds_its_target(run: Recording) -> None:
-    """It finds its target: it drives something, and waits no more."""
-    waits = [line for line in run.logs if not line.ours and line.level == "WARN" and line.stamp > 1.0]
-    sent = [one for topic in (OUT, STRANGER) for one in run.messages(topic) if not one.ours]
-    if waits and not sent:
-        hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
-        raise Missed("no warning after 1 s", f"“{waits[0].text}” at {waits[0].stamp:.3g} s", hint)
-    if not sent:
-        raise Missed("velocity commands", "none")
-
-
-@watch.check(4, after=starts_the_watcher)
-def leaves_others_alone(run: Recording) -> None:
-    """The other robot, which listens to /cmd_vel, is left alone."""
-    publishers = [end for end in run.graph.publishers(STRANGER) if not end.ours]
-    if publishers:
-        hint = (
-            "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
-            "from cmd_vel to the tower's own topic, sends it there."
-        )
-        raise Missed(
-            f"nobody of yours on {STRANGER}", f"{publishers[0].node} publishes there", hint, unsafe=True
-        )
-    begin, end = run.path[0], run.path[-1]
-    if math.dist((begin.x, begin.y), (end.x, end.y)) > STILL:
-        raise Missed("the other robot where it was", "it has been moved", unsafe=True)
-
-
-@watch.check(6, after=(finds_its_target, leaves_others_alone))
+@watch.check(10, after=starts_the_watcher)
 def faces_the_scout(run: Recording) -> None:
     """From 5 s on the tower faces the scout, within 0.3 rad."""
+    _waits_no_more(run)
+    _drives_nobody_else(run)
     publishes(run, OUT, "geometry_msgs/msg/Twist")
     for tower, scout in zip(run.tracks["tower"], run.tracks["scout"], strict=False):
         angle = math.atan2(scout.y - tower.y, scout.x - tower.x)
@@ -102,3 +75,34 @@ def faces_the_scout(run: Recording) -> None:
         if tower.stamp >= SETTLED and not off <= BAND:
             hint = "Which robot does it look at? `target` is the name of the one that drives: scout."
             raise Missed(f"at most {BAND:g} rad off the scout", f"{off:.2f} rad at {tower.stamp:.3g} s", hint)
+
+
+@watch.check(4, after=faces_the_scout)
+def leaves_others_alone(run: Recording) -> None:
+    """The other robot is left where it is."""
+    begin = run.path[0]
+    for pose in run.path:
+        if math.dist((begin.x, begin.y), (pose.x, pose.y)) > STILL:
+            hint = "That robot is not yours: send nothing on /cmd_vel."
+            raise Missed(
+                "the other robot where it was", f"it has moved by {pose.stamp:.3g} s", hint, unsafe=True
+            )
+
+
+def _waits_no_more(run: Recording) -> None:
+    """Raises Missed where the watcher still waits for a frame."""
+    waits = [line for line in run.logs if not line.ours and line.level == "WARN" and line.stamp > 1.0]
+    if waits:
+        hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
+        raise Missed("no warning after 1 s", f"“{waits[0].text}” at {waits[0].stamp:.3g} s", hint)
+
+
+def _drives_nobody_else(run: Recording) -> None:
+    """Raises Missed where all commands go to another robot."""
+    strange = [end for end in run.graph.publishers(STRANGER) if not end.ours]
+    if strange and not [end for end in run.graph.publishers(OUT) if not end.ours]:
+        hint = (
+            "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
+            "from cmd_vel to the tower's own topic, sends it there."
+        )
+        raise Missed(f"commands on {OUT}", f"{strange[0].node} publishes on {STRANGER}", hint, unsafe=True)

@@ -34,20 +34,7 @@ def hears_frames_and_drives(run: Recording) -> None:
         publishes(run, "/cmd_vel", TWIST, at_least=5)
 
 
-@follow.check(6, after=hears_frames_and_drives)
-def touches_nothing(run: Recording) -> None:
-    """The robot touches nothing, and nobody."""
-    if (nearest := _nearest(run)) > 1.5:
-        saw = f"it comes no nearer than {nearest:.2f} m to the leader"
-        raise Missed("a robot that follows, and touches nothing", saw, _why_off(run))
-    keeps_clear(
-        run,
-        "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.",
-    )
-    lasts(run, "/cmd_vel")
-
-
-@follow.check(10, after=hears_frames_and_drives, only="driving")
+@follow.check(11, after=hears_frames_and_drives, only="driving")
 def keeps_the_gap(run: Recording) -> None:
     """From 9 s on it is 0.7 m to 1.4 m from the leader, for nine tenths of the time."""
     gaps = [(pose.stamp, _gap(pose, leader)) for pose, leader in _pairs(run) if pose.stamp >= SETTLED]
@@ -57,12 +44,11 @@ def keeps_the_gap(run: Recording) -> None:
     if len(off) > 0.1 * len(gaps):
         stamp, gap = max(off, key=lambda row: abs(row[1] - GAP))
         saw = f"{gap:.2f} m at {stamp:.3g} s; outside in {len(off) / len(gaps):.0%} of the time"
-        credit = max(0.0, 0.6 - len(off) / len(gaps))
         expected = f"{NEAREST:g} m to {FARTHEST:g} m between the two robots"
-        raise Missed(expected, saw, _why_off(run), credit=credit, picture="path")
+        raise Missed(expected, saw, _why_off(run), picture="path")
 
 
-@follow.check(4, after=hears_frames_and_drives, only="parked")
+@follow.check(5, after=hears_frames_and_drives, only="parked")
 def stands_behind_one_who_stands(run: Recording) -> None:
     """Behind a leader that stands, it comes to stand itself, within 0.25 m of that point."""
     pose, leader = _pairs(run)[-1]
@@ -74,13 +60,19 @@ def stands_behind_one_who_stands(run: Recording) -> None:
         stands_still(run, last=2.0, tolerance=0.05)
 
 
+@follow.check(4, after=keeps_the_gap)
+def touches_nothing(run: Recording) -> None:
+    """The robot touches nothing, and nobody."""
+    keeps_clear(
+        run,
+        "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.",
+    )
+    lasts(run, "/cmd_vel")
+
+
 def _pairs(run: Recording) -> list[tuple[Pose, Pose]]:
     """The robot and the leader, at the same moments."""
     return list(zip(run.path, run.tracks["leader"], strict=False))
-
-
-def _nearest(run: Recording) -> float:
-    return min(_gap(pose, leader) for pose, leader in _pairs(run))
 
 
 def _gap(pose: Pose, leader: Pose) -> float:

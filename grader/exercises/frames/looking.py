@@ -118,7 +118,7 @@ def places_them(run: Recording) -> None:
             raise Missed(expected, f"({point.x:.2f}, {point.y:.2f}) m", _why(run, seen, (point.x, point.y)))
 
 
-@lookup.check(5, after=hears_sightings)
+@lookup.check(5, after=places_them)
 def tells_why_not(run: Recording) -> None:
     """Where it can't be had, the exception's name comes out on /refused (String), such as LookupException."""
     publishes(run, "/refused", STRING)
@@ -141,7 +141,7 @@ def tells_why_not(run: Recording) -> None:
             )
 
 
-@lookup.check(3, after=(places_them, tells_why_not))
+@lookup.check(3, after=tells_why_not)
 def goes_on(run: Recording) -> None:
     """Nothing else is said, and the node goes on to the end."""
     known, refused = (

@@ -52,16 +52,9 @@ def sends_static_transforms(run: Recording) -> None:
         publishes(run, STATIC, TF)
 
 
-@mount.check(4, after=sends_static_transforms)
-def names_both_frames(run: Recording) -> None:
-    """The parent is base_link, the child base_scan."""
-    _truth(run)
-    named_right(list(sent_frames(run, STATIC)), "base_link", "base_scan", STATIC)
-
-
-@mount.check(3, after=names_both_frames)
+@mount.check(5, after=sends_static_transforms)
 def puts_it_there(run: Recording) -> None:
-    """The lidar is where the mechanic says: x and y, in metres."""
+    """The parent is base_link, the child base_scan, and it is where the mechanic says: x and y."""
     wanted, (_, one) = (
         _truth(run),
         named_right(list(sent_frames(run, STATIC)), "base_link", "base_scan", STATIC)[-1],
@@ -74,7 +67,7 @@ def puts_it_there(run: Recording) -> None:
         )
 
 
-@mount.check(4, after=names_both_frames)
+@mount.check(5, after=puts_it_there)
 def turns_it(run: Recording) -> None:
     """It is turned as the mechanic says: a quaternion of length 1, for theta about z."""
     wanted, (_, one) = (
@@ -94,7 +87,7 @@ def turns_it(run: Recording) -> None:
         raise Missed(f"yaw {wanted[2]:.2f} rad", f"yaw {flat(one.transform)[2]:.2f} rad", hint)
 
 
-@mount.check(1, after=names_both_frames)
+@mount.check(2, after=puts_it_there)
 def says_it_once(run: Recording) -> None:
     """It is said once, and kept for all who come later."""
     sent = [heard for heard in run.messages(STATIC) if not heard.ours]

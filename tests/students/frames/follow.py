@@ -75,6 +75,18 @@ class DrivesAtTheLeader(Follower):
     behind = 0.0
 
 
+class RamsWhoStands(Follower):
+    """Drives at a leader that has stood for 2 s."""
+
+    still, last = 0, None
+
+    def goal(self, found):
+        place = self.buffer.lookup_transform("map", self.leader, Time()).transform.translation
+        self.still = self.still + 1 if place == self.last else 0
+        self.last, self.behind = place, 0.0 if self.still > 20 else 1.0
+        return super().goal(found)
+
+
 class HalfTheGap(Follower):
     behind = 0.45
 

@@ -1,9 +1,27 @@
 """Ways to start the watcher: right ones, and wrong ones named by their defect."""
 
 import rclpy
+from geometry_msgs.msg import Twist
 
 from grader.exercises.frames import Watcher
 from sim import Process
+
+PARTS = ("Both",)
+
+
+class Both(Watcher):
+    """Drives the other robot, too."""
+
+    def __init__(self):
+        super().__init__()
+        self.publisher = self.create_publisher(Twist, "/watched", 10)
+        self.other = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.linear.x = 0.1
+        self.other.publish(command)
 
 
 def launch():
@@ -52,10 +70,11 @@ def remapped_the_other_way():
     return Process(Watcher, parameters={"target": "scout"}, remappings=[("/tower/cmd_vel", "cmd_vel")])
 
 
-def remapped_to_the_scout():
-    return Process(Watcher, parameters={"target": "scout"}, remappings=[("cmd_vel", "/scout/cmd_vel")])
-
-
 def another_name():
     remappings = [("cmd_vel", "/tower/cmd_vel"), ("__node", "guard")]
     return Process(Watcher, parameters={"target": "scout"}, remappings=remappings)
+
+
+def drives_both():
+    """Both topics have the same name in the root, so the topic of one of them is set in the program."""
+    return Process(Both, parameters={"target": "scout"}, remappings=[("/watched", "/tower/cmd_vel")])
