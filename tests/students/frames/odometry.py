@@ -121,3 +121,9 @@ class ByTimer(Broadcaster):
 class Static(Broadcaster):
     def made(self):
         return StaticTransformBroadcaster(self)
+
+
+class Twice(Broadcaster):
+    def hear(self, odom):
+        super().hear(odom)
+        super().hear(odom)
