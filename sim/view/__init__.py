@@ -4,6 +4,7 @@ from sim.view.animation import animate
 from sim.view.figure import png
 from sim.view.graph import plot_graph
 from sim.view.map import plot_map
+from sim.view.pace import plot_jitter
 from sim.view.replay import replay
 from sim.view.scene import plot_path
 from sim.view.timeline import plot_logs, plot_signal, plot_topics
@@ -11,6 +12,7 @@ from sim.view.timeline import plot_logs, plot_signal, plot_topics
 __all__ = [
     "animate",
     "plot_graph",
+    "plot_jitter",
     "plot_logs",
     "plot_map",
     "plot_path",

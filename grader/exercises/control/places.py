@@ -7,17 +7,21 @@ import random
 from dataclasses import replace
 
 from sim import World
+from sim.world import LidarModel
 from sim.world.machines import CartPoleModel, Push
 
 WEAK = 3.0  # N, the motor of the cart that is sent to marks
 LONG = 30.0  # m of track
+NOISE, POOR = 0.002, 0.01  # rad, of the angle that is measured
 PUSHES = (6.0, 9.0), (12.0, 15.0)  # s, when somebody pushes
-PUSHED = 0.3, 0.5  # N s
+PUSHED = 0.7, 1.0  # N s
 
 
 def long_track(seed: int) -> World:
     """A cart that has room enough to roll away: of its pole, only the angle matters."""
-    return _cart("long_track", seed, _drawn(seed, track_length=LONG))
+    draw = random.Random(f"long_track {seed}")
+    figures = {"pole_length": draw.uniform(0.14, 0.17), "pole_friction": 0.0002, "track_length": LONG}
+    return _cart("long_track", seed, replace(_drawn(seed), **figures))
 
 
 def weak_cart(seed: int) -> World:
@@ -25,9 +29,14 @@ def weak_cart(seed: int) -> World:
     return _cart("weak_cart", seed, _drawn(seed, max_force=WEAK))
 
 
+def hopeless_cart(seed: int) -> World:
+    """A cart whose motor can't hold the pole."""
+    return _cart("hopeless_cart", seed, _drawn(seed, max_force=0.1, track_length=LONG))
+
+
 def work_cart(seed: int) -> World:
-    """The cart of the lesson."""
-    return _cart("work_cart", seed, CartPoleModel())
+    """A cart whose angle is measured poorly: nobody can leave its pole alone for long."""
+    return _cart("work_cart", seed, _drawn(seed, angle_noise=POOR))
 
 
 def pushed_cart(seed: int) -> World:
@@ -39,6 +48,7 @@ def pushed_cart(seed: int) -> World:
         Push(round(draw.uniform(*when), 2), round(side * draw.uniform(*PUSHED) / 0.1, 2))
         for when, side in zip(PUSHES, sides, strict=True)
     )
+    masses |= {"angle_noise": NOISE}
     model = CartPoleModel(pole_length=draw.uniform(0.25, 0.5), pushes=pushes, track_length=3.0, **masses)
     return _cart("pushed_cart", seed, model)
 
@@ -53,12 +63,14 @@ def ramp(seed: int) -> World:
         card="Picture: A hall that goes up towards the wall ahead.",
         bounds=(left, low, right, top),
         walls=tuple(itertools.pairwise(corners)),
+        lidar=LidarModel(noise=0.03),
     )
 
 
 def _drawn(seed: int, **figures: float) -> CartPoleModel:
     """A cart that is a little lighter or heavier than the lesson's, with a pole that differs more."""
     draw = random.Random(f"cart {seed}")
+    figures.setdefault("angle_noise", NOISE)
     return CartPoleModel(
         cart_mass=draw.uniform(0.45, 0.6),
         pole_mass=draw.uniform(0.08, 0.13),
