@@ -56,7 +56,7 @@ def _title(
     deadline: Seconds | None,
     late: list[tuple[Seconds, float]],
 ) -> str:
-    spread = statistics.pstdev(gap for _, gap in gaps)
+    spread = round(statistics.pstdev(gap for _, gap in gaps), 6)  # no noise of the sums
     parts = [f"{topic}: {rate(moments):.3g} Hz", f"jitter {spread:.2g} ms"]
     if deadline is not None:
         parts.append(f"{len(late)} {'deadline' if len(late) == 1 else 'deadlines'} missed")

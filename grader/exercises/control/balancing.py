@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from grader.checks import Missed, fell_at, keeps_deadline, publishes, stands
-from grader.checks.control import EFFORT, FALLEN
+from grader.checks.control import EFFORT
 from grader.exercise import Exercise, Scenario
 from grader.exercises.control.places import hopeless_cart, long_track
 from sim.evidence import Recording
 
 FLOAT = "std_msgs/msg/Float64"
-LIMIT, EXACT = 0.035, 0.03  # s
+STOOD = "/stood"
+RATE, LIMIT = 100, 0.035  # Hz, s
+EXACT, TRACKED = 0.03, 0.05  # s: of what is said, and how often the truth is written down
 IN_TIME = (
     "Publish in the callback of /joint_states, which comes 100 times a second, and wait for nothing there."
 )
@@ -44,29 +46,37 @@ def pushes_in_time(run: Recording) -> None:
 
 
 @balance.check(2, after=keeps_it_up, only="stands")
-def says_nothing_while_it_stands(run: Recording) -> None:
-    """While the pole stands, nothing is said on /fallen."""
+def counts_while_it_stands(run: Recording) -> None:
+    """With each joint state, /stood says how long the pole has stood, while it stands."""
     fell = fell_at(run)
-    said = run.during(0.0, run.ended.stamp if fell is None else fell).messages("/fallen")
-    if said:
-        hint = "Say it when the angle is beyond 0.5 rad to either side, and not before."
-        raise Missed("nothing on /fallen", f"{said[0].message.data:.3g} at {said[0].stamp:.3g} s", hint)
+    end = run.ended.stamp if fell is None else fell
+    said = [heard for heard in publishes(run, STOOD, FLOAT) if heard.stamp < end]
+    wrong = [heard for heard in said if abs(heard.message.data - heard.stamp) > EXACT]
+    if wrong:
+        stamp, told = wrong[0].stamp, wrong[0].message.data
+        raise Missed(f"{stamp:.3g} s on {STOOD} at {stamp:.3g} s", f"{told:.3g}", _why_wrong(told, stamp))
+    if len(said) < 0.9 * RATE * end:
+        hint = "Publish it each time a joint state comes."
+        raise Missed(f"{RATE} messages a second on {STOOD}", f"{len(said)} in {end:.3g} s", hint)
 
 
 @balance.check(3, after=pushes, only="falls")
-def tells_how_long_it_stood(run: Recording) -> None:
-    """Where the motor is too weak, /fallen says once how long the pole stood: until it leant by 0.5 rad."""
+def keeps_how_long_it_stood(run: Recording) -> None:
+    """Where the motor is too weak, /stood stays at how long the pole stood: until it leant by 0.5 rad."""
     fell = fell_at(run)
     if fell is None:
-        raise Missed(f"a pole that leans by {FALLEN:g} rad", "it stood", "The efforts were not the motor's.")
-    said = [heard.message.data for heard in publishes(run, "/fallen", FLOAT)]
-    expected = f"{fell:.2f} s on /fallen, within 0.05 s"
-    if not fell - 0.05 - EXACT <= said[0] <= fell + EXACT:  # the truth is looked at every 0.05 s
+        raise Missed("a pole that falls", "it stood", "The motor of this cart is too weak to do that.")
+    told = publishes(run, STOOD, FLOAT)[-1].message.data
+    if not fell - TRACKED - EXACT <= told <= fell + EXACT:
         hint = (
-            "In seconds, please."
-            if said[0] > 100 * fell
-            else "Count from the first joint state to the one at which the angle is beyond 0.5 rad."
+            "It goes on counting: what has fallen has fallen."
+            if abs(told - run.ended.stamp) < 0.1
+            else _why_wrong(told, fell)
         )
-        raise Missed(expected, f"{said[0]:.3g}", hint)
-    if len(said) > 1:
-        raise Missed("one message", f"{len(said)}", "Remember that you have said it.")
+        raise Missed(f"{fell:.2f} s on {STOOD} at last, within {TRACKED + EXACT:g} s", f"{told:.3g}", hint)
+
+
+def _why_wrong(told: float, right: float) -> str:
+    if told > 100 * right:
+        return "In seconds, please."
+    return "Count from the first joint state to the one at which the angle is beyond 0.5 rad, to either side."
