@@ -16,7 +16,7 @@ FLOAT = "std_msgs/msg/Float64"
 WEIGHT = 0.2
 TARGET, BEYOND, NEAR = 0.6, 0.12, 0.03  # m
 LAST = 4.0  # s
-CLOSE = 1e-3  # m
+CLOSE, SAME = 1e-3, 1e-9  # m
 WIND_UP = (
     "All the way to the wall the error is large and the motor at its limit: the sum grows and grows, and "
     "has to be worn off behind the goal. While the speed is cut, don't add to the sum."
@@ -42,7 +42,7 @@ def filters(run: Recording) -> None:
     if not raw:
         raise silence(run, "scans", "none", run.graph.publishers("/scan"))
     # The first scans may be sent before the node is there; a scan in the end may be unanswered.
-    first = next((n for n in range(min(len(raw), 6)) if abs(said[0] - raw[n]) < CLOSE), 0)
+    first = next((n for n in range(min(len(raw), 6)) if abs(said[0] - raw[n]) < SAME), 0)
     raw = raw[first:]
     if not len(raw) - 2 <= len(said) <= len(raw):
         hint = "Publish in the callback of /scan, each time it is called."
