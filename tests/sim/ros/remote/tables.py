@@ -16,7 +16,9 @@ from sim.ros.remote import RemoteLost
 from tests.exercises.score_tables import page, shown, students
 from tests.sim.ros.remote.apart import Apart
 
-ASSIGNMENTS = ("nodes", "topics", "services", "actions", "sensing", "navigator", "silence", "joints")
+ASSIGNMENTS = (
+    *("nodes", "topics", "services", "actions", "sensing", "navigator", "silence", "joints", "control"),
+)
 # They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")
 
