@@ -20,8 +20,8 @@ balance = Exercise(
     "balance",
     "P falls, PD stands",
     scenarios=[
-        Scenario(long_track, 12, seed=1, name="stands"),
-        Scenario(long_track, 12, seed=2, name="stands"),
+        Scenario(long_track, 10, seed=1, name="stands"),
+        Scenario(long_track, 10, seed=2, name="stands"),
         Scenario(hopeless_cart, 4, seed=1, name="falls"),
     ],
 )
@@ -35,7 +35,7 @@ def pushes(run: Recording) -> None:
 
 @balance.check(8, after=pushes, only="stands")
 def keeps_it_up(run: Recording) -> None:
-    """The pole stands for 12 s."""
+    """The pole stands for 10 s."""
     stands(run)
 
 

@@ -14,14 +14,17 @@ from sim.evidence import Recording
 
 FLOAT = "std_msgs/msg/Float64"
 WEIGHT = 0.2
-TARGET, BEYOND, NEAR = 0.6, 0.12, 0.03  # m
+TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
 LAST = 4.0  # s
 CLOSE, SAME = 1e-3, 1e-9  # m
 WIND_UP = (
     "All the way to the wall the error is large and the motor at its limit: the sum grows and grows, and "
     "has to be worn off behind the goal. While the speed is cut, don't add to the sum."
 )
-SIGN = "Is the sign of the error right? Far from the wall the speed has to be positive."
+SIGN = (
+    "The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is the "
+    "sign right, and P large enough?"
+)
 GOAL = "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall."
 
 gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2))
@@ -55,24 +58,25 @@ def filters(run: Recording) -> None:
             raise Missed(f"{right:.3f} m as number {number} on /distance", f"{one:.3f} m", hint)
 
 
-@gap.check(2, after=speaks)
+@gap.check(4, after=speaks)
+def does_not_run_into_the_wall(run: Recording) -> None:
+    """The robot comes to the wall, up to 0.85 m or less, and never nearer than 0.48 m. It touches nothing."""
+    wall, hint = run.world.bounds[2], _why_too_near(run)
+    keeps_clear(run, hint)
+    nearest, stamp = min((wall - pose.x, pose.stamp) for pose in run.path)
+    last = wall - run.path[-1].x
+    if last > COMES:
+        raise Missed(f"{COMES:g} m or less to the wall at the end", f"{last:.2f} m", SIGN, picture="path")
+    if nearest < TARGET - BEYOND:
+        saw = f"{nearest:.2f} m at {stamp:.3g} s"
+        raise Missed(f"{TARGET - BEYOND:g} m or more to the wall", saw, hint, picture="path")
+
+
+@gap.check(2, after=does_not_run_into_the_wall)
 def keeps_within_the_limit(run: Recording) -> None:
     """No speed is beyond 0.3 m/s, either way."""
     with hinting(f"Cut it before you publish it: max(-{MOST:g}, min({MOST:g}, speed))."):
         within(run, "/speed", "data", -MOST, MOST, unit="m/s")
-
-
-@gap.check(4, after=speaks)
-def does_not_run_into_the_wall(run: Recording) -> None:
-    """The robot touches nothing, and comes no nearer than 0.48 m to the wall."""
-    wall, hint = run.world.bounds[2], _why_too_near(run)
-    keeps_clear(run, hint)
-    nearest, stamp = min((wall - pose.x, pose.stamp) for pose in run.path)
-    if run.path[0].x + 0.3 > max(pose.x for pose in run.path):
-        raise Missed("a robot that drives to the wall", "it stays where it was", SIGN)
-    if nearest < TARGET - BEYOND:
-        saw = f"{nearest:.2f} m at {stamp:.3g} s"
-        raise Missed(f"{TARGET - BEYOND:g} m or more to the wall", saw, hint, picture="path")
 
 
 @gap.check(4, after=does_not_run_into_the_wall)

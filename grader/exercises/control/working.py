@@ -22,7 +22,7 @@ ASIDE = (
     "the node: with one of the two alone nothing changes."
 )
 
-worker = Exercise("worker", "Out of the way", world=work_cart, seconds=12, companions=[Camera], seeds=(1, 2))
+worker = Exercise("worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2))
 
 
 @worker.check(2)
@@ -35,12 +35,12 @@ def hears_and_speaks(run: Recording) -> None:
 
 @worker.check(7, after=hears_and_speaks)
 def keeps_it_up(run: Recording) -> None:
-    """The pole stands for 12 s, while pictures come."""
+    """The pole stands for 10 s, while pictures come."""
     with hinting(ASIDE):
         stands(run)
 
 
-@worker.check(5, after=hears_and_speaks)
+@worker.check(5, after=keeps_it_up)
 def keeps_the_deadline(run: Recording) -> None:
     """An effort comes at least every 0.035 s, also while a picture is looked at."""
     sent = [heard.stamp for heard in run.messages(EFFORT)]

@@ -90,7 +90,21 @@ class POnly(Stopper):
 
 
 class NoLimit(Stopper):
+    """Leaves it to the motors to cut the speed."""
+
+    def speed(self, error):
+        super().speed(error)
+        return self.p * error + self.i * self.sum
+
+
+class NoLimitAtAll(Stopper):
     limit = math.inf
+
+
+class TooShy(Stopper):
+    """Stands where the slope pulls as hard as it."""
+
+    p, i = 0.1, 0.0
 
 
 class WeightsSwapped(Stopper):
