@@ -10,6 +10,17 @@ from grader.checks.actions import (
     serves_action,
 )
 from grader.checks.check import Check, Missed, check, hinting
+from grader.checks.control import (
+    fell_at,
+    keeps_deadline,
+    keeps_to_limits,
+    lean,
+    overshoots,
+    places,
+    settles,
+    stands,
+    still_stands,
+)
 from grader.checks.joints import commands_within, draws, keeps_off, tip_at, tip_path
 from grader.checks.judge import Verdict, judge
 from grader.checks.logs import Said, answers, come_every, logs
@@ -43,6 +54,7 @@ __all__ = [
     "commands_within",
     "draws",
     "ends_with_a_stop",
+    "fell_at",
     "finishes",
     "follows",
     "gives_feedback",
@@ -50,12 +62,17 @@ __all__ = [
     "hinting",
     "judge",
     "keeps_clear",
+    "keeps_deadline",
     "keeps_off",
+    "keeps_to_limits",
     "lasts",
+    "lean",
     "logs",
     "named",
     "no_errors",
+    "overshoots",
     "passes",
+    "places",
     "publishes",
     "rate",
     "rejects",
@@ -64,7 +81,10 @@ __all__ = [
     "series",
     "serves",
     "serves_action",
+    "settles",
+    "stands",
     "stands_still",
+    "still_stands",
     "subscribes",
     "tip_at",
     "tip_path",

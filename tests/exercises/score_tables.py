@@ -138,7 +138,7 @@ def graded(folder: str, assignment: str) -> dict[str, Answer]:
 
 def _answer(cell: NotebookNode) -> Answer:
     said, problems, points = [], [], None
-    for output in cell.outputs:
+    for output in _joined(cell.outputs):
         if output.output_type == "error" or output.get("name") == "stderr":
             problems.append(output.get("text") or "\n".join(output.traceback))
             continue
@@ -148,6 +148,18 @@ def _answer(cell: NotebookNode) -> Answer:
         said.append(output.get("text") or _plain(data.get("text/html", "")) or data.get("text/plain", ""))
     most = cell.metadata.get("nbgrader", {}).get("points", 0.0)
     return Answer(cell.source, most, points, "\n".join(said), "\n".join(problems))
+
+
+def _joined(outputs: list[NotebookNode]) -> list[NotebookNode]:
+    """The outputs, with what one print() wrote in one: a kernel may send it in pieces."""
+    joined: list[NotebookNode] = []
+    for output in outputs:
+        before = joined[-1] if joined else {}
+        if output.output_type == "stream" and output.name == before.get("name"):
+            joined[-1] = NotebookNode(output | {"text": before["text"] + output.text})
+        else:
+            joined.append(output)
+    return joined
 
 
 def _number(text: str) -> float | None:

@@ -14,6 +14,7 @@ from tests.exercises.cards import Card
 from tests.exercises.evidence import Evidence
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
+from tests.exercises.test_control import TestControl as Control
 from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_navigator import TestNavigator as Navigator
@@ -24,7 +25,7 @@ from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
-    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence, Joints, Frames),
+    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence, Joints, Frames, Control),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 SECRET = "an instructor's"

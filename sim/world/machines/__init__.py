@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from sim.world.machines.arm import Arm, ArmModel, ReachError
-from sim.world.machines.cart_pole import CartPole, CartPoleModel, State
+from sim.world.machines.cart_pole import CartPole, CartPoleModel, Push, State
 from sim.world.machines.joint import Joint
 from sim.world.machines.machine import Machine
 from sim.world.machines.servo import JointModel
@@ -42,6 +42,7 @@ __all__ = [
     "Joint",
     "JointModel",
     "Kind",
+    "Push",
     "ReachError",
     "State",
     "Trajectory",

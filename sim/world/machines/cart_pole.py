@@ -10,7 +10,7 @@ import numpy as np
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, Pose, Site, bar
-from sim.world.model import Angle, Length, Model, at_least, positive, within
+from sim.world.model import Angle, Length, Model, Wanted, at_least, positive, within
 from sim.world.robot import DT, RATE, CommandError
 
 GRAVITY = 9.81
@@ -40,6 +40,15 @@ class State(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Push(Model):
+    """Somebody pushes the cart: from a moment on (s), for so long (s), with this force (N, to the right)."""
+
+    begin: Annotated[float, at_least(0, "s")]
+    force: Annotated[float, within(-1000, 1000, "N")]
+    seconds: Annotated[float, positive("s", 1000)] = 0.1
+
+
+@dataclass(frozen=True)
 class CartPoleModel(Model):
     """A cart of one mass and a pole whose mass is all at its tip, seen from the side (m, kg, s, rad, N).
 
@@ -54,6 +63,7 @@ class CartPoleModel(Model):
         max_force: the motor's greatest, either way.
         command_timeout: after so long without a command the motor is off.
         position_noise, angle_noise: standard deviations of what is measured (m, rad).
+        pushes: what others do to the cart; their forces come on top of the motor's.
     """
 
     cart_mass: Annotated[float, within(0.01, 1000, "kg")] = 0.5
@@ -68,6 +78,7 @@ class CartPoleModel(Model):
     command_timeout: Annotated[float, positive("s", 1000)] = 0.2
     position_noise: Annotated[float, at_least(0, "metres")] = 0.0
     angle_noise: Annotated[float, at_least(0, "radians")] = 0.0
+    pushes: Annotated[tuple[Push, ...], Wanted("a list of Push")] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -126,7 +137,7 @@ class CartPole(Machine):
         self._rng = np.random.Generator(np.random.PCG64(seed))
         spread = self.model.start_spread
         self.state = State(0.0, self.model.start_angle + self._rng.uniform(-spread, spread), 0.0, 0.0)
-        self._force = 0.0
+        self._force = self._pushed = 0.0
         self._steps_left = 0
 
     @property
@@ -164,6 +175,10 @@ class CartPole(Machine):
             self._steps_left -= 1
         else:
             self._force = 0.0
+        self._pushed = 0.0
+        for push in self.model.pushes:
+            if push.begin <= self.time < push.begin + push.seconds:
+                self._pushed += push.force
         for _ in range(_SUBSTEPS):
             self.state = self._moved(self.state, _H)
 
@@ -186,7 +201,7 @@ class CartPole(Machine):
 
     def _integrated(self, state: State, h: float, held: bool) -> State:
         """The state h seconds later by the classic Runge-Kutta method of order 4."""
-        accelerations, force = self.model.accelerations, self._force
+        accelerations, force = self.model.accelerations, self._force + self._pushed
         x, a, v, w = state
         half = h / 2
         dv1, dw1 = accelerations(state, force, held)

@@ -18,7 +18,7 @@ from tests.sim.ros.remote.apart import Apart
 
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "actions", "sensing"),
-    *("navigator", "silence", "joints", "frames"),
+    *("navigator", "silence", "joints", "frames", "control"),
 )
 # They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")

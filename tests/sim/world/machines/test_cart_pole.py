@@ -6,8 +6,8 @@ import random
 
 import pytest
 
-from sim.world import CommandError, WorldError
-from sim.world.machines import CartPoleModel, State
+from sim.world import CommandError, World, WorldError
+from sim.world.machines import CartPoleModel, Push, State
 from sim.world.machines.cart_pole import GRAVITY
 from tests.sim.world.machines.machines import alone, steps
 
@@ -195,6 +195,18 @@ def test_noise_has_its_standard_deviation_and_leaves_the_truth_alone():
     assert alone(FREE).measure() is not None
 
 
+def test_a_push_gives_cart_and_pole_its_momentum_and_ends():
+    pushes = (Push(0.5, 3.0, 0.1), Push(0.55, -1.0))
+    cart_pole = begun(State(0.0, 0.3, 0.0, 0.0), dataclasses.replace(FREE, pushes=pushes))
+    momentum = {}
+    for t in steps(cart_pole, 1):
+        _, angle, v, w = cart_pole.state
+        momentum[round(t, 2)] = (M + m) * v - m * LENGTH * math.cos(angle) * w
+    assert momentum[0.5] == pytest.approx(0.0, abs=EXACT)
+    assert momentum[0.55] == pytest.approx(0.15, abs=EXACT)
+    assert (momentum[0.65], momentum[1.0]) == pytest.approx((0.2, 0.2), abs=EXACT)
+
+
 def test_bodies_are_cart_and_pole_where_they_are():
     cart_pole = begun(State(0.5, 0.1, 0.0, 0.0))
     assert [(body.name, body.kind) for body in cart_pole.world.bodies] == [("cart", "cart"), ("pole", "link")]
@@ -209,6 +221,7 @@ def test_bodies_are_cart_and_pole_where_they_are():
         ({"pole_length": math.inf}, "pole_length is inf; write a number from 0.0001 to 1000 (metres)."),
         ({"max_force": "5"}, "max_force is '5'; write a number from 0.0001 to 1000 (N)."),
         ({"pole_length": 0.01}, "pole_length is 0.01; write at least 0.029 (metres) for these masses."),
+        ({"pushes": [1.0]}, "pushes is [1.0]; write a list of Push."),
         ({"cart_friction": 60}, "cart_friction is 60.0; write 50 (N per m/s) or less for this mass."),
         (
             {"pole_friction": 2},
@@ -220,3 +233,8 @@ def test_impossible_figures(values, sentence):
     with pytest.raises(WorldError) as caught:
         CartPoleModel(**values)
     assert str(caught.value) == f"CartPoleModel: {sentence}"
+
+
+def test_a_world_with_pushes_is_kept():
+    world = dataclasses.replace(World.load("cart_pole"), machine=CartPoleModel(pushes=[Push(1.0, 2.0)]))
+    assert World.from_data(world.to_data()) == world

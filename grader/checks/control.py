@@ -1,0 +1,154 @@
+"""Measures over a cart and its pole, and over when messages come: metres, radians, newtons, seconds."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from grader.checks.check import Missed
+from grader.checks.topics import publishes, within
+from grader.checks.work import worked_until
+from sim.evidence import Recording, Seconds
+
+EFFORT = "/cart_effort"
+FALLEN = 0.5  # rad: from there on no cart catches it
+Curve = list[tuple[Seconds, float]]
+WRONG_WAY = (
+    "From the first moment on the cart is pushed the wrong way. A positive angle leans to the left: then "
+    "the cart has to get under it, to the left, which is a negative effort."
+)
+TOO_WEAK = (
+    "It went down on the side where it leant from the first: the cart didn't get under it. Is the gain on "
+    "the angle large enough, and has the one on the rate the same sign?"
+)
+SWINGS = (
+    "It swung higher and higher. P alone does: D brakes, a gain on the rate at which the pole turns, and of "
+    "the same sign. If it is there, make it larger."
+)
+NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state comes."
+
+
+def lean(run: Recording) -> Curve:
+    """The pole's true angle over time, rad; 0 upright, counter-clockwise."""
+    poses = run.tracks.get("pole", [])
+    return [(pose.stamp, math.remainder(pose.yaw - math.pi / 2, math.tau)) for pose in poses]
+
+
+def places(run: Recording) -> Curve:
+    """The cart's true place over time, m to the right of the middle."""
+    return [(pose.stamp, pose.x) for pose in run.tracks.get("cart", [])]
+
+
+def fell_at(run: Recording) -> Seconds | None:
+    """When the pole leant by more than 0.5 rad for the first time; None where it stood. Needs a pole."""
+    angles = lean(run)
+    if not angles:
+        raise ValueError("this run has no pole: give the exercise a world that has one")
+    return next((stamp for stamp, angle in angles if abs(angle) > FALLEN), None)
+
+
+def stands(run: Recording) -> None:
+    """The pole stands to the end. Raises Missed where it fell; with credit from half of the time on."""
+    fell = fell_at(run)
+    if fell is None:
+        return
+    share = fell / run.seconds
+    raise Missed(
+        f"a pole that stands for {run.seconds:g} s",
+        f"it fell: at {fell:.3g} s it leant by more than {FALLEN:g} rad",
+        _why_it_fell(run, fell),
+        credit=0.5 * share if share >= 0.5 else 0.0,
+    )
+
+
+def still_stands(run: Recording) -> None:
+    """Raises Missed where the pole fell: what is asked of a cart that carries it can't be judged then."""
+    fell = fell_at(run)
+    if fell is not None:
+        raise Missed(
+            "a pole that stands meanwhile", f"it fell at {fell:.3g} s", "First the pole has to stand."
+        )
+
+
+def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float) -> Seconds:
+    """How long it takes the cart, from the recording's begin on, to be near a place for good.
+
+    Raises Missed where it takes longer than `seconds`.
+    """
+    away = [stamp for stamp, x in places(run) if abs(x - target) > tolerance]
+    took = away[-1] - run.begin if away else 0.0
+    if took > seconds:
+        end, x = places(run)[-1]
+        raise Missed(
+            f"the cart within {tolerance * 100:g} cm of {target:.2f} m, from {seconds:g} s after "
+            f"{run.begin:.3g} s on",
+            f"it is further away until {away[-1]:.3g} s" if end > away[-1] else f"{x:.2f} m at {end:.3g} s",
+        )
+    return took
+
+
+def overshoots(run: Recording, target: float, *, most: float) -> float:
+    """How far (m) the cart goes beyond a place, as seen from where it is at the begin. Missed if too far."""
+    curve = places(run)
+    side = math.copysign(1.0, target - curve[0][1])
+    beyond = max((side * (x - target), stamp) for stamp, x in curve)
+    if beyond[0] > most:
+        raise Missed(
+            f"at most {most * 100:g} cm beyond {target:.2f} m",
+            f"{beyond[0] * 100:.0f} cm beyond it at {beyond[1]:.3g} s",
+        )
+    return max(beyond[0], 0.0)
+
+
+def keeps_to_limits(run: Recording, most: float) -> None:
+    """All efforts are numbers from -most to most, N. Raises Missed for the first that isn't."""
+    hint = f"Cut it before you publish it: max(-{most:g}, min({most:g}, effort))."
+    try:
+        within(run, EFFORT, "data", -most, most, unit="N")
+    except Missed as missed:
+        missed.hint = missed.hint or hint
+        raise
+
+
+def keeps_deadline(
+    run: Recording, topic: str, limit: Seconds, *, hint: str = "", begin: Seconds = 0.2
+) -> Seconds:
+    """The longest time between two messages, from `begin` on.
+
+    Raises Missed where it is longer than `limit`, with how often it was: each time is a missed deadline.
+    """
+    sent = [heard.stamp for heard in publishes(run, topic) if heard.stamp >= begin]
+    moments = [begin, *sent, max(worked_until(run), begin)]
+    late = [(b - a, a) for a, b in itertools.pairwise(moments) if b - a > limit + 1e-6]
+    if late:
+        longest, since = max(late)
+        raise Missed(
+            f"a message on {topic} at least every {limit:g} s",
+            f"{len(late)} {'deadline' if len(late) == 1 else 'deadlines'} missed, the worst by "
+            f"{longest - limit:.3g} s, after {since:.3g} s",
+            hint,
+            picture="topics",
+        )
+    return max((b - a for a, b in itertools.pairwise(moments)), default=0.0)
+
+
+def _why_it_fell(run: Recording, fell: Seconds) -> str:
+    """The causes that can be seen in the efforts and the cart."""
+    sent = [(heard.stamp, heard.message.data) for heard in run.messages(EFFORT) if heard.stamp < fell]
+    if not sent:
+        return NO_EFFORT
+    first = next((push for _, push in sent if push), 0.0)
+    if first * lean(run)[0][1] > 0:
+        return WRONG_WAY
+    gaps = [b - a for a, b in itertools.pairwise([stamp for stamp, _ in sent])]
+    slow = max(gaps, default=0.0)
+    if slow > 0.045:
+        return (
+            f"The efforts came too seldom: up to {slow:.2g} s passed between two of them. The pole falls "
+            "while nobody looks: push at each joint state, and let nothing hold the loop up."
+        )
+    end = run.world.machine.track_length / 2
+    if any(abs(x) > end - 0.01 for stamp, x in places(run) if stamp <= fell):
+        return "The cart rolled to the end of the track, which stopped it. Its place has to count, too."
+    swings = {angle > 0 for stamp, angle in lean(run) if stamp < fell and abs(angle) > 0.02}
+    return TOO_WEAK if len(swings) == 1 else SWINGS

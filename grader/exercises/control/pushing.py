@@ -1,0 +1,62 @@
+"""An exercise on what nobody knows beforehand: other masses, another pole, and somebody who pushes."""
+
+from __future__ import annotations
+
+from grader.checks import hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
+from grader.checks.check import Missed
+from grader.checks.control import EFFORT
+from grader.exercise import Exercise
+from grader.exercises.control.places import pushed_cart
+from sim.evidence import Recording
+
+LIMIT = 10.0  # N
+SOON, NEAR, STEADY = 3.0, 0.1, 0.05  # s, m, rad
+BACK = "More weight on the place brings it back sooner; with it, that on the speed has to grow."
+
+push = Exercise("push", "Whatever comes", world=pushed_cart, seconds=19, seeds=(1, 2))
+
+
+@push.check(2)
+def pushes(run: Recording) -> None:
+    """The node publishes efforts on /cart_effort."""
+    publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
+
+
+@push.check(7, after=pushes)
+def keeps_it_up(run: Recording) -> None:
+    """The pole stands for 19 s, though somebody pushes the cart twice."""
+    stands(run)
+
+
+@push.check(2, after=(pushes, keeps_it_up))
+def spares_the_motor(run: Recording) -> None:
+    """No effort is beyond 10 N, either way."""
+    keeps_to_limits(run, LIMIT)
+
+
+@push.check(3, after=keeps_it_up)
+def comes_back(run: Recording) -> None:
+    """Three seconds after each push the cart is back, within 10 cm of the middle, and stays there."""
+    still_stands(run)
+    for begin, end in _after_pushes(run):
+        with hinting(BACK):
+            settles(run.during(begin, end), 0.0, seconds=SOON, tolerance=NEAR)
+
+
+@push.check(2, after=keeps_it_up)
+def stands_quietly(run: Recording) -> None:
+    """And the pole stands quietly then: within 0.05 rad."""
+    still_stands(run)
+    for begin, end in _after_pushes(run):
+        rest = lean(run.during(begin + SOON, end))
+        stamp, angle = max(rest, key=lambda one: abs(one[1]), default=(begin, 0.0))
+        if abs(angle) > STEADY:
+            hint = "It swings for long: D brakes, and so does the speed of the cart."
+            raise Missed(f"at most {STEADY:g} rad", f"{angle:.2g} rad at {stamp:.3g} s", hint)
+
+
+def _after_pushes(run: Recording) -> list[tuple[float, float]]:
+    """From the end of each push to the next one, or to the end of the run."""
+    pushed = sorted(run.world.machine.pushes, key=lambda one: one.begin)
+    begins = [one.begin + one.seconds for one in pushed]
+    return list(zip(begins, [one.begin for one in pushed[1:]] + [run.ended.stamp], strict=True))

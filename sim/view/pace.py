@@ -1,0 +1,63 @@
+"""How evenly messages come: the time between one and the next."""
+
+from __future__ import annotations
+
+import itertools
+import statistics
+
+from sim.evidence import Recording, Seconds, rate, stamps
+from sim.view.figure import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, plot
+
+
+def plot_jitter(
+    recording: Recording, topic: str, *, period: Seconds | None = None, deadline: Seconds | None = None
+) -> Plot:
+    """The time from each message of a topic to the next, in milliseconds, over the time of the run.
+
+    period: what it should be, drawn as a line; the mean when left out. deadline: what it must not exceed;
+    gaps above it are red. The title says the rate, the jitter (the standard deviation), and how many
+    deadlines were missed.
+    Raises ValueError for fewer than two messages, and for a period or a deadline that isn't above 0.
+    """
+    moments = stamps(recording.messages(topic))
+    if len(moments) < 2:
+        known = ", ".join(recording.topics) or "no topics"
+        raise ValueError(f"jitter needs two messages; {topic} has {len(moments)}, and this run has {known}")
+    for name, value in (("period", period), ("deadline", deadline)):
+        if value is not None and not value > 0:
+            raise ValueError(f"the {name} is {value!r}; give seconds above 0, or leave it out")
+    gaps = [(after, 1000 * (after - before)) for before, after in itertools.pairwise(moments)]
+    limit = float("inf") if deadline is None else 1000 * deadline + 1e-6
+    late = [row for row in gaps if row[1] > limit]
+    should = 1000 * (
+        statistics.fmean(b - a for a, b in itertools.pairwise(moments)) if period is None else period
+    )
+    figure, axes = plot(7.2, 3.2)
+    axes.axhline(should, color=MUTED, linewidth=1.0, label="mean" if period is None else "period")
+    axes.plot(*zip(*gaps, strict=True), ".", color=PATH, markersize=4, label="time since the last")
+    if deadline is not None:
+        axes.axhline(1000 * deadline, color=CAUTION, linestyle="--", linewidth=1.0, label="deadline")
+    if late:
+        axes.plot(*zip(*late, strict=True), "x", color=WARNING, markersize=7, label="missed")
+    end = recording.ended.stamp or recording.seconds or moments[-1]
+    axes.set(
+        xlabel="time (s)", ylabel="ms", xlim=(0.0, end), title=_title(topic, moments, gaps, deadline, late)
+    )
+    axes.set_ylim(bottom=0.0)
+    axes.grid(color=GRID)
+    legend_beside(axes)
+    return figure
+
+
+def _title(
+    topic: str,
+    moments: list[Seconds],
+    gaps: list[tuple[Seconds, float]],
+    deadline: Seconds | None,
+    late: list[tuple[Seconds, float]],
+) -> str:
+    spread = round(statistics.pstdev(gap for _, gap in gaps), 6)  # no noise of the sums
+    parts = [f"{topic}: {rate(moments):.3g} Hz", f"jitter {spread:.2g} ms"]
+    if deadline is not None:
+        parts.append(f"{len(late)} {'deadline' if len(late) == 1 else 'deadlines'} missed")
+    return ", ".join(parts)
