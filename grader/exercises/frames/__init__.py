@@ -1,9 +1,9 @@
 """The exercises of 09_frames, from the place of a lidar to a follower, and transforms that come late."""
 
 from grader.exercises.frames.broadcasting import Wheels, odometry
+from grader.exercises.frames.delayed import SlowLocalization, delayed
 from grader.exercises.frames.finding import Watcher, watch
-from grader.exercises.frames.following import follow
-from grader.exercises.frames.late import SlowLocalization, late
+from grader.exercises.frames.following import behind
 from grader.exercises.frames.looking import Team, lookup
 from grader.exercises.frames.mounting import Mechanic, mount
 from grader.exercises.frames.partners import localization
@@ -15,9 +15,9 @@ __all__ = [
     "Team",
     "Watcher",
     "Wheels",
+    "behind",
     "convoy",
-    "follow",
-    "late",
+    "delayed",
     "localization",
     "lookup",
     "mount",

@@ -15,8 +15,8 @@ GAP, BAND = 1.0, 0.25  # m
 NEAREST, FARTHEST = 0.7, 1.4  # m
 SETTLED = 9.0  # s
 
-follow = Exercise(
-    "follow",
+behind = Exercise(
+    "behind",
     "Follow the leader",
     scenarios=[
         Scenario(convoy, 22, 1, companions=lambda seed: localization(convoy(seed)), name="driving"),
@@ -25,7 +25,7 @@ follow = Exercise(
 )
 
 
-@follow.check(2)
+@behind.check(2)
 def hears_frames_and_drives(run: Recording) -> None:
     """The node hears /tf and /tf_static, and sends Twist messages on /cmd_vel."""
     with hinting(guess="A TransformListener hears both topics. Publish in the timer's callback."):
@@ -34,7 +34,7 @@ def hears_frames_and_drives(run: Recording) -> None:
         publishes(run, "/cmd_vel", TWIST, at_least=5)
 
 
-@follow.check(11, after=hears_frames_and_drives, only="driving")
+@behind.check(11, after=hears_frames_and_drives, only="driving")
 def keeps_the_gap(run: Recording) -> None:
     """From 9 s on it is 0.7 m to 1.4 m from the leader, for nine tenths of the time."""
     gaps = [(pose.stamp, _gap(pose, leader)) for pose, leader in _pairs(run) if pose.stamp >= SETTLED]
@@ -48,7 +48,7 @@ def keeps_the_gap(run: Recording) -> None:
         raise Missed(expected, saw, _why_off(run), picture="path")
 
 
-@follow.check(5, after=hears_frames_and_drives, only="parked")
+@behind.check(5, after=hears_frames_and_drives, only="parked")
 def stands_behind_one_who_stands(run: Recording) -> None:
     """Behind a leader that stands, it comes to stand itself, within 0.25 m of that point."""
     pose, leader = _pairs(run)[-1]
@@ -60,7 +60,7 @@ def stands_behind_one_who_stands(run: Recording) -> None:
         stands_still(run, last=2.0, tolerance=0.05)
 
 
-@follow.check(4, after=keeps_the_gap)
+@behind.check(4, after=keeps_the_gap)
 def touches_nothing(run: Recording) -> None:
     """The robot touches nothing, and nobody."""
     keeps_clear(

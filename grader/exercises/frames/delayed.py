@@ -59,10 +59,10 @@ class SlowLocalization(Node):
         self.publisher.publish(point)
 
 
-late = Exercise("late", "Too early to ask", seconds=6, companions=[SlowLocalization], seeds=(1, 2))
+delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLocalization], seeds=(1, 2))
 
 
-@late.check(2)
+@delayed.check(2)
 def hears_detections(run: Recording) -> None:
     """The node hears /detection (PointStamped) and /tf."""
     with hinting(guess="A TransformListener hears /tf: TransformListener(self.buffer, self)."):
@@ -70,7 +70,7 @@ def hears_detections(run: Recording) -> None:
         subscribes(run, "/tf")
 
 
-@late.check(10, after=hears_detections)
+@delayed.check(10, after=hears_detections)
 def places_them(run: Recording) -> None:
     """Each detection comes out on /found (PointStamped), once and within 1.2 s: where it was then, in map."""
     hint = (
@@ -90,7 +90,7 @@ def places_them(run: Recording) -> None:
     _where_they_are(run)
 
 
-@late.check(4, after=places_them)
+@delayed.check(4, after=places_them)
 def waits_no_longer_than_needed(run: Recording) -> None:
     """It comes out as soon as its transform has come, within 0.2 s."""
     for seen in _seen(run):
