@@ -23,10 +23,11 @@ KNOBS = (
 )
 # Ubuntu's; it lets bubblewrap make a sandbox and confined processes none.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
+COURSE = "sim", "grader", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "tf_transformations"
 
 
 def visible(extra: Sequence[Path]) -> list[str]:
-    """Return what can be read inside besides the system: Python, its packages, sim and grader, and `extra`.
+    """Return what can be read inside besides the system: Python, its packages, the course's, and `extra`.
 
     Raises FileNotFoundError.
     """
@@ -40,13 +41,13 @@ def visible(extra: Sequence[Path]) -> list[str]:
 
 
 def _packages() -> list[Path]:
-    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in ("sim", "grader")]
+    return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in COURSE]
 
 
 def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, str]:
     """Return all environment variables of a confined process; nothing of the marker's own goes through.
 
-    imports: folders of modules besides Python's own, sim and grader.
+    imports: folders of modules besides Python's own and the course's.
     """
     modules = dict.fromkeys([*(str(package.parent) for package in _packages()), *imports])
     return {
@@ -55,7 +56,7 @@ def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, st
         "USER": "student",
         "PATH": f"{sys.prefix}/bin:/usr/bin:/bin",
         "LANG": "C.UTF-8",
-        "PYTHONPATH": os.pathsep.join(modules),  # the same sim and grader as here, wherever they are from
+        "PYTHONPATH": os.pathsep.join(modules),  # the same course as here, wherever it is from
         "PYTHONHASHSEED": "0",
         "PYTHONDONTWRITEBYTECODE": "1",
         "OPENBLAS_NUM_THREADS": "1",
