@@ -5,7 +5,7 @@ import math
 from typing import NamedTuple
 
 import pytest
-from geometry_msgs.msg import PointStamped, PoseStamped
+from geometry_msgs.msg import PointStamped, PoseStamped, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -117,8 +117,16 @@ def test_who_says_all_at_once_is_told_to_go_on():
 
 
 def test_who_never_lets_the_robot_get_free_is_told_so():
-    always_zero = students("sensing", "guard")["AlwaysZero"]
-    score = first_runs(sensing.guard, 1).judge(LocalCast([always_zero]), "an instructor's")
+    class TurnsToTheWall(students("sensing", "guard")["Guard"]):
+        left = 14
+
+        def decide(self):
+            self.left -= 1
+            command = Twist()
+            command.angular.z = -3.0 if self.left > 0 else 0.0
+            self.publisher.publish(command)
+
+    score = first_runs(sensing.guard, 1).judge(LocalCast([TurnsToTheWall]), "an instructor's")
     assert earned(score) == 3.0
     assert [tuple(miss)[1:] for miss in misses(score)] == [(
         "0.5 s or more in which all is well and 1 m are free ahead",
