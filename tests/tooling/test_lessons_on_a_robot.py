@@ -155,7 +155,8 @@ def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path)
 def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
     with robot("--world", "arm", "--headless") as arm:
         listen = {"/joint_states": ("sensor_msgs/msg/JointState", "header.stamp.sec")}
-        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], seconds=15, listen=listen)
+        says = ["]: The goal was reached."]
+        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, says=says)
     assert found["ended"] == [0]
     assert "]: The goal was reached." in found["errors"]
 
