@@ -53,7 +53,7 @@ def _refuse(node: Any) -> Fault | None:
         return unusable(f"an object of {name}", hint)
     if not callable(target):
         hint = "Give the class itself, by its name and without quotes."
-        return unusable(f"{reprlib.repr(target)}, which is no node", hint)
+        return unusable(f"{reprlib.repr(target)}, which is not a node", hint)
     return None
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol
+from typing import Any, NoReturn, Protocol
 
 from grader.admission import not_run, refusal, unusable
 from grader.diagnosis.fault import Fault
+from grader.workspace import building, place
+from grader.workspace.building import Build
+from grader.workspace.package import Package, make_package
 from sim.ros.remote import Remote, RemoteLost
 
 Prepare = Callable[[Any], Any]
@@ -26,12 +29,23 @@ class Cast(Protocol):
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
 
+    def package(self, name: str) -> Package | Fault:
+        """The package of this name in the workspace that was handed over, built anew and installed where its
+        programs live; or why there is none.
+        """
+
+    def leave(self) -> None:
+        """What `package` installed is needed no more."""
+
 
 class LocalCast:
-    """Programs in this process: Node classes, callables that return a node, main() functions."""
+    """Programs in this process: Node classes, callables that return a node, main() functions.
 
-    def __init__(self, nodes: Sequence[Any]) -> None:
-        self._nodes = nodes
+    Or the folder of a workspace, whose packages `build` builds.
+    """
+
+    def __init__(self, nodes: Sequence[Any], build: Build | None = None) -> None:
+        self._nodes, self._build = nodes, build or building.build
 
     def refusal(self) -> Fault | None:
         """As Cast."""
@@ -43,16 +57,27 @@ class LocalCast:
             return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
         return [prepare.func(node, *prepare.args) for node in self._nodes]
 
+    def package(self, name: str) -> Package | Fault:
+        """As Cast."""
+        made = make_package(name, place.told_sources(self._nodes, name), self._build)
+        if isinstance(made, Package):
+            place.install(made.built.files, made.built.programs)
+        return made
+
+    def leave(self) -> None:
+        """As Cast."""
+        place.leave()
+
 
 class RemoteCast:
     """Programs in the process at the other end of `remote`, which does as it likes.
 
-    secret: what the seeds of its own generators are made from.
+    secret: what the seeds of its own generators are made from. build: builds packages, on this side.
     Every method raises RemoteLost when that process is gone, silent, or sends what can't be.
     """
 
-    def __init__(self, remote: Remote, secret: str = "") -> None:
-        self._remote = remote
+    def __init__(self, remote: Remote, secret: str = "", build: Build | None = None) -> None:
+        self._remote, self._build = remote, build or _refuse_to_build
         remote.secret = secret.encode()
 
     def refusal(self) -> Fault | None:
@@ -70,6 +95,20 @@ class RemoteCast:
         function = prepare.func if isinstance(prepare, functools.partial) else prepare
         self._remote.preparation = [_name(function), *words] if function is not None else []
         return [self._remote]
+
+    def package(self, name: str) -> Package | Fault:
+        """As Cast; the other process is asked for the sources, and told what to install."""
+        made = make_package(name, self._remote.ask(_name(place.told_sources), name), self._build)
+        if isinstance(made, Package):
+            self._remote.ask(_name(place.installed), *place.told(made.built))
+        return made
+
+    def leave(self) -> None:
+        """As Cast: the other process ends soon, and it is the student's."""
+
+
+def _refuse_to_build(_: Any) -> NoReturn:
+    raise ValueError("a RemoteCast that is asked for a package needs its `build`")
 
 
 def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:

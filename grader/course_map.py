@@ -17,8 +17,8 @@ from grader.page import number
 
 PART = re.compile(r"(\d\d)_(\w+)")
 # What a notebook's first cell says of itself.
-TIME = re.compile(r"\*\*Time:\*\* ([^.\n]+)\.")
-NEEDS = re.compile(r"\*\*Before you begin:\*\* ([^.\n]+)\.")
+TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
+NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
 DONE = 0.9  # of a lesson's cells; who leaves out the rest has read it, too
 NEW_VERSION = "-new"  # ends the name of a newer version that came to lie beside the student's own
 
@@ -130,13 +130,18 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
     return Notebook(
         path=path,
         title=title,
-        time=next(iter(TIME.findall(text)), ""),
-        needs=next(iter(NEEDS.findall(text)), needs).replace("`", ""),
+        time=_phrase(TIME, text),
+        needs=_phrase(NEEDS, text) or needs,
         cells=len(code),
         run=sum(cell.get("execution_count") is not None for cell in code),
         points=sum(map(_earned, tests)),
         most=sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in tests),
     )
+
+
+def _phrase(pattern: re.Pattern[str], text: str) -> str:
+    """What the pattern finds first, on one line; "" without."""
+    return " ".join(next(iter(pattern.findall(text)), "").replace("`", "").split())
 
 
 def _earned(cell: dict[str, Any]) -> float:

@@ -11,9 +11,11 @@ from grader import seeds
 from grader.cast import Cast, LocalCast, Prepare
 from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
+from grader.diagnosis.fault import Fault
 from grader.quiet import quiet_stderr
 from grader.score import Score
-from grader.slips import mended, slips_of, with_half
+from grader.slips import in_what_was_sent, mended, retyped, slips_of, with_half
+from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
 from sim.network import Network
 
@@ -94,6 +96,8 @@ class Exercise:
     world, seconds, companions, until, network: the one scenario, run once for each of `seeds`.
     scenarios: in place of these, several scenarios; a check holds only if it holds in all that judge it.
     may_end: its programs come to their end when they are done; else the time after that is not earned.
+    package: the name of the package that is built and run. `grade` then takes the folder of a workspace,
+        `prepare` of each scenario says which of its programs runs, and checks are given a `PackageRun`.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -109,6 +113,7 @@ class Exercise:
     scenarios: Sequence[Scenario] = ()
     may_end: bool = False
     network: Network | None = None
+    package: str = ""
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -149,7 +154,7 @@ class Exercise:
                 raise ValueError(f"{where} is handed what {before.name} measures only in {places}")
         strange = set(item.only) - {scenario.name for scenario in self.scenarios}
         if strange:
-            raise ValueError(f"{where} holds in {strange.pop()!r}, which is no scenario of it")
+            raise ValueError(f"{where} holds in {strange.pop()!r}, which is not a scenario of it")
         self.checks.append(item)
         return item
 
@@ -185,19 +190,22 @@ class Exercise:
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
         with quiet_stderr():
-            refused = cast.refusal()
-            if refused:
+            found = cast.package(self.package) if self.package else cast.refusal()
+            if isinstance(found, Fault):
                 reason = "Not judged: there is nothing to run."
-                verdicts = [faulty(refused), *(skipped(item, reason) for item in self.checks)]
+                verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
                 return Score(self.name, verdicts, title=self.title)
-            return self._run_and_judge(cast, secret)
+            try:
+                return self._run_and_judge(cast, secret, found)
+            finally:
+                cast.leave()
 
-    def _run_and_judge(self, cast: Cast, secret: str) -> Score:
+    def _run_and_judge(self, cast: Cast, secret: str, package: Package | None) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
         for scenario, seed in self.runs(secret):
             try:
-                recording, verdicts = self._judged(scenario, seed, cast)
+                recording, verdicts = self._judged(scenario, seed, cast, package)
             except Exception as error:
                 recording = Recording(seed=seed)
                 verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
@@ -205,14 +213,19 @@ class Exercise:
             judged.append(verdicts)
         return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
 
-    def _judged(self, scenario: Scenario, seed: int, cast: Cast) -> tuple[Recording, list[Verdict]]:
+    def _judged(
+        self, scenario: Scenario, seed: int, cast: Cast, package: Package | None
+    ) -> tuple[Recording, list[Verdict]]:
         """One run and its verdicts; where it shows a slip, with half of what a run without it earns."""
         recording = scenario.run(cast, seed)
+        if package is not None:
+            recording = PackageRun.of(recording, package)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
         slips = slips_of(recording, verdicts)
         if not slips or scenario.prepare is not None:
             return recording, verdicts
-        again = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
-        return recording, with_half(
-            verdicts, judge(self.checks, again, scenario.name, may_end=self.may_end)
-        )
+        again = recording
+        if not in_what_was_sent(slips):
+            again = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
+        without = judge(self.checks, retyped(again, slips), scenario.name, may_end=self.may_end)
+        return recording, with_half(verdicts, without)

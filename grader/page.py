@@ -1,7 +1,8 @@
 """A score as HTML and as text.
 
-The HTML is one table with inline styles: no script, no class, no address. Text takes the page's colour and
-the marks have a middle brightness: light and dark themes show both well. Equal scores give equal bytes.
+The HTML is one table with inline styles: no script, no class, no address but that of a picture inside it.
+Text takes the page's colour and the marks have a middle brightness: light and dark themes show both well.
+Equal scores give equal bytes.
 """
 
 from __future__ import annotations
@@ -31,12 +32,15 @@ def html(
     verdicts: Sequence[Verdict],
     runs: Sequence[str] = (),
     note: str = "",
+    below: tuple[int, str] = (0, ""),
 ) -> str:
     """The table that Jupyter shows.
 
     runs: what to call each run, where there are several. note: a sentence on the points as a whole.
+    below: the index of a verdict, and HTML to stand below its words.
     """
-    rows = "".join(_row(verdict, runs) for verdict in verdicts)
+    more = {below[0]: below[1]}
+    rows = "".join(_row(verdict, runs, more.get(index, "")) for index, verdict in enumerate(verdicts))
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
@@ -93,11 +97,12 @@ def _points(verdict: Verdict) -> str:
     return f"{number(verdict.earned)} / {number(verdict.points)}" if verdict.points else ""
 
 
-def _row(verdict: Verdict, runs: Sequence[str]) -> str:
+def _row(verdict: Verdict, runs: Sequence[str], below: str) -> str:
     symbol, word, colour = MARKS[mark(verdict)]
     more = "".join(
         f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict, runs)
     )
+    more += below
     cell = "text-align: left; vertical-align: top"
     return (
         f'<tr><td style="{cell}; white-space: nowrap"><b style="color: {colour}">{symbol} {word}</b></td>'

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import base64
+import html
+import re
 from collections.abc import Sequence
 from typing import Any
 
 from grader.checks.judge import Verdict
 from sim.evidence import Recording
+from sim.evidence.connections import missing
+
+WORDS = 4_000  # characters that tell of a graph
 
 
 def draw(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> list[tuple[str, Any]]:
@@ -24,3 +30,39 @@ def _picture(kind: str, recording: Recording) -> tuple[str, Any]:
     if kind == "path":
         return "The robot's path, seen from above", recording.replay()
     return "What was published, and when", plot_topics(recording)
+
+
+def graph_of_a_miss(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> tuple[int, str]:
+    """Where a missing connection cost points: the index of that verdict, and the graph of its run as HTML.
+
+    It is the first miss whose words name a topic, service or action where an end of the student's doesn't
+    connect in its run; between programs of ours that is what the exercise is about. Else there is no HTML.
+    """
+    names: dict[int, set[str]] = {}  # by run
+    for index, verdict in enumerate(verdicts):
+        if verdict.status != "failed" or verdict.run >= len(recordings):
+            continue
+        recording = recordings[verdict.run]
+        if verdict.run not in names:
+            names[verdict.run] = _unconnected(recording)
+        words = " ".join((verdict.sentence, verdict.expected, verdict.saw, verdict.hint))
+        if any(re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", words) for name in names[verdict.run]):
+            return index, _folded_graph(recording)
+    return 0, ""
+
+
+def _unconnected(recording: Recording) -> set[str]:
+    pairs = [[end for end in (gap.given, gap.wanted) if end] for gap in missing(recording.graph)]
+    return {end.name for pair in pairs for end in pair if not all(end.ours for end in pair)}
+
+
+def _folded_graph(recording: Recording) -> str:
+    from sim.view import plot_graph, small_png
+
+    figure = plot_graph(recording)
+    picture = base64.b64encode(small_png(figure)).decode()
+    return (
+        "<details><summary>The graph of this run: what is missing is red</summary>"
+        f'<img src="data:image/png;base64,{picture}" alt="{html.escape(figure.words[:WORDS])}"'
+        ' style="max-width: 100%"></details>'
+    )

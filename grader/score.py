@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
+from functools import cached_property
 from typing import Any
 
 from grader import page
@@ -73,6 +74,17 @@ class Score(float):
 
         return draw(self.verdicts, self.recordings)
 
+    @cached_property
+    def _graph(self) -> tuple[int, str]:
+        """Which verdict the graph of its run explains, and that as HTML."""
+        from grader.pictures import graph_of_a_miss
+
+        with quiet_stderr():
+            try:
+                return graph_of_a_miss(self.verdicts, self.recordings)
+            except Exception:  # a picture is an extra: without it the points still have to be told
+                return 0, ""
+
     def as_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON; without the recordings."""
         verdicts = [{**asdict(verdict), "earned": verdict.earned} for verdict in self.verdicts]
@@ -105,7 +117,8 @@ class Score(float):
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        return page.html(self.title, float(self), self.max, self.verdicts, self._runs, self._note)
+        told = self.title, float(self), self.max, self.verdicts, self._runs, self._note
+        return page.html(*told, below=self._graph)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.

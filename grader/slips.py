@@ -1,21 +1,24 @@
-"""Slips of a number's type and of a name: what the program would have done without is worth half."""
+"""Slips of a name, of a number's type and of a topic's: what the program would have done is worth half."""
 
 from __future__ import annotations
 
+import ctypes
 import re
+import struct
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from grader.checks.judge import Verdict
 from sim import Process
-from sim.evidence import Recording
+from sim.evidence import Heard, Recording
 
 WORTH = 0.5  # of the points
 WHOLE_NUMBERS = "whole numbers"
 MENDED = "Judged as if the slip above were mended, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
+_PACKED = {"std_msgs/msg/Float32": ("<f", ctypes.c_float), "std_msgs/msg/Float64": ("<d", ctypes.c_double)}
 _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 
@@ -30,7 +33,7 @@ def slips_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
 def mended(program: Any, *slips: str) -> Process:
     """A student's program without these slips."""
     process = program if isinstance(program, Process) else Process(program)
-    names = [slip.split(":=") for slip in slips if slip != WHOLE_NUMBERS]
+    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip != WHOLE_NUMBERS]
     rules = [(wrong, right) for wrong, right in names]
     rules += [
         (f"{wrong}/_action/{part}", f"{right}/_action/{part}")
@@ -40,6 +43,35 @@ def mended(program: Any, *slips: str) -> Process:
     ]
     remappings = [*process.remappings, *rules]
     return replace(process, remappings=remappings, whole_numbers=WHOLE_NUMBERS in slips)
+
+
+def in_what_was_sent(slips: Sequence[str]) -> bool:
+    """Whether `retyped` mends all of these slips, and no run without them is needed."""
+    return all(map(_of_a_type, slips))
+
+
+def retyped(recording: Recording, slips: Sequence[str]) -> Recording:
+    """What was recorded, with what a student's program sent and declared in the type that was asked for."""
+    kinds = dict(slip.split(":=") for slip in slips if _of_a_type(slip))
+
+    def right(row: Any) -> Any:
+        if row.ours or row.type not in kinds:
+            return row
+        return row._replace(type=kinds[row.type], **_repacked(row, kinds[row.type]))
+
+    graph = replace(recording.graph, endpoints=[right(end) for end in recording.graph.endpoints])
+    return replace(recording, heard=[right(heard) for heard in recording.heard], graph=graph)
+
+
+def _repacked(row: Any, kind: str) -> dict[str, bytes]:
+    if not isinstance(row, Heard):
+        return {}
+    code, number = _PACKED[kind]
+    return {"raw": row.raw[:4] + struct.pack(code, number(row.message.data).value)}
+
+
+def _of_a_type(slip: str) -> bool:
+    return slip.partition(":=")[0] in _PACKED
 
 
 def with_half(given: Sequence[Verdict], without: Sequence[Verdict]) -> list[Verdict]:

@@ -15,7 +15,7 @@ from grader.notebooks import BadNotebook, normalised
 FOLDER = "work"
 GIVEN = ("course", "exercises")
 RECORD = ".given.json"  # by path: a digest of what was copied there last
-LEFT_BY_TOOLS = ("__pycache__", ".ipynb_checkpoints", "my_*")
+LEFT_BY_TOOLS = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws")
 
 
 def lay_out(course: Path) -> list[str]:

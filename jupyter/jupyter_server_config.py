@@ -1,5 +1,6 @@
 """JupyterLab as `make lab` starts it: the students' view of the course."""
 import os
+import sys
 from pathlib import Path
 
 from grader import workplace
@@ -24,4 +25,8 @@ c.ServerApp.jpserver_extensions = {
 }
 # The robot beside the code, Validate and more: written by hand, and loaded from here as it is.
 c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
+# A terminal knows colcon and ros2, as a cell does. A login shell, which Jupyter may start otherwise, would
+# forget it; and what colcon writes is sourced by bash.
+c.ServerApp.terminado_settings = {"shell_command": ["bash"]}
+os.environ["PATH"] = os.pathsep.join([os.path.join(sys.prefix, "bin"), os.environ.get("PATH", os.defpath)])
 os.environ["PYTHONSTARTUP"] = str(HERE / "kernel_start.py")  # kernels run it, too

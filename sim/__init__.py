@@ -5,13 +5,15 @@ from sim import environment
 environment.prepare()
 
 from sim import notebook  # noqa: E402
-from sim.evidence import Recording  # noqa: E402
+from sim.evidence import Recording, since_start  # noqa: E402
 from sim.network import Network  # noqa: E402
 from sim.play import play, replay  # noqa: E402
 from sim.ros.engine.program import Process  # noqa: E402
 from sim.ros.hooks.install import install  # noqa: E402
+from sim.ros.packages import executable  # noqa: E402
 from sim.ros.play.teleop import Teleop  # noqa: E402
 from sim.ros.run import run  # noqa: E402
+from sim.ros.sourcing import source  # noqa: E402
 from sim.ros2 import offer  # noqa: E402
 from sim.world import World  # noqa: E402
 
@@ -20,4 +22,15 @@ notebook.watch()
 install()  # after all imports: what the engine itself has bound are the real clocks
 offer()
 
-__all__ = ["Network", "Process", "Recording", "Teleop", "World", "play", "run"]
+__all__ = [
+    "Network",
+    "Process",
+    "Recording",
+    "Teleop",
+    "World",
+    "executable",
+    "play",
+    "run",
+    "since_start",
+    "source",
+]

@@ -7,17 +7,18 @@ import math
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from types import FrameType
 from typing import NoReturn
 
-from sim.ros.realtime import RealTimeRun
+from sim.ros.realtime import ArgumentsError, RealTimeRun, own_words
 from sim.world import World, WorldError
 
 DOMAIN = 42  # of its own: a plain `python node.py` elsewhere has 0
 LAST_DOMAIN = 101  # a greater one would need ports that Linux gives to others
 PORT, LAST_PORT = 8090, 65535
+PORTS = range(PORT, PORT + 10)  # without --port: the first of these that is free
 WRONG = 2  # exit status, as argparse's
 HEAR_IT = """
 In another terminal:
@@ -31,15 +32,16 @@ def main(words: list[str] | None = None) -> int:
     """Run until Ctrl-C or SIGTERM; the exit status."""
     stopped = threading.Event()
     _stop_on_signals(stopped)
-    options = _options(words)
+    words = sys.argv[1:] if words is None else words
     try:
+        options = _options(own_words(words))
         with (
-            RealTimeRun(_world(options), options.seed, options.domain) as run,
-            nullcontext() if options.headless else _page(run, options.port) as address,
+            RealTimeRun(_world(options), options.seed, options.domain, words) as run,
+            nullcontext() if options.headless else _page(run, _ports(options)) as address,
         ):
             print(_offer(run, address), flush=True)
             run.spin(stopped.is_set)
-    except (WorldError, PortError) as error:
+    except (WorldError, PortError, ArgumentsError) as error:
         print(error, file=sys.stderr)
         return WRONG
     return 0
@@ -50,18 +52,22 @@ class PortError(Exception):
 
 
 @contextmanager
-def _page(run: RealTimeRun, port: int) -> Iterator[str]:
+def _page(run: RealTimeRun, ports: Sequence[int]) -> Iterator[str]:
     """Show the run in browsers; the page's address."""
     from sim.standalone import LivePage  # here, for it brings libraries that a headless robot does without
 
     try:
-        page = LivePage(run, port)
+        page = LivePage(run, ports)
     except OSError as error:
         raise PortError(
-            f"Port {port} can't be used ({error.strerror}); choose another with --port."
+            f"Port {ports[-1]} can't be used ({error.strerror}); choose another with --port."
         ) from error
     with closing(page):
         yield page.address
+
+
+def _ports(options: argparse.Namespace) -> Sequence[int]:
+    return PORTS if options.port is None else [options.port]
 
 
 def _stop_on_signals(stopped: threading.Event) -> None:
@@ -77,7 +83,7 @@ class _Parser(argparse.ArgumentParser):
         self.exit(WRONG, f"{self.prog}: {message}\n")
 
 
-def _options(words: list[str] | None) -> argparse.Namespace:
+def _options(words: list[str]) -> argparse.Namespace:
     parser = _Parser(
         "python -m sim", description="A simulated robot as an ordinary ROS 2 process, in real time."
     )
@@ -86,10 +92,11 @@ def _options(words: list[str] | None) -> argparse.Namespace:
     domain = _number(f"a ROS domain is a whole number from 0 to {LAST_DOMAIN}", LAST_DOMAIN)
     port = _number(f"a port is a whole number from 0 to {LAST_PORT}", LAST_PORT)
     option("--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room")
-    option("--world-seed", type=seed, help="make a new room, maze or clutter from this number")
+    option("--world-seed", type=seed, help="make a new room, maze, clutter or warehouse from this number")
     option("--seed", type=seed, default=0, help="for the sensors' noise; default 0")
     option("--domain", type=domain, default=DOMAIN, help=f"ROS domain, 0 to {LAST_DOMAIN}; default {DOMAIN}")
-    option("--port", type=port, default=PORT, help=f"of the picture in a browser, 0 for any; default {PORT}")
+    free = f"default {PORT}, or the next that is free"
+    option("--port", type=port, help=f"of the picture in a browser, 0 for any; {free}")
     option("--headless", action="store_true", help="without the picture")
     return parser.parse_args(words)
 

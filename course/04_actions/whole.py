@@ -2,6 +2,7 @@
 
 import math
 import signal
+import time
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -100,6 +101,7 @@ def main(args=None):
         pass
     finally:
         node.send(0.0)
+        time.sleep(0.2)  # so that it gets there
         node.destroy_node()
         rclpy.try_shutdown()
 

@@ -14,8 +14,9 @@ from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.signals import SignalHandlerOptions
+from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
-from tf2_msgs.msg import TFMessage
+from tf2_ros import Buffer, TransformException, TransformListener
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 SPEED, NEAR = 0.4, 0.1  # m/s; m from the goal that are near enough
@@ -27,11 +28,11 @@ class Navigator(Node):
 
     def __init__(self):
         super().__init__("navigator")
-        self.frames = {}  # where each frame lies in the one above: x, y, yaw
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
         self.grid, self.path, self.goal = None, [], None
         self.plan_publisher = self.create_publisher(Path, "/plan", 10)
         self.command_publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(TFMessage, "/tf", self.on_tf, 10)
         self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
         self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
         self.create_timer(0.1, self.follow)
@@ -43,13 +44,7 @@ class Navigator(Node):
             cancel_callback=lambda goal_handle: CancelResponse.ACCEPT,
         )
 
-    # -- what it hears ---------------------------------------------------------------------------------
-
-    def on_tf(self, msg):
-        """Keep where the frames lie."""
-        for transform in msg.transforms:
-            place, turn = transform.transform.translation, transform.transform.rotation
-            self.frames[transform.child_frame_id] = place.x, place.y, yaw_of(turn)
+    # -- what it hears --
 
     def on_map(self, msg):
         """Keep the map, and a second copy for what the lidar sees beside it."""
@@ -59,27 +54,33 @@ class Navigator(Node):
         """Mark what is near, where the map has nothing."""
         if not self.is_ready:
             return
-        x, y, yaw = self.pose
+        try:
+            x, y, yaw = self.where(scan.header.frame_id, scan.header.stamp)
+        except TransformException:
+            return  # not known yet; the next scan comes soon
         for ray, distance in enumerate(scan.ranges):
             if scan.range_min < distance < 1.5 and ray % 3 == 0:
                 angle = yaw + scan.angle_min + ray * scan.angle_increment
                 self.mark(x + distance * math.cos(angle), y + distance * math.sin(angle))
 
-    # -- where it is -----------------------------------------------------------------------------------
+    # -- where it is --
 
     @property
     def is_ready(self):
         """Whether somebody has published the map, and where the robot is in it."""
-        return self.grid is not None and {"odom", "base_link"} <= self.frames.keys()
+        return self.grid is not None and self.buffer.can_transform("map", "base_link", Time())
 
     @property
     def pose(self):
-        """x, y and yaw in the frame map."""
-        (x0, y0, yaw0), (x, y, yaw) = self.frames["odom"], self.frames["base_link"]
-        cos, sin = math.cos(yaw0), math.sin(yaw0)
-        return x0 + cos * x - sin * y, y0 + sin * x + cos * y, yaw0 + yaw
+        """x, y and yaw of the robot in the map, as new as there is."""
+        return self.where("base_link", Time())
 
-    # -- obstacles and plans ---------------------------------------------------------------------------
+    def where(self, frame, stamp):
+        """x, y and yaw of a frame in the map at that time; raises TransformException where it isn't known."""
+        found = self.buffer.lookup_transform("map", frame, stamp).transform
+        return found.translation.x, found.translation.y, yaw_of(found.rotation)
+
+    # -- obstacles and plans --
 
     def mark(self, x, y):
         """Mark a point as occupied, and forget the path if it leads past there."""
@@ -101,8 +102,10 @@ class Navigator(Node):
         here, there = to_cell(info, *self.pose[:2]), to_cell(info, *goal)
         self.path = [to_point(info, *cell) for cell in search(rows, here, there)]
         self.plan_publisher.publish(path_message(self.path))
+        if not self.path:
+            self.cells = self.known.copy()  # recovery: forget the marks, and try again
 
-    # -- driving ---------------------------------------------------------------------------------------
+    # -- driving --
 
     def drive(self, speed, turn):
         """Command a velocity: m/s and rad/s."""
@@ -123,7 +126,7 @@ class Navigator(Node):
         else:
             self.drive(0.0, 0.0)
 
-    # -- the action ------------------------------------------------------------------------------------
+    # -- the action --
 
     def execute(self, goal_handle):
         """Set the goal, watch, and say how it ended. The timer drives."""
@@ -153,7 +156,7 @@ class Navigator(Node):
         return NavigateToPose.Result()
 
 
-# -- messages ------------------------------------------------------------------------------------------
+# -- messages --
 
 
 def stamped(x, y, yaw=0.0):
@@ -185,6 +188,7 @@ def main(args=None):
         pass
     finally:
         node.drive(0.0, 0.0)
+        time.sleep(0.2)  # so that it gets there
         node.destroy_node()
         rclpy.try_shutdown()
 

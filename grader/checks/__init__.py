@@ -37,12 +37,16 @@ from grader.checks.motion import (
 )
 from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.services import calls, responds, serves
+from grader.checks.shift import Job, Program, Shift, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
 
 __all__ = [
     "Check",
+    "Job",
     "Missed",
+    "Program",
     "Said",
+    "Shift",
     "Verdict",
     "accepts",
     "answers",
@@ -82,6 +86,7 @@ __all__ = [
     "serves",
     "serves_action",
     "settles",
+    "shift",
     "stands",
     "stands_still",
     "still_stands",

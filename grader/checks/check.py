@@ -23,7 +23,8 @@ class Missed(Exception):
     credit: the fraction 0..1 of the check's points that is earned all the same.
     picture: "path" or "topics" where a figure of the recording says more than words.
     measured: with a credit, what checks that come after this one are handed.
-    slip: a name that was misspelt, and how it is written.
+    slip: a name that was misspelt, and how it is written; or the type Float32 where Float64 was asked for, or
+        the other way round.
     unsafe: the robot did what may hurt somebody: then the exercise gives no more than a part of its points.
     """
 

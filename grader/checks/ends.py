@@ -8,6 +8,9 @@ from grader.checks.check import Missed
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
 from sim.nearest import closest, difference
 
+# As messages they are nearly the same.
+_FLOATS = {"std_msgs/msg/Float32", "std_msgs/msg/Float64"}
+
 
 class _Words(NamedTuple):
     """How to speak of one kind of end. other: the kind at the far end."""
@@ -41,7 +44,8 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
     wrong = next((end for end in found if type and end.type != type), None)
     if wrong:
         hint = f"Both ends of {_a(words.what)} must use the same {words.type}: on {name} it is {type}."
-        raise Missed(expected, f"type {wrong.type} on {name}", hint)
+        slip = (wrong.type, type) if kind == "publisher" and {wrong.type, type} == _FLOATS else None
+        raise Missed(expected, f"type {wrong.type} on {name}", hint, slip=slip)
     if not found:
         connected = {end.name for end in recording.graph.ends(words.other)}
         # a connected one is no slip

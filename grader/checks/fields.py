@@ -7,6 +7,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from sim.evidence import since_start
+
 LONGEST = 120  # characters of a message in words
 MOST = 8  # values of a list in words
 
@@ -24,6 +26,12 @@ def told(message: Any) -> str:
 def words(values: Mapping[str, Any]) -> str:
     """Values in words: "success=True, message='armed'"."""
     return ", ".join(f"{name}={value!r}" for name, value in values.items())
+
+
+def stamp_words(stamp: Any) -> str:
+    """The stamp of a message in words: when in the run that was, or just what it is where it was before."""
+    seconds = since_start(stamp)
+    return f"{seconds:.3f} s" if seconds >= 0 else words({"sec": stamp.sec, "nanosec": stamp.nanosec})
 
 
 def listed(values: Sequence[Any]) -> str:

@@ -33,7 +33,7 @@ def tip_at(recording: Recording, stamp: Seconds) -> Pose:
 def commands_within(
     recording: Recording, topic: str, field: str, lower: float, upper: float, hint: str = ""
 ) -> None:
-    """Nothing beyond a joint's limits (rad) is sent, nor anything that is no number; else it is unsafe.
+    """Nothing beyond a joint's limits (rad) is sent, nor anything that is not a number; else it is unsafe.
 
     Raises Missed with the first value outside, and this hint.
     """

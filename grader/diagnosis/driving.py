@@ -39,14 +39,14 @@ class Command(NamedTuple):
 
 
 def refused_command(recording: Recording) -> str:
-    """A command that is no number: the robot refuses it."""
+    """A command that is not a number: the robot refuses it."""
     for topic, commands in _of_robots(recording):
         for bad in commands:
             if not (math.isfinite(bad.v) and math.isfinite(bad.w)):
                 rays = rays_without_distance(recording, bad.sender, bad.stamp)
                 return (
                     f"{bad.sender} sent {bad.words} on {topic} at {bad.stamp:.3g} s, and the robot refuses "
-                    f"what is no finite number. {rays or 'Print what it is worked out from.'}"
+                    f"what is not a finite number. {rays or 'Print what it is worked out from.'}"
                 )
     return ""
 

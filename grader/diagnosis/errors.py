@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from grader.diagnosis.package_rules import PACKAGE_RULES
 from grader.diagnosis.parameter_rules import PARAMETER_RULES
 from grader.diagnosis.python_rules import PYTHON_RULES
 from grader.diagnosis.rules import RULES
@@ -46,7 +47,7 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
-    for rule in (*SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES, *PYTHON_RULES):
+    for rule in (*PACKAGE_RULES, *SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES, *PYTHON_RULES):
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:
             return rule.advice.format(*found.groups())

@@ -14,8 +14,11 @@ from sim.evidence import CallbackError, Ended, Recording
 _RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
 _THREAD = "thread "
 _UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
-# rclpy's own NotImplementedError, for SetBool() and Spin(): that is no exercise that is not started.
-_OF_A_TYPE = re.compile(r"classes can not be instantiated")
+# rclpy's own NotImplementedError, for SetBool() and Spin(), and that of a run for what it can't do: they
+# are no exercise that is not started.
+_NOT_THEIRS = re.compile(
+    r"classes can not be instantiated|can't (run in|change the time in a run|be)\b.* simulated (time|there)"
+)
 _HINTS = {
     "error": "Read the last line of the error first: it says what Python did not like.",
     "hang": "Look there for a loop that never ends (`while True:` without a way out), or a wait for "
@@ -48,7 +51,7 @@ def find_fault(recording: Recording) -> Fault | None:
 
 
 def _from_error(error: CallbackError, recording: Recording) -> Fault:
-    if error.type == "NotImplementedError" and not _OF_A_TYPE.search(error.text):
+    if error.type == "NotImplementedError" and not _NOT_THEIRS.search(error.text):
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
             expected="your own code instead of `raise NotImplementedError`",
@@ -89,7 +92,7 @@ def where(error: CallbackError) -> str:
     if unread:
         return f"in {unread[1]}, line {unread[2]}, at {error.stamp:.3g} s"
     frames = re.findall(r'File "(.*?)", line (\d+), in (.+)', error.traceback)
-    own = [(line, name) for file, line, name in frames if "site-packages" not in file]
+    own = [(line, name) for _, line, name in frames]
     callback = error.callback or "a callback"
     if own and callback.startswith(_RCLPYS_OWN):
         callback = own[0][1]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
-from sim.nearest import closest, difference
+from sim.evidence.connections import slip
+from sim.nearest import closest
 
 
 def shared_name(recording: Recording) -> str:
@@ -30,7 +31,7 @@ def typing_slip(recording: Recording) -> str:
         if not (published[near].ours and heard[name].ours):
             return (
                 f"{published[near].node} publishes on {near}, {heard[name].node} listens on {name}: "
-                f"two different topics. {difference(near, name)}"
+                f"two different topics. {slip(published[near], heard[name])}"
             )
     return ""
 
@@ -41,12 +42,13 @@ def service_slip(recording: Recording) -> str:
         ("service", "client", "services"),
         ("action server", "action client", "actions"),
     ):
-        offered = {end.name: end.node for end in recording.graph.ends(kind)}
-        wanted = {end.name: end.node for end in recording.graph.ends(client_kind)}
+        offered = {end.name: end for end in recording.graph.ends(kind)}
+        wanted = {end.name: end for end in recording.graph.ends(client_kind)}
         for name, near in _nearly_met(wanted, offered):
+            given, asked = offered[near], wanted[name]
             return (
-                f"{wanted[name]} calls {name}, {offered[near]} offers {near}: two different {what}. "
-                f"{difference(near, name)}"
+                f"{asked.node} calls {name}, {given.node} offers {near}: two different {what}. "
+                f"{slip(given, asked)}"
             )
     return ""
 

@@ -45,8 +45,8 @@ SENSOR_RULES = (
     ),
     Rule(
         "ValueError", r"Subtraction leads to negative time",
-        "Here time begins at 0 when a run starts, as in most simulators, and there is nothing before it. For "
-        '"long ago" keep None, and ask for that first.',
+        "A bare Time() is time 0, and there is nothing before it. The time now is `self.get_clock().now()`; "
+        'for "not yet" keep None, and ask for that first.',
     ),
     Rule(
         "TypeError", r"Can't (subtract|compare) times with different clock types",

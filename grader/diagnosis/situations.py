@@ -6,6 +6,7 @@ import itertools
 import re
 
 from grader.diagnosis.other_types import other_type
+from grader.diagnosis.package_rules import own_module
 from grader.diagnosis.rays import rays_without_distance
 from sim.evidence import CallbackError, Recording
 from sim.ros.messages.codec import message_class
@@ -16,7 +17,8 @@ _SETS_PARAMETERS = "ParameterService._set_parameters_callback"
 def advice_here(error: CallbackError, recording: Recording) -> str:
     """What to do about an error in its situation; "" where its words say enough."""
     return (
-        _refusal(error, recording)
+        own_module(error, recording)
+        or _refusal(error, recording)
         or _too_early(error, recording)
         or _nothing_heard(error, recording)
         or _no_future(error, recording)

@@ -11,6 +11,7 @@
     ├── Unusable                what was handed in can't be marked; the student reads what to do
     ├── StudentProcessGone      a student's process can't be led any further; its notebook ends there
     ├── NotMarked               one submission could not be marked; the instructor has to look
+    ├── NotConfirmed            a certificate does not agree with the receipt
     └── ResultError             what came back is no result
 """
 
@@ -57,6 +58,10 @@ class StudentProcessGone(MarkingError):
 
 class NotMarked(MarkingError):
     """A submission could not be marked. The text says what happened."""
+
+
+class NotConfirmed(MarkingError):
+    """A certificate that can't be confirmed. The text says what does not agree, without a full stop."""
 
 
 class ResultError(MarkingError):

@@ -1,7 +1,8 @@
 """Marks submissions in processes of their own, some at a time.
 
 Two warm processes stay: one forks a judge for each submission, the other, in its sandbox, a student's process
-for each notebook. Here in the marker's process nothing of a submission is run.
+for each notebook. A third comes with the first package: in a sandbox of its own it forks a process for each
+build. Here in the marker's process nothing of a submission is run.
 """
 
 from __future__ import annotations
@@ -9,11 +10,13 @@ from __future__ import annotations
 import contextlib
 import itertools
 import socket
+import threading
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from time import monotonic
 
+from grader.marking.building import builder
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result
 from grader.marking.sandbox import ConfinedProcess, Limits, Sandbox
@@ -24,6 +27,7 @@ PRELOAD = ("grader.marking.preload",)
 JUDGE_ENTRY = "grader.marking.judge.judge_process:main"
 JUDGE = Limits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
 SPARE_S = 120.0  # that a submission may take beside its notebooks
+BUILD_S = 420.0  # more for each package, with what it takes until a sandbox for it is there
 END_S = 5.0  # for a process that has hung up to be gone
 TRIES = 2
 
@@ -47,6 +51,8 @@ class Pool:
         self._jobs, self._secret, self._time_limits = jobs, secret, time_limits
         self._running: set[ConfinedProcess] = set()
         self._closed = False
+        self._unsafe, self._lock = unsafe, threading.Lock()
+        self._builders: Sandbox | None = None
         with contextlib.ExitStack() as stack:
             # The kernel ends a warm process with the thread that started it: these live as long as the pool.
             self._threads = ThreadPoolExecutor(max(jobs, 2), "mark")
@@ -81,9 +87,23 @@ class Pool:
         self.close()
 
     def _stop(self) -> None:
-        self._closed = True
+        with self._lock:
+            self._closed = True
+            if self._builders is not None:
+                self._builders.close()
         for process in list(self._running):
             process.kill()
+
+    def _building(self) -> Sandbox:
+        """Where packages are built; made for the first one, by a thread that lives as long as the pool."""
+        with self._lock:
+            if self._closed:
+                raise NotMarked("The marking was stopped.")
+            if self._builders is None:
+                self._builders = Sandbox(
+                    builder.ENTRY, builder.PRELOAD, unsafe=self._unsafe, limits=builder.LIMITS
+                )
+            return self._builders
 
     def _mark(self, task: Task) -> Result:
         why = ""
@@ -103,6 +123,7 @@ class Pool:
             wire = Wire(sock, RESULT)
             deadline = monotonic() + self._longest(task)
             students: list[ConfinedProcess] = []
+            builders: list[ConfinedProcess] = []
             try:
                 send_order(sock, JudgeOrder(task, self._secret, self._time_limits))
                 while True:
@@ -112,10 +133,18 @@ class Pool:
                             students.append(process)
                             socket.send_fds(sock, [b"."], [student.fileno()])
                             student.close()
-                        case {"ending": True}:
+                        case {"build": True}:
+                            theirs, process = self._start(self._building(), stack)
+                            builders.append(process)
+                            deadline += BUILD_S
+                            socket.send_fds(sock, [b"."], [theirs.fileno()])
+                            theirs.close()
+                        case {"ending": "student"}:
                             wire.send(ending=_ending(students[-1]))
+                        case {"ending": "build"}:
+                            wire.send(ending=_ending(builders[-1]))
                         case {"result": text}:
-                            return _with_use(Result.from_json(text), judge, students)
+                            return _with_use(Result.from_json(text), judge, students, builders)
                         case {"failed": why}:
                             raise NotMarked(why)
             except WireTimeout:
@@ -159,9 +188,14 @@ def _ending(process: ConfinedProcess) -> str:
         return ""
 
 
-def _with_use(result: Result, judge: ConfinedProcess, students: list[ConfinedProcess]) -> Result:
+def _with_use(
+    result: Result,
+    judge: ConfinedProcess,
+    students: list[ConfinedProcess],
+    builders: list[ConfinedProcess],
+) -> Result:
     """The result with what its processes used: seconds of computing, and memory of the student's, in MB."""
-    processes = (judge, *students)
+    processes = (judge, *students, *builders)
     for process in processes:
         process.kill()  # a student's may still be in a cell that nobody could interrupt
     computing = sum(process.wait().cpu_s for process in processes)

@@ -4,7 +4,6 @@ Nothing in here may start a thread or open a ROS context: neither lives on in a 
 """
 
 import importlib.util
-import inspect
 import pkgutil
 import re
 import sys
@@ -42,4 +41,3 @@ for name in [name for name in sys.modules if re.fullmatch(r"\w+\.(msg|srv|action
 PIL.Image.preinit()
 sim.view.png(plot(1, 1)[0])  # the first figure looks for fonts
 nbformat.validate(nbformat.v4.new_notebook())  # the first time, it makes code of the format's rules
-inspect.getmodule(inspect.currentframe(), "nowhere")  # the first time, Python looks at every module's file

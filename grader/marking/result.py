@@ -88,12 +88,12 @@ class Result:
             result = Result(**data, notebooks=notebooks)
             _check(result)
         except (TypeError, KeyError, AttributeError, ValueError, RecursionError) as error:
-            raise ResultError(f"this is no result of marking: {error}") from None
+            raise ResultError(f"this is not a result of marking: {error}") from None
         return result
 
 
 def _refuse(constant: str) -> float:
-    raise ValueError(f"{constant} is no number")
+    raise ValueError(f"{constant} is not a number")
 
 
 def _check(result: Result) -> None:

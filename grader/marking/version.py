@@ -6,7 +6,7 @@ from importlib import metadata
 from pathlib import Path
 
 CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim", "interfaces")  # in the last is tf2_ros
+PACKAGES = ("grader", "sim", "interfaces")  # in the last are tf2_ros and launch
 LIBRARIES = ("ros-jazzy-rclpy", "numpy", "pymunk", "ipython", "matplotlib")
 
 

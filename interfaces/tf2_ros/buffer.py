@@ -69,7 +69,8 @@ class Buffer(BufferCore, BufferInterface):
         Raises:
             TransformException: it can't be had; its kind and words tell why.
         """
-        self.can_transform(target_frame, source_frame, time, timeout)
+        if timeout != Duration():  # else it would be looked up twice
+            self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(
@@ -90,7 +91,8 @@ class Buffer(BufferCore, BufferInterface):
     ) -> TransformStamped:
         """From source_frame at one time to target_frame at another, while fixed_frame stood still."""
         way = target_frame, target_time, source_frame, source_time, fixed_frame
-        self.can_transform_full(*way, timeout)
+        if timeout != Duration():
+            self.can_transform_full(*way, timeout)
         return self.lookup_transform_full_core(*way)
 
     async def lookup_transform_full_async(
@@ -170,9 +172,11 @@ def _patient(
     can: Callable[[], tuple[bool, str]], timeout: Duration, with_reason: bool
 ) -> bool | tuple[bool, str]:
     """Ask until it can, or the time is over."""
-    answer, clock = can(), Clock()
-    end = clock.now() + timeout if timeout != Duration() else None
-    while end is not None and not answer[0] and clock.now() < end:
-        sleep(PAUSE)
-        answer = can()
+    answer = can()
+    if timeout != Duration():
+        clock = Clock()
+        end = clock.now() + timeout
+        while not answer[0] and clock.now() < end:
+            sleep(PAUSE)
+            answer = can()
     return answer if with_reason else answer[0]

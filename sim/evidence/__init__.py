@@ -3,7 +3,8 @@
 A recording holds no live node. Messages are kept as the bytes that were sent (CDR, the format on the wire),
 so nothing can change after the fact, and are turned back into message objects when somebody looks at them.
 
-Stamps are simulated seconds since the start of the run. Poses are in the `map` frame: metres, and radians in
+Stamps are simulated seconds since the start of the run; `since_start` makes such of the stamps in messages,
+which are those of the clocks of the nodes. Poses are in the `map` frame: metres, and radians in
 (-pi, pi].
 """
 
@@ -33,6 +34,7 @@ from sim.evidence.rows import (
     Seconds,
     Unheard,
     rate,
+    since_start,
     stamps,
 )
 
@@ -62,5 +64,6 @@ __all__ = [
     "Unheard",
     "is_node_service",
     "rate",
+    "since_start",
     "stamps",
 ]

@@ -30,6 +30,11 @@ class Missing(NamedTuple):
     wanted: Endpoint  # the end that gets nothing
     reason: str  # a sentence
 
+    @property
+    def idle(self) -> bool:
+        """Whether a node of the world, such as the robot, just isn't told anything: that is no mistake."""
+        return self.given is None and self.wanted.ours
+
 
 def missing(graph: Graph) -> list[Missing]:
     """Every end that takes or asks, and gets nothing of an end that gives: with each of these, the reason."""
@@ -50,8 +55,14 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
             near = closest(wanted.name, lonely)
             reason = f"{wanted.node} waits in vain: " + _SILENT[what].format(wanted.name)
             if near:
-                reason += f", and {lonely[near].node} has {near}. {difference(near, wanted.name)}"
+                reason += f", and {lonely[near].node} has {near}. {slip(lonely[near], wanted)}"
             yield Missing(what, lonely.get(near), wanted, reason if near else f"{reason}.")
+
+
+def slip(given: Endpoint, wanted: Endpoint) -> str:
+    """What makes the names of two ends differ, in a sentence: what isn't the student's is written rightly."""
+    wrong, right = (wanted, given) if given.ours and not wanted.ours else (given, wanted)
+    return difference(wrong.name, right.name)
 
 
 def _once(ends: list[Endpoint]) -> list[Endpoint]:

@@ -30,7 +30,7 @@ from sim.evidence.rows import (
     Unheard,
 )
 from sim.network import Network
-from sim.world import Contact, World
+from sim.world import Body, Contact, Drawing, World
 
 
 @dataclass
@@ -51,6 +51,7 @@ class Recording:
     # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
     tracks: dict[str, list[Pose]] = field(default_factory=dict)
     contacts: list[Contact] = field(default_factory=list)
+    drawing: Drawing | None = None  # what pens drew; None where nobody has one
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)
@@ -75,8 +76,8 @@ class Recording:
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
         """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
 
-        Calls and goals count by when they were asked, callbacks by when they began; the graph and
-        what became of messages on the network stay whole.
+        Calls and goals count by when they were asked, callbacks by when they began; the graph, what
+        pens drew and what became of messages on the network stay whole.
         """
 
         def inside(items: Iterable[Any], stamp: Callable[[Any], Seconds | None]) -> list[Any]:
@@ -113,6 +114,13 @@ class Recording:
             raise ValueError("this run has no robot: give the exercise a world")
         index = bisect.bisect_left(self.path, stamp - 1e-6, key=lambda pose: pose.stamp)
         return self.path[min(index, len(self.path) - 1)]
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moved: what the world began with, and what came later and looks like the first of that."""
+        known = self.world.bodies if self.world is not None else ()
+        names = {body.name for body in known}
+        return (*known, *(known[0]._replace(name=name) for name in self.tracks if name not in names))
 
     @property
     def tip(self) -> list[Pose]:
@@ -199,7 +207,8 @@ class Recording:
         if self.network is not None:
             of_network |= {"network": self.network.to_data(), "hosts": self.hosts}
             of_network["crossings"] = [asdict(crossing) for crossing in self.crossings]
-        return of_network | {
+        drawn = {} if self.drawing is None else {"drawing": asdict(self.drawing)}
+        return of_network | drawn | {
             "seconds": self.seconds,
             "seed": self.seed,
             "path": self.path,

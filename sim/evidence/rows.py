@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
+from sim.nanoseconds import EPOCH, SECOND
 from sim.ros.messages.decoder import decode
 
 Seconds = float
@@ -109,6 +110,14 @@ STILL_RUNNING = Ended("running", 0.0, "The run has not ended yet.")
 
 # Chatter of ROS itself: recorded, but not offered as something a student's node said.
 INFRASTRUCTURE_TOPICS = frozenset({"/parameter_events", "/rosout", "/clock"})
+
+
+def since_start(stamp: Any) -> Seconds:
+    """The stamp of a message, such as `msg.header.stamp`, as a recording counts: in seconds since the start.
+
+    It is below 0 for what was before the start, as 0 in a message is, which stands for no time at all.
+    """
+    return (stamp.sec * SECOND + stamp.nanosec - EPOCH) / SECOND
 
 
 def rate(stamps: Sequence[Seconds]) -> float:

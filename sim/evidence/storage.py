@@ -20,7 +20,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from sim.evidence.rows import Heard
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import EPOCH, SECOND
 from sim.network import Network
 from sim.ros.messages.definitions import definition
 from sim.world import World, WorldError
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from sim.evidence.recording import Recording
 
 ATTACHMENT = "recording.json"
-FORMAT = 10  # of the attachment; raise it when what is in there changes
+FORMAT = 12  # of the attachment; raise it when what is in there changes
 PLAIN = (float, int, str, bool, bytes, Any)
 
 
@@ -77,7 +77,7 @@ def _write_messages(writer: Writer, heard: list[Heard]) -> None:
         if key not in channels:
             about = {"sender": sender, "ours": "yes" if ours else "no"}
             channels[key] = writer.register_channel(topic, "cdr", schemas[type_], about)
-        nanoseconds = round(stamp * SECOND)
+        nanoseconds = EPOCH + round(stamp * SECOND)
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
 
 
@@ -111,7 +111,7 @@ def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
         )
     heard = [
         Heard(
-            message.log_time / SECOND,
+            (message.log_time - EPOCH) / SECOND,
             channel.topic,
             schema.name,
             channel.metadata["sender"],

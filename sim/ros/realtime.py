@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from time import monotonic
 from typing import Any
 
@@ -11,6 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter_service import ParameterService
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 from sim import environment
 from sim.evidence import INFRASTRUCTURE_TOPICS
@@ -21,6 +23,25 @@ from sim.world import Scene, World, simulate
 MAX_GAP = 0.5  # s; a process that was stopped for longer goes on from there instead of catching up
 CHATTER = INFRASTRUCTURE_TOPICS - {"/clock"}
 PATIENCE = 0.1  # s until a stop is noticed when nothing else happens
+
+
+class ArgumentsError(Exception):
+    """ROS can't read what stands after --ros-args."""
+
+
+def own_words(words: Sequence[str]) -> list[str]:
+    """The words of a command line that are not ROS's. Raises ArgumentsError."""
+    with _readable(words):
+        return remove_ros_args(list(words))
+
+
+@contextmanager
+def _readable(words: Sequence[str]) -> Iterator[None]:
+    try:
+        yield
+    except RuntimeError as error:  # of rcl, which has said more on stderr
+        asked = " ".join(words[words.index("--ros-args") :])
+        raise ArgumentsError(f"ROS can't read {asked}: {error}") from None
 
 
 class _Executor(SingleThreadedExecutor):
@@ -41,19 +62,20 @@ class RealTimeRun:
     """A world whose nodes other processes on this machine can see. Nothing is recorded, so nothing grows.
 
     Use as a context manager. `scene` may be looked at from other threads. Raises WorldError when the world
-    can't be simulated.
+    can't be simulated, and ArgumentsError for words after --ros-args that can't be read.
     """
 
-    def __init__(self, world: World, seed: int, domain: int) -> None:
+    def __init__(self, world: World, seed: int, domain: int, words: Sequence[str] = ()) -> None:
         self.scene: Scene = simulate(world, seed)
-        self.domain = domain
+        self.domain, self._words = domain, list(words)
         self.nodes: list[Node] = []
         self._time, self._seen = 0.0, monotonic()  # the scene's, and when it was there
 
     def __enter__(self) -> RealTimeRun:
         environment.open_to_this_machine(self.domain)
         # Its own handlers would shut ROS down in the middle of a callback.
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        with _readable(self._words):
+            rclpy.init(args=self._words, signal_handler_options=SignalHandlerOptions.NO)
         self._executor = _Executor(self._move_on)
         for process in programs_of(self.scene):
             self.add(process.target())
@@ -97,15 +119,17 @@ class RealTimeRun:
 
     def teleop(self) -> Callable[[float, float], None]:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
-        from sim.ros.play.teleop import SPEED, TURN
+        from sim.ros.play.teleop import Reins, reins
         from sim.ros.robots.velocity import VelocityPublisher
 
-        node = Node("teleop")
-        velocity = VelocityPublisher(node, self.scene.world.robot.stamped)
+        # Whatever --ros-args calls the robot's node, this one has its own name.
+        node = Node("teleop", cli_args=["--ros-args", "-r", "__node:=teleop"])
+        held = reins(self.scene.world) or Reins()
+        velocity = VelocityPublisher(node, held.stamped, held.topic)
         self.add(node)
 
         def drive(forward: float, left: float) -> None:
-            velocity.send(forward * SPEED, left * TURN)
+            velocity.send(forward * held.speed, left * held.turn)
 
         return drive
 

@@ -27,9 +27,9 @@ def run(
 ) -> Recording:
     """Run ROS 2 nodes in simulated time, and return the evidence of what they did.
 
-    nodes: Node classes, functions that return a Node or a Process, main() functions, or `Process` objects.
-        All run side by side, as programs of their own; what one raises or hangs in is in the recording and
-        never raised here.
+    nodes: Node classes, functions that return a Node or a Process, main() functions, `Process` objects, or
+        launch files: the words after `ros2 launch`, a path, or a LaunchDescription. All run side by side, as
+        programs of their own; what one raises or hangs in is in the recording and never raised here.
     companions: further programs, started before these: the recording knows whose nodes are whose.
     world: name of a world or a World, with a robot in it that hears /cmd_vel; None for no robot.
     seconds: simulated time at which the run ends at the latest.

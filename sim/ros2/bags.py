@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Schema
 from mcap.writer import Writer
 
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.definitions import definition
 from sim.ros2.system import Arrived, Wrong
 
@@ -24,9 +24,12 @@ VERSION = 8  # of metadata.yaml
 
 
 class BagWriter:
-    """Writes one bag; a context manager. Raises Wrong where the folder is there already, or can't be made."""
+    """Writes one bag; a context manager. Raises Wrong where the folder is there already, or can't be made.
 
-    def __init__(self, folder: Path) -> None:
+    epoch: as of a `System`.
+    """
+
+    def __init__(self, folder: Path, epoch: Nanoseconds) -> None:
         self.folder, self.file = folder, folder / f"{folder.name}_0.mcap"
         try:
             folder.mkdir(parents=True)
@@ -34,7 +37,7 @@ class BagWriter:
             raise Wrong(f"Output folder '{folder}' already exists.") from None
         except OSError as error:
             raise Wrong(f"Output folder '{folder}' can't be made: {error.strerror}.") from None
-        self._writer = Writer(str(self.file))
+        self._writer, self._epoch = Writer(str(self.file)), epoch
         self._channels: dict[str, int] = {}
         self.counts: Counter[str] = Counter()
         self._types: dict[str, str] = {}
@@ -60,7 +63,7 @@ class BagWriter:
             metadata = {QOS: yaml.safe_dump([offered])}
             self._channels[topic] = self._writer.register_channel(topic, "cdr", schema, metadata)
             self._types[topic] = arrived.type
-        when, sent = round(arrived.stamp * SECOND), round(arrived.sent * SECOND)
+        when, sent = (self._epoch + round(moment * SECOND) for moment in (arrived.stamp, arrived.sent))
         self._span = [min([when, *self._span]), max([when, *self._span])]
         self._writer.add_message(self._channels[topic], when, arrived.raw, sent, self.counts.total())
         self.counts[topic] += 1

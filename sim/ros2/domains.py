@@ -47,10 +47,13 @@ def here() -> set[int]:
 
 
 def note(domain: int) -> str:
-    """What to say where nobody is on this domain: who is on another; nothing if nobody is."""
+    """What to say where nobody is on this domain: who is on another, or what to do if nobody is."""
     others = sorted(here() - {domain})
     if not others:
-        return ""
+        return (
+            f"Nobody is on ROS domain {domain} of this machine: start a node in another terminal, with"
+            f" ROS_DOMAIN_ID={domain}"
+        )
     there = " and ".join(str(other) for other in others)
     hint = f"To speak with them: export ROS_DOMAIN_ID={others[-1]}"
     if others == [0]:

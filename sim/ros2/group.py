@@ -11,6 +11,8 @@ from sim.nearest import nearest
 from sim.ros2.system import System, Wrong
 
 Work = Callable[[System, argparse.Namespace], None]
+# What a terminal completes a word to, from the system (None where a verb is alone) and the words before it.
+Offers = Callable[[Any, argparse.Namespace], list[str]]
 WRONG_WORDS = 2  # exit status, as argparse's
 
 
@@ -19,11 +21,11 @@ class Argument(NamedTuple):
 
     names: tuple[str, ...]
     settings: dict[str, Any]
-    offers: Callable[[System], list[str]] | None  # what a terminal completes it to
+    offers: Offers | None
 
 
 def argument(
-    *names: str, offers: Callable[[System], list[str]] | None = None, **settings: Any
+    *names: str, offers: Offers | None = None, **settings: Any
 ) -> Argument:
     """See `Argument`."""
     return Argument(names, settings, offers)
@@ -85,7 +87,7 @@ class Parser(argparse.ArgumentParser):
 def parser_of(groups: list[Group], offered: Callable[..., Any]) -> Parser:
     """The parser of all words; what it reads has the verb's work as `work`.
 
-    offered: makes what argcomplete asks of what an argument offers.
+    offered: makes what argcomplete asks of what an argument offers, and of whether its verb is alone.
     """
     parser = Parser(prog="ros2", description="Look into a running ROS 2 system, and speak to it.")
     words = parser.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
@@ -105,5 +107,5 @@ def parser_of(groups: list[Group], offered: Callable[..., Any]) -> Parser:
             for names, settings, offers in verb.arguments:
                 action = verb_parser.add_argument(*names, **settings)
                 if offers is not None:
-                    action.completer = offered(offers)  # type: ignore[attr-defined]
+                    action.completer = offered(offers, verb.alone)  # type: ignore[attr-defined]
     return parser

@@ -9,7 +9,7 @@ from typing import Any
 
 import rclpy
 import rclpy.action
-from rclpy.node import NodeNameNonExistentError
+from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from rclpy.signals import SignalHandlerOptions
 
@@ -20,23 +20,27 @@ from sim.ros.messages.codec import message_class
 from sim.ros2 import domains
 from sim.ros2.system import POLL, Arrived, Known, System, T, Voice, Work, with_node
 
-SETTLED = 0.5  # s without news, as the official tools wait: then the graph is known
+SETTLED = 0.5  # s without news, as the official tools wait
 LOOK = 0.05  # s, between two looks at it
 AGAIN = 30  # looks for a name that isn't there yet: another process may be slow
-PATIENCE = 5.0  # s, while somebody is there of whom nothing is known yet
+PATIENCE = 10  # times as long, while somebody is there of whom nothing is known yet
 
 
 class Live(System):
     """The nodes of one ROS domain; a context manager.
 
-    say: shows a line. complain: shows a note that is no part of the answer.
+    say: shows a line. complain: shows a note that is no part of the answer. settled: seconds without news
+    until the graph is taken for known.
     """
 
     def __init__(
-        self, say: Callable[[str], None] = print, complain: Callable[[str], None] = lambda _: None
+        self,
+        say: Callable[[str], None] = print,
+        complain: Callable[[str], None] = lambda _: None,
+        settled: float = SETTLED,
     ) -> None:
         super().__init__(say)
-        self._complain = complain
+        self._complain, self._settled = complain, settled
 
     def __enter__(self) -> Live:
         self.domain = domains.chosen()
@@ -57,7 +61,8 @@ class Live(System):
         began = time.monotonic()
         known: Any = None
         quiet = 0  # looks without news; on a busy machine each takes longer
-        while quiet < SETTLED / LOOK or (time.monotonic() - began < PATIENCE and self._more_to_come()):
+        last = began + PATIENCE * self._settled
+        while quiet < self._settled / LOOK or (time.monotonic() < last and self._more_to_come()):
             rclpy.spin_once(self._node, timeout_sec=LOOK)
             found = self._node.get_node_names_and_namespaces(), self._node.get_topic_names_and_types()
             quiet, known = (quiet + 1 if found == known else 0), found
@@ -80,24 +85,8 @@ class Live(System):
     @property
     def ends(self) -> list[Endpoint]:
         """As `System`. Of topics with the settings of each, as far as the middleware tells them."""
-        node = self._node
-        found = []
-        for topic, _ in node.get_topic_names_and_types():
-            for end in node.get_publishers_info_by_topic(topic) + node.get_subscriptions_info_by_topic(topic):
-                found.append(_endpoint(topic, end))
-        asked = {
-            "service": node.get_service_names_and_types_by_node,
-            "client": node.get_client_names_and_types_by_node,
-            "action server": lambda *of: rclpy.action.get_action_server_names_and_types_by_node(node, *of),
-            "action client": lambda *of: rclpy.action.get_action_client_names_and_types_by_node(node, *of),
-        }
-        for name, space in dict.fromkeys(node.get_node_names_and_namespaces()):
-            full = f"{space.rstrip('/')}/{name}"
-            for kind, ask in asked.items():
-                ends = _ends_of(ask, name, space)
-                found += [Endpoint(kind, full, end, type_, {}) for end, types in ends for type_ in types]
-        own = node.get_fully_qualified_name()
-        return [end for end in found if end.node != own]
+        own = self._node.get_fully_qualified_name()
+        return [end for end in ends_seen_by(self._node) if end.node != own]
 
     @property
     def now(self) -> float:
@@ -153,6 +142,26 @@ class Live(System):
     def act(self, work: Work[T], seconds: float | None = None) -> T:
         """As `System`; Ctrl-C ends what takes long."""
         return with_node(work, Voice(self.say))
+
+
+def ends_seen_by(node: Node) -> list[Endpoint]:
+    """All ends of topics, services and actions in a node's domain that it knows by now, its own included."""
+    found = []
+    for topic, _ in node.get_topic_names_and_types():
+        for end in node.get_publishers_info_by_topic(topic) + node.get_subscriptions_info_by_topic(topic):
+            found.append(_endpoint(topic, end))
+    asked = {
+        "service": node.get_service_names_and_types_by_node,
+        "client": node.get_client_names_and_types_by_node,
+        "action server": lambda *of: rclpy.action.get_action_server_names_and_types_by_node(node, *of),
+        "action client": lambda *of: rclpy.action.get_action_client_names_and_types_by_node(node, *of),
+    }
+    for name, space in dict.fromkeys(node.get_node_names_and_namespaces()):
+        full = f"{space.rstrip('/')}/{name}"
+        for kind, ask in asked.items():
+            ends = _ends_of(ask, name, space)
+            found += [Endpoint(kind, full, end, type_, {}) for end, types in ends for type_ in types]
+    return found
 
 
 def _ends_of(ask: Callable[..., list], name: str, space: str) -> list:

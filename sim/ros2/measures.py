@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Sequence
 
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.decoder import decode
 from sim.ros2.system import Arrived, Wrong
 
@@ -107,10 +107,11 @@ def _bytes(number: float, unit_of: float) -> str:
 
 
 class Delay(Measure):
-    """How long ago a message was stamped as it came."""
+    """How long ago a message was stamped as it came. epoch: as of a `System`."""
 
-    def __init__(self, window: int) -> None:
+    def __init__(self, window: int, epoch: Nanoseconds) -> None:
         super().__init__(window)
+        self._epoch = epoch
         self._delays: deque[float] = deque(maxlen=window)
         self._new = False
 
@@ -120,7 +121,7 @@ class Delay(Measure):
         if not hasattr(message, "header"):
             raise Wrong("msg does not have header")
         stamp = message.header.stamp
-        late = round(arrived.stamp * SECOND) - stamp.sec * SECOND - stamp.nanosec
+        late = self._epoch + round(arrived.stamp * SECOND) - stamp.sec * SECOND - stamp.nanosec
         self._delays.append(late / SECOND)
         self._new = True
 

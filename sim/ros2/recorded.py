@@ -11,6 +11,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from sim.evidence import Endpoint, Recording
 from sim.evidence.qos import refusal, settings
+from sim.nanoseconds import EPOCH
 from sim.ros.engine.program import Process
 from sim.ros.play.player import FRAME, Player
 from sim.ros2.system import OWN_NAME, Arrived, System, T, Voice, Work, Wrong, with_node
@@ -36,6 +37,7 @@ class Recorded(System):
 
     over = True
     most = SHOWN
+    epoch = EPOCH
 
     def __init__(self, recording: Recording, say: Callable[[str], None] = print) -> None:
         super().__init__(say)

@@ -1,6 +1,6 @@
 """What the words of ros2 ask: which nodes there are and how they are connected, what they send, what they do.
 
-Stamps are seconds: of the wall clock in a terminal, of the run in a notebook.
+Stamps are seconds: of the wall clock in a terminal, since the start of the run in a notebook.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
 from sim.evidence import Endpoint
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import SECOND, Nanoseconds
 from sim.nearest import nearest
 
 HIDDEN = "_"  # a name with a part that begins with this is left out unless one asks for it
@@ -60,6 +60,7 @@ class System(ABC):
     over = False  # whether all has happened already, and no time passes any more
     window: float | None = None  # s; what has no end of its own goes on for so long at most
     most: int | None = None  # so many messages are shown at most
+    epoch: Nanoseconds = 0  # what the nodes' clocks show when the time is 0 s
 
     def __init__(self, say: Callable[[str], None] = print) -> None:
         self.say = say

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,19 +14,27 @@ import argcomplete
 from rclpy.executors import ExternalShutdownException
 
 from sim.ros2 import words
+from sim.ros2.group import Offers
 from sim.ros2.live import Live
-from sim.ros2.system import System, Wrong
+from sim.ros2.surroundings import environment_before
+from sim.ros2.system import Wrong
 
+SOON = 0.1  # s without news, until names are completed: who waits for them can ask again
 STOPPED = 2  # exit status after Ctrl-C, as the official command's
 MARK = b"sim.ros2"  # what the script that starts this one holds, wherever it is installed
-LIBRARIES = "LD_LIBRARY_PATH"
 
 
 def main() -> int:
     """What `ros2` on the command line does; the exit status."""
     give_way()
     reader = words.parser(_offered)
-    argcomplete.autocomplete(reader, exclude=["-h", "--help"])
+    # Names come without options among them; where nothing is known, bash offers files.
+    argcomplete.autocomplete(
+        reader,
+        always_complete_options=False,
+        exclude=["-h", "--help"],
+        default_completer=argcomplete.SuppressCompleter(),
+    )
     try:
         return words.obey(reader, None, lambda: Live(_say, _complain), _say, _complain)
     except (KeyboardInterrupt, ExternalShutdownException):
@@ -44,11 +53,13 @@ def _complain(line: str) -> None:
         print(line, file=sys.stderr, flush=True)
 
 
-def _offered(offers: Callable[[System], list[str]]) -> Callable[..., list[str]]:
-    def complete(**_: Any) -> list[str]:
+def _offered(offers: Offers, alone: bool) -> Callable[..., list[str]]:
+    def complete(parsed_args: Namespace, **_: Any) -> list[str]:
         try:
-            with Live() as system:
-                return offers(system)
+            if alone:
+                return offers(None, parsed_args)
+            with Live(settled=SOON) as system:
+                return offers(system, parsed_args)
         except Wrong:
             return []
 
@@ -59,7 +70,7 @@ def give_way() -> None:
     """Become the official command, if there is one."""
     official = official_command(os.environ.get("PATH", ""))
     if official is not None:
-        os.execve(official, [str(official), *sys.argv[1:]], _environment_before())
+        os.execve(official, [str(official), *sys.argv[1:]], environment_before())
 
 
 def official_command(path: str) -> Path | None:
@@ -72,15 +83,6 @@ def official_command(path: str) -> Path | None:
         except OSError:
             continue
     return None
-
-
-def _environment_before() -> dict[str, str]:
-    """The environment as it was before this package and its libraries changed it."""
-    words_ = Path("/proc/self/environ").read_bytes().split(b"\0")
-    before = dict(word.decode(errors="surrogateescape").split("=", 1) for word in words_ if b"=" in word)
-    before.pop("_ROS_WHEELS_BOOTSTRAP_COMPLETE", None)
-    folders = [one for one in before.pop(LIBRARIES, "").split(os.pathsep) if not one.startswith(sys.prefix)]
-    return before | ({LIBRARIES: os.pathsep.join(folders)} if any(folders) else {})
 
 
 if __name__ == "__main__":

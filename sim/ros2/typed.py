@@ -29,7 +29,7 @@ def terminal(command: str | Callable[[], str]) -> Process:
 
 def _type(line: str) -> None:
     if not isinstance(line, str):
-        print(f"{line!r} is no command: expected a text such as 'ros2 topic list'.")
+        print(f"{line!r} is not a command: expected a text such as 'ros2 topic list'.")
         return
     try:
         first, *said = shlex.split(line, comments=True) or [""]

@@ -8,22 +8,25 @@ from typing import Any
 
 from sim.ros2.group import WRONG_WORDS, Parser, WrongWords, parser_of
 from sim.ros2.system import System, Voice, Wrong
-from sim.ros2.verbs import listening, publishing  # noqa: F401  (each adds verbs to topic)
+from sim.ros2.verbs import listening, pkg_create, publishing  # noqa: F401  (each adds verbs to a group)
 from sim.ros2.verbs.action import action
 from sim.ros2.verbs.bag import bag
 from sim.ros2.verbs.doctor import doctor
 from sim.ros2.verbs.interface import interface
+from sim.ros2.verbs.launch import launch
 from sim.ros2.verbs.lifecycle import lifecycle
 from sim.ros2.verbs.node import node
 from sim.ros2.verbs.param import param
+from sim.ros2.verbs.pkg import pkg
+from sim.ros2.verbs.run import run
 from sim.ros2.verbs.service import service
 from sim.ros2.verbs.topic import topic
 
-GROUPS = [action, bag, doctor, interface, lifecycle, node, param, service, topic]
+GROUPS = [action, bag, doctor, interface, launch, lifecycle, node, param, pkg, run, service, topic]
 FAILED = 1  # exit status
 
 
-def parser(offered: Callable[..., Any] = lambda offers: None) -> Parser:
+def parser(offered: Callable[..., Any] = lambda *_: None) -> Parser:
     """The parser of all words; see `parser_of`."""
     return parser_of(GROUPS, offered)
 
@@ -58,5 +61,3 @@ def obey(
     except SystemExit as exit_:  # --help
         return int(exit_.code or 0)
     return 0
-
-

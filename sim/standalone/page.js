@@ -4,7 +4,7 @@ import live from "/live.js";
 const GONE = "The robot's program has ended. Start it again, then reload this page.";
 
 const { world, status } = await (await fetch("/world")).json();
-const values = { world, status };
+const values = { world, status, graph: {} };
 const listeners = {};
 const tell = (name, ...what) => (listeners[name] ?? []).forEach((act) => act(...what));
 
@@ -12,10 +12,21 @@ const model = {
   get: (name) => values[name],
   on: (name, act) => (listeners[name] ??= []).push(act),
   off: (name, act) => { listeners[name] = (listeners[name] ?? []).filter((other) => other !== act); },
-  send: (command) => fetch("/drive", {
-    method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(command),
-  }).catch(() => {}), // the stream says that the robot is gone
+  send: (command) => (command.graph ? look() : drive(command)).catch(() => {}), // the stream says if the robot is gone
 };
+
+function drive(command) {
+  const headers = { "Content-Type": "application/json" };
+  return fetch("/drive", { method: "POST", headers, body: JSON.stringify(command) });
+}
+
+async function look() {
+  const graph = await (await fetch("/graph")).text();
+  if (graph === look.last) return;
+  look.last = graph;
+  values.graph = JSON.parse(graph);
+  tell("change:graph");
+}
 
 document.title = `Robot in ${world.name}`;
 live.render({ model, el: document.querySelector("main") });
@@ -25,6 +36,10 @@ stream.onmessage = ({ data }) => {
   const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
   tell("msg:custom", {}, [new DataView(bytes.buffer)]);
 };
+stream.addEventListener("status", ({ data }) => {
+  values.status = { ...values.status, ...JSON.parse(data) };
+  tell("change:status");
+});
 stream.onerror = () => {
   stream.close();
   values.status = { ...values.status, ended: ["gone", GONE] };

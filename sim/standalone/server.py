@@ -27,12 +27,19 @@ class PageServer:
 
     facts: what the page gets first, as JSON: {"world": ..., "status": ...}.
     on_drive: called with (forward, left), each in [-1, 1], in one of the server's threads.
+    graph: called there, too; what it returns goes to the page as JSON.
 
     Raises OSError if the port is taken.
     """
 
-    def __init__(self, port: int, facts: dict[str, Any], on_drive: Callable[[float, float], None]) -> None:
-        self.on_drive = on_drive
+    def __init__(
+        self,
+        port: int,
+        facts: dict[str, Any],
+        on_drive: Callable[[float, float], None],
+        graph: Callable[[], dict[str, Any]],
+    ) -> None:
+        self.on_drive, self.graph = on_drive, graph
         self.viewers = threading.BoundedSemaphore(MOST_VIEWERS)
         self.pages = {
             "/": ("text/html; charset=utf-8", _HERE.joinpath("page.html").read_bytes()),
@@ -42,6 +49,7 @@ class PageServer:
         }
         self._changed = threading.Condition()
         self._frame, self._number, self._open = b"", 0, True
+        self._status = b""
         self._http = _Http((ADDRESS, port), _Handler)
         self._http.owner = self
         self.port = self._http.server_address[1]
@@ -54,6 +62,15 @@ class PageServer:
         with self._changed:
             self._frame, self._number = base64.b64encode(frame), self._number + 1
             self._changed.notify_all()
+
+    def tell(self, status: dict[str, Any]) -> None:
+        """Send facts that have changed to every page, with its next frame."""
+        self._status = json.dumps(status).encode()
+
+    @property
+    def status(self) -> bytes:
+        """What was told last, as JSON; b"" before."""
+        return self._status
 
     def next_frame(self, seen: int) -> tuple[bytes | None, int]:
         """The newest frame, once it is another than number `seen`, and its number; None for no more."""
@@ -92,6 +109,8 @@ class _Handler(BaseHTTPRequestHandler):
             self.refuse(HTTPStatus.FORBIDDEN)
         elif self.path == "/frames":
             self.stream(owner)
+        elif self.path == "/graph":
+            self.answer("application/json", json.dumps(owner.graph()).encode())
         elif self.path in owner.pages:
             self.answer(*owner.pages[self.path])
         else:
@@ -130,7 +149,11 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_header("Content-Type", "text/event-stream")
             self.end_headers()
             frame, seen = owner.next_frame(0)
+            told = b""
             while frame is not None:
+                if owner.status != told:
+                    told = owner.status
+                    self.wfile.write(b"event: status\ndata: " + told + b"\n\n")
                 self.wfile.write(b"data: " + frame + b"\n\n")
                 frame, seen = owner.next_frame(seen)
         finally:

@@ -1,7 +1,7 @@
 """Pictures of a recording. The only part of the simulation that knows matplotlib and Jupyter."""
 
 from sim.view.animation import animate
-from sim.view.figure import png
+from sim.view.figure import png, small_png
 from sim.view.frames import plot_frames
 from sim.view.graph import plot_graph
 from sim.view.map import plot_map
@@ -22,4 +22,5 @@ __all__ = [
     "plot_topics",
     "png",
     "replay",
+    "small_png",
 ]

@@ -10,14 +10,16 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from sim.evidence import Pose, Recording
-from sim.view.figure import KINDS, PATH
-from sim.view.geometry import body_tracks, index_at
+from sim.view.drawing import hexadecimal
+from sim.view.figure import KINDS, PATH, TURTLES
+from sim.view.geometry import GAP, body_tracks, index_at
 from sim.view.scene import scene, ways
 from sim.world import Body
 from sim.world.obstacles import placed
 
 SMOOTH = 2  # frames are drawn so many times larger, then scaled down
 COLOURS = 32
+SAMPLES = 6  # frames that are asked for their colours, where things come and go
 
 
 class MovingPicture:
@@ -37,7 +39,8 @@ class MovingPicture:
         stage, speed, rate = _Stage(self._recording), self._speed, self._rate
         count = max(1, math.ceil(stage.end * rate / speed))
         frames = [stage.frame(min(stage.end, index * speed / rate)) for index in range(count + 1)]
-        palette = frames[-1].quantize(COLOURS, dither=Image.Dither.NONE)
+        whole = frames[-1] if stage.drawing is None else _sheet(frames[:: max(count // SAMPLES, 1)])
+        palette = whole.quantize(COLOURS, dither=Image.Dither.NONE)
         small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
         durations = [1000 // rate] * count + [1500]  # ms; the last frame stays for a while
         more = {"append_images": small[1:], "duration": durations, "loop": 0}
@@ -58,6 +61,15 @@ def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int 
     return MovingPicture(recording, speed, frames_per_second)
 
 
+def _sheet(frames: Sequence[Image.Image]) -> Image.Image:
+    """The frames one below the other."""
+    width, height = frames[0].size
+    sheet = Image.new("RGB", (width, height * len(frames)))
+    for index, frame in enumerate(frames):
+        sheet.paste(frame, (0, height * index))
+    return sheet
+
+
 class _Stage:
     """The world drawn once by matplotlib; only bodies, trails and clock are drawn again for each frame."""
 
@@ -67,7 +79,7 @@ class _Stage:
         figure.canvas.draw()
         self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
         self.scale = float(np.ptp(self.axes.transData.transform([(0.0, 0.0), (1.0, 0.0)])[:, 0]))
-        self.bodies = recording.world.bodies
+        self.bodies, self.drawing = recording.bodies, recording.drawing
         self.tracks = body_tracks(recording)
         self.trails = [self._pixels([pose[1:3] for pose in track]) for track in self.tracks]
         self.end = max(track[-1].stamp for track in self.tracks)
@@ -80,8 +92,13 @@ class _Stage:
         """The picture at a moment of simulated time, in seconds."""
         image = self.background.copy()
         draw = ImageDraw.Draw(image)
+        for stroke, points in self.drawing.at(stamp) if self.drawing is not None else ():
+            width = max(round(stroke.width * self.scale), 1)
+            draw.line(self._pixels(points), fill=hexadecimal(stroke.colour), width=width)
         for body, track, trail in zip(self.bodies, self.tracks, self.trails, strict=True):
             index = index_at(track, stamp)
+            if abs(track[index].stamp - stamp) > GAP and body.kind == "turtle":
+                continue
             if index and body.kind == "robot":
                 draw.line(trail[: index + 1], fill=PATH, width=2 * SMOOTH)
             self._draw(draw, body, trail[index], track[index])
@@ -90,6 +107,8 @@ class _Stage:
 
     def _draw(self, draw: ImageDraw.ImageDraw, body: Body, centre: tuple[float, float], pose: Pose) -> None:
         fill = KINDS.get(body.kind, "#8fb8dc")
+        if body.kind == "turtle":
+            fill = TURTLES[self.bodies.index(body) % len(TURTLES)]
         if body.outline:
             corners = self._pixels(placed(body.outline, *pose[1:]))
             draw.polygon(corners, fill=fill, outline="black", width=SMOOTH)

@@ -8,13 +8,16 @@ from typing import TypeVar
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and others
-KINDS = {"box": "#d9b991", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
+KINDS = {"box": "#d9b991", "person": "#f08a5d", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
+TURTLES = ("#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8")  # on the colour of a pond
 STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ by more than their colour
 GRID = "#e6e9ec"
 DPI = 100
+COLOURS = 48  # of a small picture
 
 
 class Plot(Figure):
@@ -53,4 +56,12 @@ def png(figure: Figure) -> bytes:
     """The figure as a PNG; equal figures give equal bytes."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", metadata={"Software": None})
+    return buffer.getvalue()
+
+
+def small_png(figure: Figure) -> bytes:
+    """The figure as a PNG of few colours: a quarter of its size."""
+    image = Image.open(io.BytesIO(png(figure))).convert("RGB")
+    buffer = io.BytesIO()
+    image.quantize(COLOURS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()

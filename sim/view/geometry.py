@@ -10,13 +10,18 @@ from typing import Any
 from sim.evidence import Pose, Recording
 from sim.world import Body, World
 
+GAP = 0.1  # s; what left no pose for so long was not there
 
-def world_data(world: World) -> dict[str, Any]:
+
+def world_data(world: World, bodies: Sequence[Body] | None = None) -> dict[str, Any]:
     """All of a world that a page shows, ready for JSON: metres and radians, to a tenth of a millimetre.
+
+    bodies: all that moves, where it is more than at the beginning.
 
     `checkWorld` in web/checks.js reads it.
     """
-    return {
+    places = {name: _round(place[:2]) for name, place in world.places().items()}
+    return ({"places": places} if places else {}) | {
         "name": world.name,
         "bounds": _round(world.bounds),
         "goal": _round(world.goal) if world.goal else None,
@@ -25,18 +30,24 @@ def world_data(world: World) -> dict[str, Any]:
         "circles": [_round([pillar.x, pillar.y, pillar.radius]) for pillar in world.circles],
         "bodies": [
             {"name": name, "kind": kind, "radius": radius, "outline": [_round(corner) for corner in outline]}
-            for name, kind, radius, outline in world.bodies
+            for name, kind, radius, outline in bodies or world.bodies
         ],
         "lidar": {"start": 0.0, "step": world.lidar.angle_increment, "far": world.lidar.range_max},
     }
 
 
 def body_tracks(recording: Recording) -> list[list[Pose]]:
-    """The poses of each body of the run's world, in the order of its bodies."""
-    bodies = recording.world.bodies if recording.world is not None else ()
-    return [
-        recording.path if body.name == "robot" else recording.tracks.get(body.name, []) for body in bodies
-    ]
+    """The poses of each body that moved in a run, in the order of `recording.bodies`."""
+    bodies = recording.bodies
+    first = recording.world.first if bodies else None
+    return [recording.path if body.name == first else recording.tracks.get(body.name, []) for body in bodies]
+
+
+def stays(track: Sequence[Pose]) -> list[tuple[float, float]]:
+    """From when to when (s) a body was there: turtles come and go."""
+    begins = [0, *(after for after in range(1, len(track)) if track[after][0] - track[after - 1][0] > GAP)]
+    lasts = [*(begin - 1 for begin in begins[1:]), len(track) - 1]
+    return [(track[begin].stamp, track[last].stamp) for begin, last in zip(begins, lasts, strict=True)]
 
 
 def index_at(track: Sequence[Pose], stamp: float) -> int:

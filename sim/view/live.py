@@ -15,7 +15,9 @@ from IPython.display import HTML, DisplayHandle, display
 
 from sim.evidence import Recording
 from sim.notebook import notebook_page
+from sim.view.drawing import live
 from sim.view.geometry import world_data
+from sim.view.graph_data import graph_data
 from sim.view.replay import replay
 from sim.view.scripts import script
 from sim.world import Scan, World
@@ -34,12 +36,14 @@ class LiveView(anywidget.AnyWidget):
 
     Attributes:
         on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
-            {"step": True}, {"stop": True}, {"topic": name} or {"drive": [forward, left]}, both in [-1, 1].
+            {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} or {"drive": [forward, left]},
+            both in [-1, 1].
     """
 
     _esm = script("live.js")
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
+    graph = traitlets.Dict().tag(sync=True)  # empty until somebody looks
 
     def __init__(self, world: World | None) -> None:
         super().__init__(world=world and world_data(world))
@@ -62,7 +66,14 @@ class LiveView(anywidget.AnyWidget):
     def state(self, state: dict[str, Any]) -> None:
         """Show how the run is going; see `Picture.state` in sim/ros/play."""
         speed = state["speed"]
-        self.status = {**state, "speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
+        more = {"speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
+        if "drawing" in state:
+            more |= {"drawing": None, "drawn": live(state["drawing"])}
+        self.status = {**state, **more}
+
+    def connections(self, recording: Recording) -> None:
+        """Show who is connected to whom by now."""
+        self.graph = graph_data(recording, counted=False) or {}
 
     def finish(self, recording: Recording) -> None:
         """The run is over: its replay takes the place of the view, which is closed."""
@@ -110,7 +121,7 @@ def checked(content: Any) -> Command | None:
     ((name, value),) = content.items()
     if name == "speed" and _between(value, *SPEEDS):
         return {name: float(value)}
-    if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop") and value is True):
+    if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop", "graph") and value is True):
         return {name: value}
     if name == "topic" and isinstance(value, str) and len(value) <= LONGEST_NAME:
         return {name: value}

@@ -1,4 +1,4 @@
-"""A recording as a small text for a page: what moved, what was seen, felt, said and sent.
+"""A recording as a small text for a page: what moved, what was seen, felt, said and sent, by whom.
 
 Numbers are whole millimetres, milliradians and milliseconds, written as differences; then all is deflated.
 However long a run was, the text stays bounded: there are so many poses, ranges and lines and no more.
@@ -13,12 +13,12 @@ import math
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import Any, TypeVar
+from typing import Any
 
 from sim.evidence import Recording, rate, stamps
-from sim.view.geometry import body_tracks, pose_at, world_data
-
-Item = TypeVar("Item")
+from sim.view.drawing import packed, thinned
+from sim.view.geometry import body_tracks, pose_at, stays, world_data
+from sim.view.graph_data import graph_data
 
 VERSION = 1
 POSES = 8_000  # of all bodies together
@@ -38,8 +38,12 @@ def pack(recording: Recording, speed: float) -> str:
     data = {"version": VERSION, "speed": speed, "end": run_end(recording), "world": None}
     data |= {"stamps": [], "tracks": [], "scans": []}
     if recording.world is not None:
-        data |= {"world": world_data(recording.world), **_motion(recording), "scans": list(_scans(recording))}
+        world = world_data(recording.world, recording.bodies)
+        data |= {"world": world, **_motion(recording), "scans": list(_scans(recording))}
+    if recording.drawing is not None:
+        data |= {"drawing": packed(recording.drawing)}
     data |= {"marks": _marks(recording), "logs": _logs(recording), "topics": _topics(recording)}
+    data["graph"] = graph_data(recording)
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).encode()
     return base64.b64encode(deflate.compress(text) + deflate.flush()).decode()
@@ -54,12 +58,15 @@ def _motion(recording: Recording) -> dict[str, Any]:
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
         raise ValueError("this run moved nothing yet: it has no pose to draw")
-    moments = thinned(stamps(max(tracks, key=len)), POSES // len(tracks))
-    columns = []
+    every = sorted({stamp for track in tracks for stamp in stamps(track)})
+    moments = thinned(every, POSES // len(tracks))
+    columns, there = [], []
     for track in tracks:
         poses = [pose_at(track, moment) for moment in moments]
         columns.append([_steps((pose[axis] for pose in poses), 1000) for axis in (1, 2, 3)])
-    return {"stamps": _steps(moments, 1000), "tracks": columns}
+        there.append([[round(stamp * 1000) for stamp in stay] for stay in stays(track)])
+    come_and_go = {"there": there} if recording.drawing is not None else {}
+    return {"stamps": _steps(moments, 1000), "tracks": columns, **come_and_go}
 
 
 def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
@@ -80,7 +87,7 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
         pose = pose_at(recording.path, item.stamp)
         yield {
             "stamp": round(item.stamp * 1000),
-            "pose": [round(value, 3) for value in pose[1:]],
+            "pose": [round(value, 3) for value in recording.world.lidar.place(pose[1:])],
             "start": scan.angle_min,
             "step": scan.angle_increment * stride,
             "far": scan.range_max,
@@ -148,14 +155,6 @@ def _topics(recording: Recording) -> list[list[str]]:
         told = f"{rate(when):.3g} Hz" if rate(when) else f"{len(when)}"
         rows.append([_short(name), told, "".join("01"[column in busy] for column in range(COLUMNS))])
     return rows
-
-
-def thinned(items: Sequence[Item], most: int) -> list[Item]:
-    """At most so many of the items, evenly spread, with the first and the last."""
-    if len(items) <= most:
-        return list(items)
-    gap = (len(items) - 1) / max(most - 1, 1)
-    return [items[round(index * gap)] for index in range(most)]
 
 
 def _steps(values: Iterable[float], unit: float) -> list[int]:

@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import math
 from typing import Any
 
-from PIL import Image
-
 from sim.evidence import Recording
-from sim.view.figure import Plot, png
+from sim.view.figure import Plot, small_png
 from sim.view.packing import pack, run_end
 from sim.view.scene import plot_path
 from sim.view.scripts import script
@@ -24,15 +21,13 @@ from sim.view.timeline import plot_topics
 PLAYER_SCRIPT = f'(() => {{\n"use strict";\n{script("replay.js")}\n}})();'
 """Turns every replay of the page that is not a player yet into one. It holds no data."""
 
-COLOURS = 48  # of the picture
-
 
 class Replay:
     """A run as a page shows it; see `replay`."""
 
     def __init__(self, recording: Recording, speed: float) -> None:
         self._data = pack(recording, speed)
-        self._picture = base64.b64encode(_small(_still(recording))).decode()
+        self._picture = base64.b64encode(small_png(_still(recording))).decode()
         self._words = f"Replay of {run_end(recording):g} s"
 
     @property
@@ -67,11 +62,3 @@ def replay(recording: Recording, *, speed: float = 1.0) -> Replay:
 
 def _still(recording: Recording) -> Plot:
     return plot_path(recording) if recording.world is not None else plot_topics(recording)
-
-
-def _small(figure: Plot) -> bytes:
-    """The figure as a PNG of few colours: a quarter of its size."""
-    image = Image.open(io.BytesIO(png(figure))).convert("RGB")
-    buffer = io.BytesIO()
-    image.quantize(COLOURS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
-    return buffer.getvalue()

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from sim.evidence import Pose, Recording
+from sim.view.drawing import draw_ground, draw_strokes
 from sim.view.figure import (
     CAUTION,
     GRID,
@@ -18,12 +19,13 @@ from sim.view.figure import (
     ROBOTS,
     SOLID,
     STYLES,
+    TURTLES,
     WARNING,
     Plot,
     legend_beside,
     plot,
 )
-from sim.view.geometry import body_tracks, reach
+from sim.view.geometry import GAP, body_tracks, reach
 from sim.world import Body, World
 from sim.world.obstacles import placed
 
@@ -34,14 +36,21 @@ def plot_path(recording: Recording) -> Plot:
     """The robot's path over its world, with start, goal and contacts.
 
     Other robots have a path too, and so has the tip of an arm; boxes and links are drawn where they were at
-    first and at last.
+    first and at last, turtles at last, with their lines.
     Raises ValueError for a run in which nothing moves.
     """
     figure, axes = scene(recording)
-    bodies = recording.world.bodies
+    bodies = recording.bodies
     robots = [body for body in bodies if body.kind == "robot"]
+    if recording.drawing is not None:
+        draw_strokes(axes, recording.drawing, recording.stamp)
     for body, track in zip(bodies, body_tracks(recording), strict=True):
         first = body is bodies[0]
+        if body.kind == "turtle":
+            if recording.stamp - track[-1].stamp < GAP:
+                colour = TURTLES[bodies.index(body) % len(TURTLES)]
+                _draw(axes, body, track[-1], colour, 1.0, body.name)
+            continue
         if body.kind == "robot":
             colour = ROBOTS[robots.index(body) % len(ROBOTS)]
             way = [pose.x for pose in track], [pose.y for pose in track]
@@ -78,9 +87,11 @@ def scene(recording: Recording) -> tuple[Plot, Axes]:
     """
     world, tracks = recording.world, ways(recording)
     figure, axes = plot(6.4, 4.8)
+    if recording.drawing is not None:
+        draw_ground(axes, world, recording.drawing.ground)
     draw_world(axes, world)
     left, bottom, right, top = world.bounds
-    for body, track in zip(world.bodies, tracks, strict=True):
+    for body, track in zip(recording.bodies, tracks, strict=True):
         far = reach(body)
         left, right = min([left, *(p.x - far for p in track)]), max([right, *(p.x + far for p in track)])
         bottom, top = min([bottom, *(p.y - far for p in track)]), max([top, *(p.y + far for p in track)])
@@ -90,7 +101,7 @@ def scene(recording: Recording) -> tuple[Plot, Axes]:
         aspect="equal",
         xlabel="x (m)",
         ylabel="y (m)",
-        title=f"{world.name}, seen from above" if world.machine is None else world.name,
+        title=world.name if world.machine else f"{world.name}, seen from above",
     )
     axes.grid(color=GRID, linewidth=0.6)
     axes.set_axisbelow(True)
@@ -98,7 +109,7 @@ def scene(recording: Recording) -> tuple[Plot, Axes]:
 
 
 def draw_world(axes: Axes, world: World) -> None:
-    """Walls, boxes, pillars and the goal."""
+    """Walls, boxes, pillars, the goal and places with names."""
     axes.add_collection(LineCollection(world.walls, colors=SOLID, linewidths=2.5))
     for box in world.boxes:
         axes.add_patch(Polygon(box.corners(), facecolor=MUTED, edgecolor=SOLID))
@@ -106,6 +117,9 @@ def draw_world(axes: Axes, world: World) -> None:
         axes.add_patch(Circle((pillar.x, pillar.y), pillar.radius, facecolor=MUTED, edgecolor=SOLID))
     if world.goal:
         axes.plot(*world.goal, "*", color=CAUTION, markersize=15, label="goal", linestyle="none")
+    for name, (x, y, *_) in world.places().items():
+        axes.plot(x, y, "+", color=SOLID, markersize=7)
+        axes.annotate(name, (x, y), (4, 3), textcoords="offset points", fontsize=7, color=SOLID)
 
 
 def _draw(axes: Axes, body: Body, pose: Pose, colour: str, alpha: float, label: str | None) -> None:

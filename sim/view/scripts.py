@@ -6,7 +6,7 @@ import json
 from importlib.resources import files
 
 _WEB = files("sim.view") / "web"
-_SHARED = ("checks.js", "parts.js", "theme.js", "scene.js")
+_SHARED = ("checks.js", "parts.js", "theme.js", "drawing.js", "scene.js", "graph.js")
 _MORE = {"live.js": ("topic.js",)}
 
 

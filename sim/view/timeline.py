@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 import numbers
+import statistics
 from collections.abc import Sequence
 from typing import Any
 
@@ -33,6 +35,7 @@ LEVELS = {
     "ERROR": (WARNING, "x"),
     "FATAL": ("black", "*"),
 }
+SILENCE = 5  # times the usual distance between two messages
 
 
 def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
@@ -105,7 +108,7 @@ def _label(recording: Recording, topic: str) -> str:
 
 
 def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None = None) -> Plot:
-    """Numbers from the messages of a topic over time.
+    """Numbers from the messages of a topic over time. Where the topic is silent the line is broken.
 
     fields: such as "linear.x", or "position.0" for the first of several; "data" when left out.
     unit: for the axis, such as "V"; when left out, the one that ROS gives to the fields.
@@ -121,13 +124,27 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     for field, style, marker in zip(fields, itertools.cycle(STYLES), itertools.cycle(MARKERS), strict=False):
         values = [_number(message, field, topic) for message in messages]
         look = {"linestyle": style, "marker": marker, "linewidth": 1.2, "markersize": 4}
-        axes.plot(stamps(heard), values, **look, label=field)
+        axes.plot(*_broken(stamps(heard), values), **look, label=field)
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
     axes.grid(color=GRID)
-    axes.legend(frameon=False)
+    axes.legend(framealpha=0.9, edgecolor="none")  # it may lie on a line, and stays legible
     return figure
+
+
+def _broken(moments: Sequence[float], values: Sequence[float]) -> tuple[list[float], list[float]]:
+    """With nothing to draw where no message came for long: a line through a silence would be a lie."""
+    gaps = [after - before for before, after in itertools.pairwise(moments)]
+    longest = SILENCE * statistics.median(gaps) if gaps else 0.0
+    at, drawn = list(moments[:1]), list(values[:1])
+    for gap, moment, value in zip(gaps, moments[1:], values[1:], strict=True):
+        if gap > longest > 0:
+            at.append(moment)
+            drawn.append(math.nan)
+        at.append(moment)
+        drawn.append(value)
+    return at, drawn
 
 
 def _number(message: Any, field: str, topic: str) -> float:
@@ -137,7 +154,7 @@ def _number(message: Any, field: str, topic: str) -> float:
         fields = ", ".join(type(message).get_fields_and_field_types())
         raise ValueError(f"the messages on {topic} have no field {field}; they have {fields}") from None
     if not isinstance(value, numbers.Real):
-        raise ValueError(f"{field} on {topic} is no number, but {type(value).__name__}")
+        raise ValueError(f"{field} on {topic} is not a number, but {type(value).__name__}")
     return float(value)
 
 

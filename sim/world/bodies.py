@@ -10,8 +10,8 @@ from sim.world.obstacles import Point
 class Body(NamedTuple):
     """One thing that moves. Its pose (x, y, yaw) in the map frame changes, its shape does not.
 
-    kind: robot, box, link or cart; pictures colour it by that. A body with a `radius` (m) is a disc; any
-    other is the polygon `outline`, whose corners (m) are given in the body's own frame, x forward.
+    kind: robot, box, person, link, cart or turtle; pictures colour it by that. A body with a `radius` (m) is
+    a disc; any other is the polygon `outline`, whose corners (m) are given in its own frame, x forward.
     """
 
     name: str

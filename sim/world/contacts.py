@@ -15,7 +15,7 @@ _SIDES = ("front", "left", "back", "right")
 class Contact(NamedTuple):
     """One touch: when it began and ended (s; end is None while it lasts), and where in the map frame (m).
 
-    `side` is front, left, right or back of the robot; `what` is wall, box, circle or robot.
+    `side` is front, left, right or back of the robot; `what` is wall, box, circle, robot or person.
     """
 
     stamp: float

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,13 +13,16 @@ import numpy as np
 
 from sim.nearest import unknown
 from sim.world import worldfile
+from sim.world.battery import BatteryModel
 from sim.world.bodies import Body
 from sim.world.generate import generate
 from sim.world.imu import ImuModel
 from sim.world.lidar import LidarModel
 from sim.world.model import Coordinate, Model, Wanted, WorldError
 from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
+from sim.world.people import Person
 from sim.world.robot import OtherRobot, Pose, RobotModel
+from sim.world.warehouse import WarehouseModel
 
 _FOLDER = Path(__file__).parent / "worlds"
 
@@ -27,7 +32,10 @@ _MACHINES = tuple(worldfile.MACHINES.values())
 _MACHINE = Wanted(
     f"one of {', '.join(model.__name__ for model in _MACHINES)}", lambda model: type(model) in _MACHINES
 )
-_NOT_MOBILE = {"robot": RobotModel(), "lidar": LidarModel(), "imu": None, "movable": (), "robots": ()}
+_NOT_MOBILE = {
+    **{"robot": RobotModel(), "lidar": LidarModel(), "imu": None, "battery": None, "warehouse": None},
+    **{"movable": (), "robots": (), "people": ()},
+}
 _Bounds = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 
 
@@ -45,8 +53,11 @@ class World(Model):
         boxes, circles: the obstacles that stand still.
         movable: the boxes that can be pushed.
         robots: the robots beside the first one, which is named "robot".
+        people: those who walk about.
         robot, lidar: the figures of the robots and their lidars.
         imu: the figures of the robots' IMUs; None where they have none.
+        battery: the figures of the robots' batteries, and where the charger is; None where they never tire.
+        warehouse: where orders are picked up and delivered; None where there are none.
         machine: the model of a machine that stands here instead of mobile robots, or None.
 
     Raises:
@@ -63,9 +74,12 @@ class World(Model):
     circles: Annotated[tuple[Circle, ...], Wanted("a list of Circle")] = ()
     movable: Annotated[tuple[MovableBox, ...], Wanted("a list of MovableBox")] = ()
     robots: Annotated[tuple[OtherRobot, ...], Wanted("a list of OtherRobot")] = ()
+    people: Annotated[tuple[Person, ...], Wanted("a list of Person")] = ()
     robot: RobotModel = field(default_factory=RobotModel)
     lidar: LidarModel = field(default_factory=LidarModel)
     imu: ImuModel | None = None
+    battery: BatteryModel | None = None
+    warehouse: WarehouseModel | None = None
     machine: Annotated[Any, _MACHINE] | None = None
 
     def __post_init__(self) -> None:
@@ -74,16 +88,23 @@ class World(Model):
             place = getattr(self, key)
             if place and not self._holds(place):
                 self.refuse(key)
+        if math.hypot(self.lidar.x, self.lidar.y) > self.robot.radius:  # it could look through a wall
+            self.refuse("lidar", f"a lidar on the robot, whose radius is {self.robot.radius:g} m")
         if self.machine:
             self._refuse_mobile()
         self._check_robots()
+        if not all(self._holds(corner) for person in self.people for corner in person.route):
+            self.refuse("people", "routes that lie inside the bounds")
+        for key in ("battery", "warehouse"):
+            if not all(map(self._holds, self.places(key).values())):
+                self.refuse(key, "places that lie inside the bounds")
 
     def _holds(self, place: tuple[float, ...]) -> bool:
         xmin, ymin, xmax, ymax = self.bounds
         return xmin <= place[0] <= xmax and ymin <= place[1] <= ymax
 
     def _check_robots(self) -> None:
-        names = ["robot", *(robot.name for robot in self.robots), *self._box_names()]
+        names = ["robot", *(robot.name for robot in self.robots), *self._box_names(), *self._people_names()]
         for name, again in itertools.pairwise(sorted(names)):
             if name == again:
                 self.refuse("robots", f"another name for one of those named {name!r}")
@@ -99,21 +120,49 @@ class World(Model):
             if getattr(self, key) != default:
                 self.refuse(key, "nothing there, for this world holds a machine instead of a mobile robot")
 
-    @property
+    @functools.cached_property
     def bodies(self) -> tuple[Body, ...]:
-        """All that moves, in the order of a simulation's poses; "robot" comes first where there is one."""
+        """All that moves, in the order of a simulation's poses; "robot" comes first where there is one.
+
+        Turtles come and go: these are the ones at time 0.
+        """
         if self.machine:
             return self.machine.bodies
         robots = [Body(name, "robot", self.robot.radius) for name in self.starts()]
         boxes = zip(self._box_names(), self.movable, strict=True)
-        return (*robots, *(Body(name, "box", outline=box.outline()) for name, box in boxes))
+        people = zip(self._people_names(), self.people, strict=True)
+        return (
+            *robots,
+            *(Body(name, "box", outline=box.outline()) for name, box in boxes),
+            *(Body(name, "person", person.radius) for name, person in people),
+        )
+
+    @property
+    def first(self) -> str | None:
+        """The robot or turtle that the keys drive, whose way is a recording's path; None with machines."""
+        leader = self.bodies[0]
+        return leader.name if leader.kind in ("robot", "turtle") else None
 
     def starts(self) -> dict[str, Pose]:
         """Where each mobile robot is at time 0, by its name; the first is "robot"."""
         return {"robot": self.start} | {robot.name: robot.start for robot in self.robots}
 
+    def places(self, key: str = "") -> dict[str, tuple[float, ...]]:
+        """What has a name on the floor: charger, desk, shelf_1, ...; each x, y (m), or x, y and yaw (rad).
+
+        key: "battery" or "warehouse" for what belongs to that alone.
+        """
+        charger = {"charger": self.battery.charger} if self.battery and key != "warehouse" else {}
+        if self.warehouse is None or key == "battery":
+            return charger
+        shelves = {f"shelf_{number}": pose for number, pose in enumerate(self.warehouse.pickups, start=1)}
+        return charger | {"desk": self.warehouse.desk} | shelves
+
     def _box_names(self) -> list[str]:
         return [f"box_{number}" for number in range(1, len(self.movable) + 1)]
+
+    def _people_names(self) -> list[str]:
+        return [f"person_{number}" for number in range(1, len(self.people) + 1)]
 
     @classmethod
     def names(cls) -> list[str]:
@@ -143,9 +192,9 @@ class World(Model):
     def generate(cls, kind: str, *, seed: int = 0, **figures: Any) -> World:
         """A world drawn at random, with a way from start to goal; equal arguments give equal worlds.
 
-        kind: "room" (width, height, boxes, circles, movable), "maze" (columns, rows, cell, loops) or
-        "clutter" (width, height, density); `sim.world.generate` says what the figures may be. The world's
-        name is such as maze_7.
+        kind: "room" (width, height, boxes, circles, movable), "maze" (columns, rows, cell, loops), "clutter"
+        (width, height, density) or "warehouse" (columns, rows, movable, people), which has a way to each
+        of its places; `sim.world.generate` says what the figures may be. Its name is such as maze_7.
 
         Raises:
             WorldError: there is no such kind or figure, a figure cannot be, or the obstacles do not fit.

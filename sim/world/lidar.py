@@ -7,14 +7,17 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from lidar_rays import ffi, lib
 
-from sim.world.model import Length, Model, at_least, within
+from sim.world.model import Angle, Length, Model, at_least, within
+
+Place = tuple[float, float, float]  # x, y (m), yaw (rad)
 
 
 @dataclass(frozen=True)
 class LidarModel(Model):
-    """A lidar in the middle of the robot: rays per turn, range limits (m), noise's standard deviation (m).
+    """A robot's lidar: rays per turn, range limits (m), noise's standard deviation (m).
 
-    `dropouts` is the probability that a ray comes back with no measurement.
+    `dropouts` is the probability that a ray comes back with no measurement. `x`, `y` (m) and `yaw` (rad) say
+    where it sits on the robot, which is base_scan in base_link; by default in the middle, looking ahead.
     """
 
     rays: Annotated[int, within(1, 10_000)] = 360
@@ -22,6 +25,9 @@ class LidarModel(Model):
     range_max: Length = 3.5
     noise: Annotated[float, at_least(0, "metres")] = 0.01
     dropouts: Annotated[float, within(0, 1)] = 0.0
+    x: Annotated[float, within(-1, 1, "metres")] = 0.0
+    y: Annotated[float, within(-1, 1, "metres")] = 0.0
+    yaw: Angle = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -32,6 +38,15 @@ class LidarModel(Model):
     def angle_increment(self) -> float:
         """Angle between two rays, rad."""
         return math.tau / self.rays
+
+    def place(self, robot: Place) -> Place:
+        """Where the lidar is when its robot is there, in the same frame."""
+        x, y, yaw = robot
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        turned = yaw + self.yaw
+        if not -math.pi < turned <= math.pi:
+            turned = math.remainder(turned, math.tau)
+        return x + cos * self.x - sin * self.y, y + sin * self.x + cos * self.y, turned
 
 
 class Scan(NamedTuple):

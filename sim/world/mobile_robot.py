@@ -7,14 +7,16 @@ from typing import Protocol
 import numpy as np
 import pymunk
 
+from sim.world.battery import Battery
 from sim.world.contacts import Contact, ContactLog
 from sim.world.description import World
 from sim.world.drive import Drive
 from sim.world.imu import Imu, ImuReading
 from sim.world.lidar import Lidar, Scan
-from sim.world.robot import Pose, wrap
+from sim.world.robot import DT, Pose, wrap
 
 Rows = list[tuple[float, ...]]
+_TIRES = 5  # steps of the physics between two looks at the battery
 
 
 class Surroundings(Protocol):
@@ -37,6 +39,7 @@ class MobileRobot(Drive):
     Attributes:
         name: "robot" for the first one; for any other its name in the world, which is its ROS namespace.
         last_scan: what its lidar saw last; None before the first scan.
+        battery: its battery; None where the world's robots never tire.
     """
 
     def __init__(self, around: Surroundings, space: pymunk.Space, name: str, number: int) -> None:
@@ -50,6 +53,8 @@ class MobileRobot(Drive):
         self._imu = Imu(world.imu, self.body, _chance(around.seed, (number, 1))) if world.imu else None
         self.log = ContactLog(self.body)
         self.feel = self._imu.feel if self._imu else None
+        self.battery = Battery(world.battery) if world.battery else None
+        self._lever, self._steps = world.robot.track_width / 2, 0
 
     @property
     def pose(self) -> Pose:
@@ -67,15 +72,31 @@ class MobileRobot(Drive):
         """All touches so far, oldest first, but those that `forget` dropped."""
         return list(self.log.contacts)
 
+    def command(self, v: float, w: float) -> None:
+        """As `Drive` does it, but a robot whose battery is empty stops."""
+        super().command(v, w)
+        if self.battery and self.battery.is_empty:
+            super().command(0.0, 0.0)
+
+    def tire(self) -> None:
+        """Drain or fill the battery; call after each step of the space."""
+        self._steps += 1
+        if self._steps % _TIRES:
+            return
+        self.battery.work(_TIRES * DT, self.body.position, self.odometry, self._lever)
+        if self.battery.is_empty:
+            super().command(0.0, 0.0)
+
     def scan(self) -> np.ndarray:
-        """One new lidar scan from the true pose: float32, shape (rays,), m; ray 0 forward, counter-clockwise.
+        """One new lidar scan from where the lidar truly is: float32, shape (rays,), m; counter-clockwise.
 
         inf: nothing within `range_max`; -inf: something nearer than `range_min`; nan: no measurement
         (REP-117).
         """
         self._beams.place(*self._around.movers(self))
-        ranges = self._beams.measure(*self.pose, self._lidar_rng)
-        self.last_scan = Scan(self._around.time, self.pose, ranges)
+        place = self._around.world.lidar.place(self.pose)
+        ranges = self._beams.measure(*place, self._lidar_rng)
+        self.last_scan = Scan(self._around.time, place, ranges)
         return ranges
 
     def imu(self) -> ImuReading | None:

@@ -17,10 +17,11 @@ DT = 1 / RATE
 
 
 _NAME = "a name of small letters, digits and single underscores that begins with a letter"
-_ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
+ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
 
 
-def _is_loop(route: tuple[Point, ...]) -> bool:
+def is_loop(route: tuple[Point, ...]) -> bool:
+    """Whether the corners of a route can be driven round; one without corners is none to be driven."""
     return not route or (len(route) >= 2 and all(a != b for a, b in ring(route)))
 
 
@@ -81,7 +82,7 @@ class OtherRobot(Model):
 
     name: Annotated[str, Wanted(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
     start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
-    route: Annotated[tuple[Point, ...], Wanted(_ROUTE, _is_loop)] = ()
+    route: Annotated[tuple[Point, ...], Wanted(ROUTE, is_loop)] = ()
     speed: Annotated[float, positive("m/s")] = 0.2
 
 

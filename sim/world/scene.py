@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from sim.world.bodies import Body
 from sim.world.contacts import Contact
 from sim.world.description import World
+from sim.world.drawing import Drawing
 from sim.world.lidar import Scan
 from sim.world.machines import kind_of
 from sim.world.mobile_robot import MobileRobot
@@ -17,6 +19,8 @@ class Scene(Protocol):
 
     world: World
     robots: dict[str, MobileRobot]  # by name, the first is "robot"; none where there is a machine
+    drawing: Drawing | None  # what pens drew; None where nobody has one
+    rate: float  # physics steps in a second
 
     @property
     def time(self) -> float:
@@ -29,8 +33,12 @@ class Scene(Protocol):
         """
 
     @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves now: `world.bodies`, where nothing comes or goes."""
+
+    @property
     def poses(self) -> list[tuple[float, float, float]]:
-        """(x, y, yaw) of each of `world.bodies`, in their order, in the map frame."""
+        """(x, y, yaw) of each of `bodies`, in their order, in the map frame."""
 
     @property
     def contacts(self) -> list[Contact]:

@@ -1,13 +1,15 @@
-"""The mobile robots and boxes of one world, moved in fixed steps of simulated time."""
+"""The mobile robots, boxes and people of one world, moved in fixed steps of simulated time."""
 
+import functools
 import math
 
+from sim.world.bodies import Body
 from sim.world.contacts import Contact, Touches
 from sim.world.description import World
 from sim.world.lidar import Scan
 from sim.world.mobile_robot import MobileRobot, Rows
 from sim.world.robot import DT, RATE, Pose
-from sim.world.solids import add_boxes, add_obstacles, check_start, make_space
+from sim.world.solids import add_boxes, add_obstacles, add_people, check_start, make_space
 
 
 class Simulation:
@@ -24,12 +26,16 @@ class Simulation:
         WorldError: a robot does not fit at its start, or a box is inside something.
     """
 
+    drawing: None = None  # robots have no pen
+    rate: float = RATE
+
     def __init__(self, world: World, seed: int = 0) -> None:
         self.world, self.seed = world, seed
         self._steps = 0
         self._space = make_space()
         names = add_obstacles(self._space, world)
         self._boxes = add_boxes(self._space, world, names)
+        self._people = add_people(self._space, world, names)
         self.robots: dict[str, MobileRobot] = {}
         for number, name in enumerate(world.starts()):
             check_start(self._space, world, name, names)
@@ -46,15 +52,24 @@ class Simulation:
         return self._steps / RATE
 
     @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves."""
+        return self.world.bodies
+
+    @property
     def poses(self) -> list[Pose]:
-        """The pose of each of `world.bodies`, in their order."""
-        return [*(robot.pose for robot in self.robots.values()), *(box.pose for box in self._boxes)]
+        """The pose of each of `bodies`, in their order."""
+        moving = (*self.robots.values(), *self._boxes, *self._people)
+        return [one.pose for one in moving]
 
     def advance(self, until: float) -> None:
         """Do the physics steps, if any are due, that end at or before `until` (s)."""
         last = math.floor(until * RATE + 1e-6)
+        in_the_way = [*self.robots.values(), *self._boxes]
         before = [robot.roll for robot in self.robots.values()]
+        before += [functools.partial(person.walk, in_the_way) for person in self._people]
         after = [robot.feel for robot in self.robots.values() if robot.feel]
+        after += [robot.tire for robot in self.robots.values() if robot.battery]
         touches, step = self._touches, self._space.step
         while self._steps < last:
             for roll in before:
@@ -70,7 +85,8 @@ class Simulation:
         sides = [side for box in self._boxes for side in box.sides()]
         radius = self.world.robot.radius
         others = (other for other in self.robots.values() if other is not robot)
-        return sides, [(*other.pose[:2], radius) for other in others]
+        people = ((*person.pose[:2], person.shape.radius) for person in self._people)
+        return sides, [*((*other.pose[:2], radius) for other in others), *people]
 
     @property
     def contacts(self) -> list[Contact]:

@@ -1,4 +1,4 @@
-"""The solid things of a world in the physics: those that stand still, and the boxes that can be pushed."""
+"""The solid things of a world in the physics: those that stand still, boxes that can be pushed, people."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pymunk
 from sim.world.description import World
 from sim.world.model import WorldError
 from sim.world.obstacles import MovableBox, placed, ring
+from sim.world.people import Walker
 from sim.world.robot import Pose, wrap
 
 _FRICTION = 0.5
@@ -92,6 +93,15 @@ def add_boxes(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str])
                 )
         names[added.shape] = "box"
     return boxes
+
+
+def add_people(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str]) -> list[Walker]:
+    """Add those who walk about, in the order of the world's file, and their shapes to `names`."""
+    walkers = [Walker(space, person) for person in world.people]
+    for walker in walkers:
+        walker.shape.friction = _FRICTION
+        names[walker.shape] = "person"
+    return walkers
 
 
 def check_start(space: pymunk.Space, world: World, name: str, names: dict[pymunk.Shape, str]) -> None:

@@ -12,6 +12,7 @@ PARTS = (
     "startup",
     "world",
     "machines",
+    "transforms",
     "repeats",
     "digests",
     "grading",
@@ -20,8 +21,8 @@ PARTS = (
     "pace",
     "view",
 )
-# peers installs what it compares with; navigator takes minutes
-ON_REQUEST = ("peers", "navigator")
+# peers installs what it compares with; navigator and capstone take minutes
+ON_REQUEST = ("peers", "navigator", "capstone")
 
 
 def machine() -> str:

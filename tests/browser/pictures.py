@@ -19,11 +19,22 @@ COUNT_FRAMES = """
 """
 PIXELS = """canvas => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(
     () => done(canvas.toDataURL()))))"""
+# The colours that cover more than a few pixels of a canvas, as RRGGBB.
+COLOURS = """canvas => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const counts = {};
+    for (let i = 0; i < data.length; i += 4) {
+        const colour = (data[i] << 16 | data[i + 1] << 8 | data[i + 2]).toString(16).padStart(6, "0");
+        counts[colour] = (counts[colour] || 0) + 1;
+    }
+    return Object.keys(counts).filter((colour) => counts[colour] > 15);
+}"""
 SECONDS = 300  # only against hanging: a busy machine is slow
 
 
 def watch(page: Page) -> list[str]:
-    """Note the address of whatever the page asks for from now on."""
+    """Note the address of whatever the page asks for from now on; and be patient with it."""
+    page.set_default_timeout(SECONDS * 1000)
     requests: list[str] = []
     page.on("request", lambda request: requests.append(request.url))
     return requests

@@ -19,6 +19,7 @@ HOSTILE = (ROOT / "tests" / "students" / "hostile_page.py").read_text()
 STEAL = "window.stolen=(window.stolen||0)+1"
 NODE = """
 import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
 from geometry_msgs.msg import Twist
 from rclpy.qos import qos_profile_system_default as qos
@@ -28,10 +29,11 @@ class TooShort(Node):
         super().__init__("driver")
         self.publisher = self.create_publisher(Twist, "cmd_vel", qos)
         self.create_timer(0.1, self.tick)
+        self.end = self.get_clock().now() + Duration(seconds=2)
 
     def tick(self):
         twist = Twist()
-        twist.linear.x = 0.3 if self.get_clock().now().nanoseconds < 2e9 else 0.0
+        twist.linear.x = 0.3 if self.get_clock().now() < self.end else 0.0
         self.publisher.publish(twist)
 """
 TEST = """

@@ -8,12 +8,15 @@ import zlib
 
 import pytest
 from geometry_msgs.msg import Twist
+from rclpy.duration import Duration
 from rclpy.node import Node
 
 from sim import run
 from sim.view import packing, replay
-from tests.browser.pictures import SECONDS, Picture, watch
+from tests.browser.pictures import COLOURS, SECONDS, Picture, watch
+from tests.sim.graphs import node
 from tests.students import misfits
+from tests.students.engine.pond import script
 
 pytestmark = pytest.mark.browser
 PAGE = '<!doctype html><meta charset="utf-8"><meta name="color-scheme" content="light dark"><body>'
@@ -26,12 +29,13 @@ class Rammer(Node):
         super().__init__("rammer")
         self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
         self.create_timer(0.1, self.drive)
+        self.end = self.get_clock().now() + Duration(seconds=9)
 
     def drive(self):
         command = Twist()
         command.linear.x = 0.6
         self.publisher.publish(command)
-        if self.get_clock().now().nanoseconds > 9e9:
+        if self.get_clock().now() > self.end:
             self.get_logger().warning("the <b>wall</b> wins")
             raise RuntimeError("stuck")
 
@@ -66,6 +70,26 @@ def opened(page, recording, folder):
 
 def said(picture):
     return picture.root.locator(".say").inner_text()
+
+
+def test_turtles_come_draw_and_go_in_a_replay(page, tmp_path):
+    steps = (0.5, "spawn"), (0.6, "swim", "turtle1", 2.0), (1.5, "kill", "turtle2"), (2.0, "clear")
+    swim = run(script(*steps), world="turtlesim", seconds=4, quiet=True)
+    picture = opened(page, swim, tmp_path)
+    turtle1, turtle2, line, pond = "7bc96f", "f2b84b", "b3b8ff", "4556ff"
+    seen = {}
+    for share in (0.1, 0.35, 0.45, 0.9):
+        picture.scrub(share)
+        picture.pixels()
+        seen[share] = {turtle1, turtle2, line, pond} & set(picture.canvas.evaluate(COLOURS))
+    assert seen == {
+        0.1: {turtle1, pond},
+        0.35: {turtle1, turtle2, line, pond},
+        0.45: {turtle1, line, pond},
+        0.9: {turtle1, pond},
+    }
+    assert page.faults == []
+    picture.screenshot("replay-turtles")
 
 
 def test_a_replay_plays_and_asks_for_nothing(page, rammed, tmp_path):
@@ -156,6 +180,43 @@ def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_pa
     assert first.time() < second.time()
 
 
+def test_the_graph_is_folded_and_opens_by_the_keyboard(page, tmp_path):
+    nodes = [node("talker", ["news"]), node("paper", [], ["newz"])]
+    picture = opened(page, run(*nodes, seconds=2, quiet=True), tmp_path)
+    graph = picture.root.locator(".graph")
+    summary, drawing = graph.locator("summary"), graph.locator(".wires svg")
+    assert summary.inner_text() == "GRAPH: 1 MISSING CONNECTION"
+    assert not drawing.is_visible()
+    summary.press("Enter")
+    drawing.wait_for()
+    assert drawing.locator("text").all_text_contents() == [
+        "/talker", "/paper", "/news", "10 Hz", "/newz", "0 messages", "1", "1",
+    ]  # fmt: skip
+    assert drawing.get_attribute("aria-label").startswith("topic /news (10 Hz): /talker -> nobody")
+    (reason,) = graph.locator("li").all_inner_texts()
+    assert reason.startswith("/paper waits in vain: nobody publishes on /newz, and /talker has /news.")
+    red = drawing.locator(".gap .line").first
+    colour = "path => getComputedStyle(path).stroke"
+    light = red.evaluate(colour)
+    page.emulate_media(color_scheme="dark")
+    changed_colour = "(root, light) => getComputedStyle(root.querySelector('.gap .line')).stroke !== light"
+    picture.wait_until(changed_colour, light)
+    assert page.faults == []
+    page.set_viewport_size({"width": 320, "height": 800})
+    box = graph.bounding_box()
+    assert box["x"] + box["width"] <= 320
+    picture.screenshot("replay-graph-narrow-dark")
+
+
+def test_a_replay_from_before_there_were_graphs_plays_without(page, rammed, tmp_path):
+    data = json.loads(zlib.decompress(base64.b64decode(packing.pack(rammed, 1.0)), -15))
+    del data["graph"]
+    html = re.sub('data-replay="[^"]*"', lambda _: f'data-replay="{packed(data)}"', replay(rammed).html)
+    load(page, html, tmp_path)
+    page.wait_for_selector(".ros2-view")
+    assert page.locator(".graph").is_hidden()
+
+
 def test_a_run_without_a_robot_replays_its_topics(page, tmp_path):
     picture = opened(page, run(misfits.Talker, seconds=5, quiet=True), tmp_path)
     assert picture.root.locator(".stage").count() == 0
@@ -224,6 +285,10 @@ HOSTILE = {
     "a range that is none": changed("scans", 0, "ranges", to=["1"]),
     "too many topics": changed("topics", to=[["/a", "b", "0"]] * 101),
     "a strip without end": changed("topics", 0, 2, to="1" * 10_000),
+    "a box of a strange kind": changed("graph", "boxes", 0, "kind", to="x onload=alert(1)"),
+    "a box without a place": changed("graph", "boxes", 0, "place", to=["0", 0, 1, 1]),
+    "an arrow that leads nowhere": changed("graph", "arrows", 0, "points", to=[1, 2, 3]),
+    "words of a graph that are none": changed("graph", "words", to={}),
     "a bomb": lambda data: packed(b" " * 40_000_000),
 }
 

@@ -253,6 +253,27 @@ def test_the_panel_tells_the_robots_numbers_and_what_is_on_a_topic(playing):
     root.locator(".looked").wait_for(state="hidden")
 
 
+@pytest.mark.parametrize("playing", ["player = play(world='yard', seconds=600)"], indirect=True)
+def test_the_graph_beside_the_topics_changes_as_nodes_come(playing):
+    picture = live(playing)
+    graph = picture.root.locator(".graph")
+    assert graph.locator("svg").count() == 0  # nothing is drawn while nobody looks
+    graph.locator("summary").press("Space")
+    graph.locator("svg text", has_text="/robot").wait_for()
+    graph.locator("svg text", has_text="/teleop").wait_for(state="detached")
+    picture.canvas.click()
+    playing.page.keyboard.down("ArrowUp")
+    graph.locator("svg text", has_text="/teleop").wait_for()
+    graph.locator(".topic .much", has_text="20 Hz").first.wait_for()
+    graph.evaluate("graph => graph.scrollIntoView({block: 'end'})")
+    playing.screenshot("play-graph")
+    playing.page.keyboard.up("ArrowUp")
+    eventually(playing, "sent(player, '/cmd_vel')[1:] == [0.0, 0.0]")
+    way = playing.ask("way(player)")
+    graph.locator(".wires").press("ArrowDown")  # scrolls, and drives nothing
+    assert stands(playing) and playing.ask(f"abs(way(player) - {way}) < 0.3")
+
+
 @pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
 def test_a_closed_panel_and_a_page_that_is_loaded_again_find_the_robot(playing):
     playing.page.get_by_title("Close Robot", exact=True).click()
@@ -296,3 +317,16 @@ def test_the_live_picture_fits_a_narrow_dark_window(playing):
         box = picture.root.bounding_box()
         assert box["x"] + box["width"] <= 480
         picture.screenshot("play-narrow-dark")
+
+
+@pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
+def test_on_a_page_at_200_percent_the_robot_has_a_tab_of_its_own(playing):
+    playing.page.get_by_title("Close Robot", exact=True).click()
+    playing.page.locator(".ros2-view.live").wait_for(state="detached")
+    playing.page.set_viewport_size({"width": 640, "height": 400})
+    playing.page.get_by_role("button", name="Show the robot").click()
+    panel = playing.page.locator(".ros2-course-robot")
+    panel.locator("canvas").first.wait_for()
+    assert panel.bounding_box()["height"] > 200  # of the 400; above the code it had 130
+    assert not playing.page.locator(".jp-Notebook").is_visible()
+    playing.screenshot("play-200-percent")

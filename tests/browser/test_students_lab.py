@@ -1,5 +1,7 @@
 import pytest
 
+from tests.browser.lab import write_notebook
+
 pytestmark = pytest.mark.browser
 
 
@@ -8,6 +10,7 @@ def test_lab_starts_with_the_map_of_the_course_and_leads_on_and_back(lab, studen
     lab.open()
     lab.page.locator(".jp-OutputArea-output caption", has_text="Your points so far: 0 of").wait_for()
     lab.screenshot("start")
+    assert lab.page.evaluate("() => window.notebook().content.activeCellIndex") == 0  # and so in view
     lab.page.locator(".jp-OutputArea-output a", has_text="1 nodes (lesson)").first.click()
     tab = lab.page.locator(".lm-TabBar-tabLabel")
     tab.get_by_text("1 Nodes: lesson", exact=True).wait_for()
@@ -28,6 +31,15 @@ def way(lab, name):
     """A button of the notebook that shows."""
     bar = lab.page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Toolbar")
     return bar.get_by_role("button", name=name)
+
+
+def test_the_first_press_on_run_works_before_the_kernel_is_there(lab, students_folder):
+    write_notebook(students_folder / "cells/first.ipynb", "print(40 + 2)")
+    lab.page.goto(f"{lab.address}/lab/workspaces/first/tree/cells/first.ipynb")
+    lab.page.locator(".jp-Notebook .jp-Cell .cm-content").first.click()
+    lab.page.keyboard.press("Shift+Enter")
+    lab.page.locator(".jp-OutputArea-output", has_text="42").wait_for()
+    assert lab.page.locator(".jp-Dialog").count() == 0
 
 
 def test_the_instructors_panels_are_hidden(lab):

@@ -12,7 +12,7 @@ from typing import Any
 from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.node import Node
 
-from sim.evidence import Endpoint, LogLine
+from sim.evidence import Endpoint, LogLine, since_start
 from sim.ros.messages.codec import encode, message_class
 from tests.exercises.cards import Card, log, profile
 
@@ -85,7 +85,7 @@ class Replays(Stub):
         self.create_timer(0.01, self.replay)
 
     def replay(self) -> None:
-        now = self.get_clock().now().nanoseconds / 1e9
+        now = since_start(self.get_clock().now().to_msg())
         while self.rows and self.rows[-1].stamp <= now + 1e-6:
             row = self.rows.pop()
             if isinstance(row, LogLine):

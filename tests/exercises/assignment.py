@@ -9,8 +9,7 @@ from typing import Any, ClassVar
 
 import pytest
 
-from grader import Exercise
-from grader.cast import LocalCast
+from grader import Exercise, Score
 from grader.diagnosis import find_flaw
 from tests.exercises.at_times import TIMES, working
 from tests.exercises.evidence import Evidence
@@ -24,18 +23,24 @@ from tests.exercises.score_tables import (
     shown,
     students,
 )
+from tests.exercises.seeds import fallen_short, right_nodes
 
-PRIVATE = 8  # other seeds, as students get them when a class is marked
-LONG = 50.0  # s of simulated time, of all runs of an exercise
+PRIVATE = 8  # other seeds, as students get them when a class is marked; tests.exercises.seeds tries more
+LONG = 15.0  # s of simulated time, of all runs of an exercise
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
 
-def first_runs(exercise: Exercise, number: int) -> Exercise:
-    """The exercise with its first runs only; whole where a check holds in some of its scenarios only."""
+def is_long(exercise: Exercise) -> bool:
+    """Whether its runs are so long that soak tests alone run all that is tried with it."""
+    return sum(scenario.seconds for scenario, _ in exercise.runs()) >= LONG
+
+
+def first_run(exercise: Exercise) -> Exercise:
+    """The exercise with its first run only; whole where a check holds in some of its scenarios only."""
     if any(check.only for check in exercise.checks):
         return exercise
     short = copy.copy(exercise)
-    short.seeds, short.scenarios = exercise.seeds[:number], exercise.scenarios[:number]
+    short.seeds, short.scenarios = exercise.seeds[:1], exercise.scenarios[:1]
     return short
 
 
@@ -56,7 +61,7 @@ class Assignment:
         """Run a test for each exercise, or for each of its nodes, as its arguments ask."""
         if "times" in metafunc.fixturenames:
             rows = [
-                pytest.param(name, times, marks=[pytest.mark.soak] if self.is_long(name) else [])
+                pytest.param(name, times, marks=[pytest.mark.soak] if is_long(self.judge(name)) else [])
                 for name in self.names
                 for times in TIMES
             ]
@@ -80,13 +85,7 @@ class Assignment:
     @classmethod
     def right(cls, exercise: str) -> list[str]:
         """The names of the nodes that earn everything."""
-        most = cls.judge(exercise).points
-        return [name for name, text in page(cls.topic(), exercise).items() if text == f"{name}: {most:g}"]
-
-    @classmethod
-    def is_long(cls, exercise: str) -> bool:
-        """Whether its runs are so long that soak tests alone run all of its nodes."""
-        return sum(scenario.seconds for scenario, _ in cls.judge(exercise).runs()) >= LONG
+        return right_nodes(cls.topic(), exercise)
 
     @classmethod
     def telling(cls, exercise: str) -> list[str]:
@@ -102,7 +101,10 @@ class Assignment:
     def row(cls, exercise: str, node: str) -> Any:
         """A node's place in the table, with the marks that say when it is run."""
         first, told = cls.right(exercise)[:1], page(cls.topic(), exercise).get(node, "")
-        marks = [pytest.mark.soak] if cls.is_long(exercise) and node not in cls.telling(exercise) else []
+        judge = cls.judge(exercise)
+        slow = is_long(judge) or bool(judge.package)  # to build one takes 2 s
+        rare = slow and node not in cls.telling(exercise)
+        marks = [pytest.mark.soak] if rare else []
         marks += [pytest.mark.pythons] if node in first or RAISED.search(told) else []
         return pytest.param(exercise, node, marks=marks)
 
@@ -114,37 +116,31 @@ class Assignment:
         return students(self.topic(), exercise)[node]
 
     def test_a_node_earns_its_points_and_words(self, exercise, node, program):
-        """A right one in all its runs; a wrong one in as many as show what its page says of it.
-
-        And to a right one the first look says that there is no error.
-        """
-        judge, said = self.judge(exercise), page(self.topic(), exercise).get(node)
-        number = len(judge.runs()) if node in self.right(exercise) else 1
-        score = first_runs(judge, number).grade(program)
-        if shown(node, score) != said:
+        """In its first run, or else in all of them; `make solutions` has all runs of a right one."""
+        judge = self.judge(exercise)
+        score = first_run(judge).grade(program)
+        if shown(node, score) != page(self.topic(), exercise).get(node):
             score = judge.grade(program)
-        assert shown(node, score) == said
-        assert score.broken == []
-        if node in self.right(exercise):
-            assert [find_flaw(recording) for recording in score.recordings] == [""] * number
+        self.check_words(exercise, node, score)
 
     @pytest.mark.soak
     def test_no_run_shows_more_than_a_page_says(self, exercise, node, program):
-        score = self.judge(exercise).grade(program)
+        self.check_words(exercise, node, self.judge(exercise).grade(program))
+
+    def check_words(self, exercise: str, node: str, score: Score) -> None:
+        """It is what the page says; and to a right node the first look says that there is no error."""
         assert shown(node, score) == page(self.topic(), exercise).get(node)
         assert score.broken == []
+        if node in self.right(exercise):
+            assert {find_flaw(recording) for recording in score.recordings} == {""}
 
     @pytest.mark.soak
     def test_right_nodes_earn_everything_with_every_students_seeds(self, exercise):
-        judge, nodes, right = self.judge(exercise), students(self.topic(), exercise), self.right(exercise)
-        for number in range(PRIVATE):
-            name = right[number % len(right)]
-            score = judge.judge(LocalCast([nodes[name]]), f"secret {number}")
-            assert shown(name, score) == f"{name}: {judge.points:g}"
+        assert list(fallen_short(self.topic(), exercise, range(PRIVATE))) == []
 
     def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
         """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""
-        judge, nodes = first_runs(self.judge(exercise), 1), students(self.topic(), exercise)
+        judge, nodes = first_run(self.judge(exercise)), students(self.topic(), exercise)
         seconds = max(scenario.seconds for scenario, _ in judge.runs())
         programs = [working(nodes[name], times, seconds) for name in self.right(exercise)]
         program = next(filter(None, programs), None)
@@ -164,6 +160,7 @@ class Assignment:
         missed = {line[2:] for block in blocks for line in block.splitlines() if line.startswith("- ")}
         assert {check.sentence for check in self.judge(exercise).checks} <= missed
 
+    @pytest.mark.soak  # `make solutions` does so for each change that is proposed
     def test_the_solution_earns_everything(self):
         cells = graded("solutions", self.folder)
         assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
@@ -182,7 +179,7 @@ class Assignment:
         assert all("Not started yet: write your code" in text for text in said)
 
     def test_a_test_cell_offers_the_points_of_its_exercise(self):
-        cells = graded("solutions", self.folder).values()
+        cells = graded("exercises", self.folder).values()  # the solution's test cells
         offered = [exercise_of(cell, self.package) for cell in cells]
         assert offered == [self.judge(name) for name in self.names]
         assert [exercise.points for exercise in offered] == [cell.most for cell in cells]

@@ -1,4 +1,15 @@
+from collections.abc import Iterator
+
 import pytest
+
+from tests.exercises.builds import kept_builds
+
+
+@pytest.fixture(autouse=True, scope="session")
+def builds_once() -> Iterator[None]:
+    """Equal packages are built once."""
+    with kept_builds():
+        yield
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
 LEAST = 0.2  # s of computing: a run that takes less is not worth a file
 ENGINE = ("sim", "interfaces", "requirements.lock")
-OURS = (*ENGINE, "grader/cast.py", "grader/exercise.py", "grader/seeds.py")
+OURS = (*ENGINE, "grader/cast.py", "grader/exercise.py", "grader/seeds.py", "grader/workspace")
 
 
 @functools.cache
@@ -56,7 +56,8 @@ class Evidence:
     @classmethod
     def of_nodes(cls, topic: str) -> Evidence:
         """The recordings of the students' nodes of an assignment."""
-        return cls(f"nodes-{topic}", *OURS, f"grader/exercises/{topic}", f"tests/students/{topic}")
+        own = f"grader/exercises/{topic}", f"tests/students/{topic}", "tests/students/workspaces.py"
+        return cls(f"nodes-{topic}", *OURS, *own)
 
     @classmethod
     def of_notebooks(cls, folder: str, assignment: str) -> Evidence:

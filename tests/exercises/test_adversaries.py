@@ -8,7 +8,7 @@ import pytest
 from grader.cast import LocalCast
 from grader.catalogue import exercises
 from tests.exercises.adversaries import KINDS, adversary
-from tests.exercises.assignment import Assignment, first_runs
+from tests.exercises.assignment import Assignment, first_run, is_long
 from tests.exercises.at_times import spun_until
 from tests.exercises.cards import Card
 from tests.exercises.evidence import Evidence
@@ -19,13 +19,16 @@ from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_navigator import TestNavigator as Navigator
 from tests.exercises.test_nodes import TestNodes as Nodes
+from tests.exercises.test_packages import TestPackages as Packages
+from tests.exercises.test_safety import TestSafety as Safety
 from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
-    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence, Joints, Frames, Control),
+    *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence),
+    *(Joints, Frames, Control, Packages, Safety),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 SECRET = "an instructor's"
@@ -50,7 +53,7 @@ def rows(kinds):
             name,
             kind,
             id=f"{assignment.topic()}-{name}-{kind.replace(' ', '_')}",
-            marks=[pytest.mark.soak] if assignment.is_long(name) else [],
+            marks=[pytest.mark.soak] if is_long(assignment.judge(name)) else [],
         )
         for assignment, name in ALL
         for kind in kinds
@@ -72,7 +75,7 @@ def card_of(assignment, name, monkeypatch):
     right, evidence = assignment.right(name)[0], Evidence.of_nodes(assignment.topic())
     with monkeypatch.context() as patched:
         patched.setattr("sim.run", evidence.keeping(f"{name}-{right}"))
-        judge = first_runs(assignment.judge(name), 1)
+        judge = first_run(assignment.judge(name))
         return Card(judge.grade(students(assignment.topic(), name)[right]).recordings[0])
 
 
@@ -83,7 +86,7 @@ def done_at(run):
 
 
 def earned(exercise, program):
-    score = first_runs(exercise, 1).judge(LocalCast([program]), SECRET)
+    score = first_run(exercise).judge(LocalCast([program]), SECRET)
     assert score.broken == []
     return score
 

@@ -1,4 +1,4 @@
-"""Nodes that say what is no number, too little, or all at once and then nothing: no broken check."""
+"""Nodes that say what is not a number, too little, or all at once and then nothing: no broken check."""
 
 import dataclasses
 import math
@@ -19,7 +19,7 @@ from grader.exercises.navigator.mapping import answers_clicks
 from grader.exercises.navigator.planning import answers_a_goal
 from grader.exercises.sensing.turning import does_not_drift
 from sim.evidence import Ended, Graph
-from tests.exercises.assignment import first_runs
+from tests.exercises.assignment import first_run
 from tests.exercises.score_tables import misses, students
 from tests.grader.recordings import published
 
@@ -33,7 +33,7 @@ def point(value):
 
 
 def path(value):
-    """From the robot to the goal of the first world, by way of nowhere where value is no number."""
+    """From the robot to the goal of the first world, by way of nowhere where value is not a number."""
     world, msg = navigator.world_of("room", 3), Path()
     msg.header.frame_id = "map"
     for x, y in (world.start[:2], (value, value), world.goal):
@@ -126,7 +126,7 @@ def test_who_never_lets_the_robot_get_free_is_told_so():
             command.angular.z = -3.0 if self.left > 0 else 0.0
             self.publisher.publish(command)
 
-    score = first_runs(sensing.guard, 1).judge(LocalCast([TurnsToTheWall]), "an instructor's")
+    score = first_run(sensing.guard).judge(LocalCast([TurnsToTheWall]), "an instructor's")
     assert earned(score) == 3.0
     assert [tuple(miss)[1:] for miss in misses(score)] == [(
         "0.5 s or more in which all is well and 1 m are free ahead",

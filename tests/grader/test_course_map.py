@@ -1,9 +1,12 @@
 import json
+import re
+from pathlib import Path
 
 import pytest
 
 from grader import course_map
 
+ROOT = Path(__file__).parents[2]
 POINTS = {"nbgrader": {"grade": True, "points": 8}}
 
 
@@ -20,7 +23,7 @@ def code(*, run=None, metadata=None, result=None):
 
 def write(path, title, *cells):
     path.parent.mkdir(parents=True, exist_ok=True)
-    words = "**Time:** about an hour. **Before you begin:** Python & `lesson` 0. More is in the glossary."
+    words = "**Time:** about\nan hour. **Before you begin:** Python & `lesson` 0. More is in the glossary."
     head = {"cell_type": "markdown", "metadata": {}, "source": [f"# {title}\n\n", words]}
     path.write_text(json.dumps({"cells": [head, *cells]}))
 
@@ -75,3 +78,18 @@ def test_no_output_gives_more_than_the_checks_points(course, result):
 def test_outside_the_course_it_says_what_it_looked_for(tmp_path):
     with pytest.raises(LookupError, match="is not in the course: expected a folder with course/ and exercises/"):
         course_map(tmp_path)
+
+
+def test_every_notebook_of_the_course_says_how_long_it_takes_and_what_it_needs():
+    notebooks = course_map(ROOT / "course").notebooks
+    assert [item.path.name for item in notebooks if not item.time] == []
+    assert [item.path.parent.name for item in notebooks if not item.needs] == ["00_robot"]
+
+
+def test_the_start_page_leads_to_the_words_and_to_what_differs_on_a_real_robot():
+    (title, *_) = json.loads((ROOT / "course/start.ipynb").read_text("utf-8"))["cells"]
+    pages = re.findall(r"\]\((\w+\.md)\)", "".join(title["source"]))
+    assert pages == ["glossary.md", "real_robot.md"]
+    for page in pages:
+        links = re.findall(r"\]\((?!https://)([^)]+)\)", (ROOT / "course" / page).read_text("utf-8"))
+        assert [link for link in links if not (ROOT / "course" / link).exists()] == []

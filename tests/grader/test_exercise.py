@@ -77,8 +77,8 @@ NO_CODE = ("There is code of yours to run.", "your node's class, or your main fu
         ),
         ((Process(None),), "None", "This exercise is not started yet: write your class in the cell above."),
         ((dict,), "the class dict, which is not a Node", "Begin the class with `class dict(Node):`."),
-        (("Talker",), "'Talker', which is no node", "Give the class itself, by its name and without quotes."),
-        ((42,), "42, which is no node", "Give the class itself, by its name and without quotes."),
+        (("Talker",), "'Talker', which is not a node", "Give the class itself, by its name and without quotes."),
+        ((42,), "42, which is not a node", "Give the class itself, by its name and without quotes."),
         (
             (Process(misfits.Talker, remappings=["chatter:=news"]),),
             "remappings=['chatter:=news']",
@@ -408,7 +408,7 @@ def test_a_check_may_hold_in_some_scenarios_only():
 
     with pytest.raises(ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"):
         two.check(1, after=in_the_yard)(asks)
-    with pytest.raises(ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is no scenario of it$"):
+    with pytest.raises(ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is not a scenario of it$"):
         two.check(1, only="narrow")(unnamed)
 
 

@@ -15,6 +15,7 @@ from grader.checks import Verdict
 from grader.marking.gradebook.safe_html import clean
 from grader.page import MARKS, number
 from sim import Recording, World, run
+from sim.evidence import Endpoint
 from sim.view import plot_topics
 from tests.grader.recordings import driven
 from tests.students import misfits
@@ -237,3 +238,71 @@ def test_a_picture_holds_neither_the_seed_nor_a_path_of_the_machine():
 )
 def test_numbers_have_no_needless_zeros(points, shown):
     assert number(points) == shown
+
+
+def slip(ours=False):
+    """A run with a slip in a topic's name; ours: both nodes are."""
+    recording = Recording()
+    for kind, node, name in (("publisher", "/talker", "/news"), ("subscription", "/paper", "/newz")):
+        recording.graph.nodes.append(node)
+        recording.graph.endpoints.append(Endpoint(kind, node, name, "std_msgs/msg/String", {}, ours))
+    return recording
+
+
+def rows(score):
+    return re.findall(r"<tr><td.*?</tr>", score._repr_html_(), re.S)
+
+
+NEWS = {"expected": "messages on /newz", "saw": "none"}
+
+
+def test_where_a_missing_connection_cost_points_the_graph_of_that_run_is_folded_below():
+    missed = verdict(2.0, "failed", run=1, **NEWS)
+    score = Score("talk", [verdict(3.0), missed, missed], [Recording(), slip()])
+    first, second, third = rows(score)
+    assert "<details>" not in first + third  # once is enough
+    words, folded = second.split("<details>")
+    assert words.endswith("<div><b>Saw:</b> none</div>")
+    summary, image = folded.split("</summary>")
+    assert summary == "<summary>The graph of this run: what is missing is red"
+    picture, alt = re.search(r'<img src="data:image/png;base64,([^"]+)" alt="([^"]+)"', image).groups()
+    assert base64.b64decode(picture).startswith(b"\x89PNG")
+    assert "1. /paper waits in vain: nobody publishes on /newz, and /talker has /news." in alt
+    assert "(0 messages): /talker -&gt; nobody" in alt
+    assert "/newz" in score.text and "graph" not in score.text
+
+
+@pytest.mark.parametrize(
+    "missed",
+    [
+        verdict(2.0, "failed", expected="messages on /newzpaper/newz", saw="none"),
+        verdict(2.0, "failed", expected="2 Hz", saw="1 Hz"),
+        verdict(2.0, "skipped", **NEWS),
+        verdict(2.0, "failed", run=1, **NEWS),  # of which there is no recording
+    ],
+)
+def test_a_miss_that_tells_of_something_else_has_no_graph(missed):
+    assert "<details>" not in Score("talk", [missed], [slip()])._repr_html_()
+
+
+def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody_drives():
+    recording = slip(ours=True)
+    recording.graph.endpoints.append(Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, ours=True))
+    missed = verdict(2.0, "failed", expected="messages on /cmd_vel and /newz")
+    assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
+
+
+def test_the_graph_passes_what_cleans_the_pages_and_hostile_names_stay_words():
+    recording = slip()
+    recording.graph.nodes.append('/x"><script>steal()</script>')
+    page = clean(Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])._repr_html_())
+    assert re.search(r'<img src="data:image/png;base64,[^"]+" alt="[^"]+" style="max-width:\s?100%">', page)
+    assert "<details><summary>The graph of this run" in page
+    assert "script" not in page
+
+
+def test_a_graph_that_cannot_be_drawn_costs_nothing():
+    recording = slip()
+    recording.graph.nodes.append(None)
+    score = Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])
+    assert "<details>" not in score._repr_html_() and "messages on /newz" in score._repr_html_()

@@ -3,7 +3,7 @@
 import pytest
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
-from std_msgs.msg import Float32, Int32
+from std_msgs.msg import Float32, Float64, Int32
 
 from grader import Exercise, grade
 from grader.checks import keeps_clear, publishes, rate, within
@@ -65,6 +65,18 @@ class AnotherType(Warm):
     type, value = Int32, 20
 
 
+class Double(Warm):
+    type = Float64
+
+
+class DoubleAndCold(Double):
+    value = -1e300
+
+
+class DoubleAndWhole(Double):
+    value = 20
+
+
 class Text(Warm):
     value = "20"
 
@@ -73,7 +85,7 @@ class Text(Warm):
     ("student", "points"),
     [
         (Warm, 12.0), (WholeNumber, 6.0), (WholeAndCold, 4.0), (Misspelt, 6.0), (MisspeltAndWhole, 6.0),
-        (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
+        (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
     ],
 )  # fmt: skip
 def test_a_slip_costs_half(student, points):

@@ -24,6 +24,7 @@ def course(tmp_path: Path) -> Path:
         LESSON: notebook("1"),
         "course/01_nodes/goal.py": "GOAL = 1\n",
         "course/01_nodes/my_robot.py": "written by a cell\n",
+        "course/01_nodes/ws/src/my_pkg/setup.py": "of a workspace\n",
         "course/01_nodes/__pycache__/goal.pyc": "",
         "course/README.md": "# Begin\n",
         "exercises/01_nodes/nodes.ipynb": notebook("# your code"),

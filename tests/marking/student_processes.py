@@ -9,6 +9,7 @@ from grader.marking.judge.led_process import LedProcess
 from grader.marking.pool import PRELOAD
 from grader.marking.sandbox import ConfinedProcess, Sandbox
 from grader.marking.task import TimeLimits
+from grader.workspace.building import build
 
 USUAL = TimeLimits()
 QUICK = TimeLimits(cell=1.0)  # for cells without end: on a busy machine, others take longer, too
@@ -21,7 +22,7 @@ class StartedStudent:
     def __init__(self, sandbox: Sandbox, time_limits: TimeLimits, files: dict[str, bytes] | None) -> None:
         ours, theirs = socket.socketpair()
         self.process: ConfinedProcess = sandbox.start(theirs)
-        self.student = LedProcess(ours, time_limits, lambda: self.process.wait(PATIENCE).detail)
+        self.student = LedProcess(ours, time_limits, lambda: self.process.wait(PATIENCE).detail, build)
         self.displays = Displays()
         self.outputs = CellOutputs(self.displays)
         if files is not None:

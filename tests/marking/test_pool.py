@@ -2,8 +2,9 @@ import os
 import select
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -44,7 +45,13 @@ def pool() -> Iterator[Pool]:
         yield pool
 
 
-def grades(results: Iterator[Result]) -> dict[str, str]:
+@pytest.fixture(scope="module")
+def results(pool, tasks) -> list[Result]:
+    """What they get."""
+    return list(pool.mark(tasks))
+
+
+def grades(results: Iterable[Result]) -> dict[str, str]:
     return {result.student: result.grade_json() for result in results}
 
 
@@ -52,8 +59,7 @@ def summary(result: Result) -> tuple[str, str, float]:
     return result.student, result.verdict, result.points
 
 
-def test_a_class_is_marked(pool, tasks):
-    results = list(pool.mark(tasks))
+def test_a_class_is_marked(results):
     assert sorted(map(summary, results)) == [
         ("broken", "refused", 0.0),
         ("error", "marked", 15.0),
@@ -69,15 +75,12 @@ def test_a_class_is_marked(pool, tasks):
     assert judged == {"broken": None, "error": 10, "half": 5, "none": 0, "right": 15, "stopped": 5}
 
 
-@pytest.mark.parametrize("jobs", [1, 3])
-def test_grades_are_the_same_in_any_order_with_any_number_of_jobs(pool, tasks, jobs):
-    with Pool(jobs, unsafe=True, secret="a secret", time_limits=LIMITS) as other:
-        assert grades(other.mark(reversed(tasks))) == grades(pool.mark(tasks))
-
-
-def test_a_sandbox_changes_no_grade(pool, tasks):
-    with Pool(2, secret="a secret", time_limits=LIMITS) as sandboxed:
-        assert grades(sandboxed.mark(tasks)) == grades(pool.mark(tasks))
+@pytest.mark.parametrize(("jobs", "unsafe"), [(3, False), pytest.param(1, True, marks=pytest.mark.soak)])
+def test_grades_are_the_same_in_any_order_with_any_number_of_jobs_and_in_a_sandbox(
+    tasks, results, jobs, unsafe
+):
+    with Pool(jobs, unsafe=unsafe, secret="a secret", time_limits=LIMITS) as other:
+        assert grades(other.mark(reversed(tasks))) == grades(results)
 
 
 def test_no_tasks_give_no_results(pool):
@@ -101,9 +104,7 @@ def test_a_judge_that_is_killed_twice_leaves_it_to_the_instructor(pool, waiting,
             gate.read_text()
             kill_judges(pool)
         why = "The judge's process broke off. The process was killed from outside."
-        assert result.result() == Result(
-            "ann", "02_two", "0" * 64, "refused", f"{SORRY} {why}", flags=[why]
-        )
+        assert result.result() == Result("ann", "02_two", "0" * 64, "refused", f"{SORRY} {why}", flags=[why])
 
 
 def kill_judges(pool: Pool) -> None:
@@ -136,21 +137,26 @@ def test_others_go_on_when_a_warm_process_dies(pool, waiting, gate, tasks):
         assert all(SORRY not in result.reason for result in results.result())
 
 
+@pytest.fixture(scope="module")
+def odd_judges() -> Iterator[Sandbox]:
+    with Sandbox("judges:main", preload=(), unsafe=True, imports=[Path(__file__).parent]) as judges:
+        yield judges
+
+
 @pytest.mark.parametrize(
-    ("entry", "why"),
+    ("student", "why"),
     [
-        ("nonsense", "The judge gave no result: this is no result of marking: 'notebooks'"),
+        ("nonsense", "The judge gave no result: this is not a result of marking: 'notebooks'"),
         ("refusal", "The test cell `x` can't be marked here."),
         ("silent", "It took more than 1 s."),
         ("crash", "The judge's process broke off. The process crashed: Aborted."),
     ],
 )
-def test_a_judge_that_gives_no_result_is_reported(pool, tasks, entry, why, monkeypatch):
+def test_a_judge_that_gives_no_result_is_reported(pool, tasks, odd_judges, student, why, monkeypatch):
     monkeypatch.setattr("grader.marking.pool.SPARE_S", 0.0)
     monkeypatch.setattr(pool, "_time_limits", TimeLimits(start=0.5, notebook=0.5))
-    with Sandbox(f"judges:{entry}", preload=(), unsafe=True, imports=[Path(__file__).parent]) as judges:
-        monkeypatch.setattr(pool, "_judges", judges)
-        [result] = pool.mark(tasks[:1])
+    monkeypatch.setattr(pool, "_judges", odd_judges)
+    [result] = pool.mark([replace(tasks[0], student=student)])
     assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
 
 

@@ -3,11 +3,8 @@ import os
 import pytest
 
 from grader.marking import secret
-from grader.marking.errors import CommandFailed
-from grader.marking.release.demo import mark_samples
-from grader.marking.release.nbgrader_command import nbgrader
 from grader.seeds import private_seed, secret_of_student
-from tests.marking.tiny import ROOT, answer, course, grade
+from tests.marking.tiny import ROOT
 
 
 @pytest.fixture
@@ -65,23 +62,6 @@ def test_a_secret_that_cannot_be_read_stops_the_marking(secret_file):
         secret.show()
     expected = f"{secret_file} cannot be read (Is a directory): mark as the user who owns it."
     assert str(stopped.value) == expected
-
-
-def test_the_kernels_that_mark_get_the_secret_and_the_command_stops_on_a_bad_one(tmp_path):
-    folder = course(
-        tmp_path,
-        answer("import", "### BEGIN SOLUTION\nimport os\n### END SOLUTION"),
-        grade("test_secret", 1, "assert len(os.environ['COURSE_SECRET']) == 64"),
-    )
-    (folder / ".secret").touch(mode=0o600)
-    (folder / ".secret").write_text("d1ce")
-    points = {marked.student: marked.points["test_secret"][0] for marked in mark_samples(folder, "01_tiny")}
-    assert points == {"right": 1, "half_right": 1, "wrong": 0}
-    assert "d1ce" not in "".join(path.read_text() for path in (folder / "exercises").rglob("*.*"))
-
-    (folder / ".secret").chmod(0o640)
-    with pytest.raises(CommandFailed, match=r"run `chmod 600 \.secret`, then mark again\.$"):
-        nbgrader(folder, "autograde", "01_tiny", "--force")
 
 
 def test_the_secret_is_never_under_version_control():

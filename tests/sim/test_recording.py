@@ -13,6 +13,7 @@ from std_msgs.msg import Int32
 from sim import Process, Recording, run
 from sim.evidence import Call, Ended, Goal, Heard, rate, stamps
 from sim.evidence.storage import ATTACHMENT, FORMAT, StorageError
+from sim.nanoseconds import EPOCH
 from sim.ros.messages.codec import encode
 from sim.ros.messages.decoder import decode
 from tests.students.engine import actions, errors, mains, names, services, threads
@@ -155,7 +156,7 @@ def test_others_can_read_the_messages(driven, tmp_path):
         read = list(reader.iter_messages(log_time_order=False))
         counts = list(reader.iter_messages(topics=["/count"]))
     assert len(read) == len(driven.heard)
-    assert [message.log_time for _, _, message in counts] == [n * 500_000_000 for n in range(1, 7)]
+    assert [message.log_time for _, _, message in counts] == [EPOCH + n * 500_000_000 for n in range(1, 7)]
     schema, channel, message = counts[0]
     assert (schema.name, schema.encoding, channel.message_encoding) == (
         "std_msgs/msg/Int32",

@@ -156,7 +156,8 @@ def main_that_listens_without_spin():
 def main_that_spins_three_seconds():
     rclpy.init()
     node = Talker()
-    while node.get_clock().now().nanoseconds < 3.5e9:
+    end = node.get_clock().now() + Duration(seconds=3.5)
+    while node.get_clock().now() < end:
         rclpy.spin_once(node)
     rclpy.shutdown()
 

@@ -146,9 +146,9 @@ class DistanceForAPlace(Looker):
         return scan.ranges.tolist()[min(scan.ranges) :]
 
 
-class LooksBackBeforeTheStart(Looker):
+class LooksBackFromTimeZero(Looker):
     def look(self, scan, imu):
-        return self.get_clock().now() - Duration(seconds=60)
+        return Time() - Duration(seconds=60)
 
 
 class ComparesWithTheSystemsTime(Looker):

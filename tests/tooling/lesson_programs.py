@@ -24,29 +24,41 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 OURS = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
-PATIENCE = 20.0  # s of wall clock until a program that was told to end counts as hung
+PATIENCE = 200.0  # s of wall clock until a program that was told to end counts as hung
 
 
 def definitions(lesson: str) -> str:
     """What the cells of a lesson define, as a module: no runs, and nothing that needs our packages."""
-    notebook = json.loads((ROOT / "course" / lesson / "lesson.ipynb").read_text(encoding="utf-8"))
+    folder = ROOT / "course" / lesson
+    notebook = json.loads((folder / "lesson.ipynb").read_text(encoding="utf-8"))
     cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
     written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
-    missing, kept = {"print", "display", *written}, []
+    missing, kept, ours = {"print", "display", *written}, [], set()
     for cell in cells:
         plain = "" if cell.startswith("%%") else re.sub("^%.*", "", cell, flags=re.M)
         for statement in ast.parse(plain).body:
-            if _is_ours(statement) or missing & set(_needed(statement)):
+            if _is_ours(statement, folder):
+                ours |= set(_defined(statement))
+            if _is_ours(statement, folder) or missing & set(_needed(statement)) or _runs(statement, ours):
                 missing |= set(_defined(statement))
             elif not isinstance(statement, ast.Expr | ast.For | ast.If | ast.With):
                 kept.append(statement)
     return ast.unparse(ast.Module(kept, []))
 
 
-def _is_ours(statement: ast.stmt) -> bool:
-    if isinstance(statement, ast.ImportFrom):
-        return (statement.module or "").split(".")[0] in OURS
-    return False
+def _is_ours(statement: ast.stmt, folder: Path) -> bool:
+    """Whether it imports from our packages, or from a module beside the lesson that does."""
+    if not isinstance(statement, ast.ImportFrom):
+        return False
+    beside = folder / f"{statement.module}.py"
+    inside = ast.parse(beside.read_text(encoding="utf-8")).body if beside.exists() else []
+    return (statement.module or "").split(".")[0] in OURS or any(_is_ours(one, folder) for one in inside)
+
+
+def _runs(statement: ast.stmt, ours: set[str]) -> bool:
+    """Whether it is a function that works with what is ours; a cell that calls it runs a simulation."""
+    names = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
+    return isinstance(statement, ast.FunctionDef) and bool(ours & names)
 
 
 def _needed(statement: ast.stmt) -> Iterator[str]:
@@ -174,6 +186,13 @@ class Listener:
         while time.monotonic() < until and not done():
             rclpy.spin_once(self._node, timeout_sec=0.05)
 
+    def drain(self) -> None:
+        """Take what has arrived: counted, not timed, for a busy machine."""
+        import rclpy
+
+        for _ in range(20):  # a queue holds 10
+            rclpy.spin_once(self._node, timeout_sec=0.05)
+
 
 def together(spec: dict[str, Any]) -> dict[str, Any]:
     """Run programs side by side; how each of them ended, what they complained of, and what was heard."""
@@ -185,7 +204,7 @@ def together(spec: dict[str, Any]) -> dict[str, Any]:
     listener.listen(lambda: False, spec["seconds"])
     number = signal.Signals[spec["signal"]]
     statuses = [ended(child, number) for child in children]
-    listener.listen(lambda: False, 0.5)
+    listener.drain()
     return {"ended": statuses, "errors": errors.read_text(encoding="utf-8"), "heard": listener.heard}
 
 

@@ -29,8 +29,9 @@ DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
 
 # What is in sim/ros, in one direction: each imports only from itself and from those before it.
 ROOMS = (
-    *("messages", "fibers", "recorder", "engine", "hooks", "robots"),
-    *("ground_truth", "latest", "session", "play", "remote", "run", "realtime"),
+    *("brought", "packages", "messages", "built_interfaces", "sourcing"),
+    *("fibers", "recorder", "engine", "hooks", "robots"),
+    *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "realtime"),
 )
 
 

@@ -149,7 +149,8 @@ def test_a_python_without_its_headers_is_told_which_package_has_them(machine):
 
 def test_what_was_set_up_from_these_very_files_needs_nothing_and_is_left_alone(machine):
     """As in a container, which has no compilers any more, and whose files may look new."""
-    files = ["requirements.lock", "pyproject.toml", ".ci/setup", "sim/world/rays/pyproject.toml"]
+    files = ["requirements.lock", "pyproject.toml", ".ci/setup", ".ci/prefix"]
+    files += ["sim/world/rays/pyproject.toml"]
     files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("sim/world/rays/*.py"))
     content = b"".join((ROOT / name).read_bytes() for name in [*files, "sim/world/rays/rays.c"])
     sum_of_all = subprocess.check_output(["cksum"], input=content, text=False).decode()

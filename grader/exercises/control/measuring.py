@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import itertools
 
-from rclpy.time import Time
-
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.control.partners import PERIOD, Sensor
-from sim.evidence import Recording, Seconds
+from sim.evidence import Recording, Seconds, since_start
+from sim.nanoseconds import EPOCH, SECOND
 
 FLOAT, COUNT = "std_msgs/msg/Float64", "std_msgs/msg/Int32"
 ALLOWED = 0.01  # s of latency
@@ -34,7 +33,8 @@ def measures_the_latency(run: Recording) -> list[Beat]:
     said, true = _said(run, "/latency", FLOAT), [arrived - measured for arrived, measured in beats]
     hints = {
         tuple(-late for late in true): "Arrival minus stamp, and not the other way round.",
-        tuple(arrived for arrived, _ in beats): "That is the time of day: take the stamp away from it.",
+        tuple(EPOCH / SECOND + arrived for arrived, _ in beats): "That is the time of day: "
+        "take the stamp away from it.",
     }
     _compare("/latency", said, true, hints, "The latency is now minus the stamp in the header, in seconds.")
     return beats
@@ -74,7 +74,7 @@ def _beats(run: Recording) -> list[Beat]:
     ours = [heard for heard in run.messages("/beat") if heard.ours]
     if len(ours) < 10:
         raise silence(run, "messages on /beat", f"{len(ours)}", run.graph.publishers("/beat"))
-    return [(heard.stamp, Time.from_msg(heard.message.stamp).nanoseconds / 1e9) for heard in ours]
+    return [(heard.stamp, since_start(heard.message.stamp)) for heard in ours]
 
 
 def _said(run: Recording, topic: str, type_: str) -> list[float]:
@@ -92,7 +92,7 @@ def _compare(
     for number, (one, right) in enumerate(zip(said, true, strict=False), 1):
         if not abs(one - right) < EXACT:
             hint = _alike(said, hints) or guess
-            raise Missed(f"{right:.4g} as number {number} on {topic}", f"{one:.4g}", hint)
+            raise Missed(f"{right:.4g} as number {number} on {topic}", f"{round(one, 6):.4g}", hint)
 
 
 def _alike(said: list[float], hints: dict[tuple[float, ...], str]) -> str:

@@ -15,7 +15,8 @@ from sim.evidence import Recording
 FLOAT = "std_msgs/msg/Float64"
 WEIGHT = 0.2
 TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
-LAST = 4.0  # s
+LAST, PERIOD = 4.0, 0.05  # s; from one scan to the next
+HELD = 0.4  # of the scans: fewer, and the motors brake
 CLOSE, SAME = 1e-3, 1e-9  # m
 WIND_UP = (
     "All the way to the wall the error is large and the motor at its limit: the sum grows and grows, and "
@@ -84,6 +85,11 @@ def stands_at_the_distance(run: Recording) -> None:
     """In the last four seconds it stands 0.6 m from the wall, within 3 cm."""
     wall = run.world.bounds[2]
     last = [wall - pose.x for pose in run.path if pose.stamp >= run.ended.stamp - LAST]
+    speeds = [heard.message.data for heard in run.messages("/speed") if heard.stamp >= run.ended.stamp - LAST]
+    held = sum(map(math.isfinite, speeds))
+    if held < HELD * LAST / PERIOD:
+        hint = "Who says no number leaves it to the brake: publish a speed with each scan, to the end."
+        raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
     worst = max(last, key=lambda distance: abs(distance - TARGET), default=math.inf)
     if abs(worst - TARGET) > NEAR:
         hint = (

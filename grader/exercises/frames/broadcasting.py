@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 import random
 
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.time import Time
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.fields import stamp_words
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.frames.measures import (
     FULL_TURN,
+    NEAR,
+    PART,
     TF,
     alike,
     flat,
@@ -23,11 +27,14 @@ from grader.exercises.frames.measures import (
     place,
     sent_frames,
 )
-from sim.evidence import Recording
+from grader.exercises.frames.partners import Flat
+from sim.evidence import Recording, since_start
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 PERIOD = 0.1  # s
 SOON = 0.05  # s
+EARLY = 0.3  # s; until then, a place may be right by accident
+OFTEN = 0.3  # of the odometries
 
 
 class Wheels(Node):
@@ -76,18 +83,42 @@ def hears_and_sends(run: Recording) -> None:
 def puts_it_there(run: Recording) -> None:
     """The parent is odom, the child base_link, and it is where the odometry has it, turned as it is."""
     told = _told(run)
-    for sent, one in named_right(list(sent_frames(run, "/tf")), "odom", "base_link", "/tf"):
-        before = [message.pose.pose for stamp, message in told if stamp <= sent + 1e-6]
-        if not before:
-            continue
-        turn, position = before[-1].orientation, before[-1].position
-        wanted = position.x, position.y, 2 * math.atan2(turn.z, turn.w)
-        wanted = (*wanted[:2], math.remainder(wanted[2], math.tau))
-        if not is_turn(one.transform) or not alike(flat(one.transform), wanted):
-            hint = "Parts of rotation are those of pose.pose.orientation, all four. " + FULL_TURN
-            if math.dist(flat(one.transform)[:2], wanted[:2]) > 0.02:
-                hint = "translation is the position, pose.pose.position: x and y of the same message."
-            raise Missed(f"{place(wanted)} at {sent:.3g} s", place(flat(one.transform)), hint)
+    sent_ones = list(sent_frames(run, "/tf"))
+    faults = [(sent, fault) for sent, one in sent_ones if (fault := _fault(told, sent, one))]
+    named_right(sent_ones, "odom", "base_link", "/tf", lambda *_: not faults)
+    if faults:
+        late = [fault.credit for stamp, fault in faults if stamp > EARLY]
+        worst = faults[0][1]
+        raise Missed(worst.expected, worst.saw, worst.hint, credit=min(late, default=0.0))
+    count = len(sent_ones)
+    if count < OFTEN * len(told):
+        hint = "The robot drives on: send in the callback of /wheels/odom, each time it is called."
+        raise Missed(f"a transform for each of {len(told)} odometries", f"{count}", hint)
+
+
+def _fault(told: list[tuple[float, Odometry]], sent: float, one: TransformStamped) -> Missed | None:
+    """What is wrong with a transform; with a part of the points where its place or its turn is right."""
+    before = [_pose(message) for stamp, message in told if stamp <= sent + 1e-6]
+    if not before:
+        return None
+    wanted, found = before[-1], flat(one.transform)
+    if is_turn(one.transform) and alike(found, wanted):
+        return None
+    hint = "Parts of rotation are those of pose.pose.orientation, all four. " + FULL_TURN
+    placed = math.dist(found[:2], wanted[:2]) <= NEAR
+    if not placed:
+        hint = "translation is the position, pose.pose.position: x and y of the same message."
+    turned = is_turn(one.transform) and abs(math.remainder(found[2] - wanted[2], math.tau)) <= NEAR
+    late = any(alike(found, pose) for pose in before[-3:])
+    if late:
+        hint = "That is where it was before. Send in the callback of /wheels/odom, and not from a timer."
+    credit = PART if placed or turned or late else 0.0
+    return Missed(f"{place(wanted)} at {sent:.3g} s", place(found), hint, credit=credit)
+
+
+def _pose(odom: Odometry) -> Flat:
+    turn, position = odom.pose.pose.orientation, odom.pose.pose.position
+    return position.x, position.y, math.remainder(2 * math.atan2(turn.z, turn.w), math.tau)
 
 
 @odometry.check(3, after=puts_it_there)
@@ -108,17 +139,21 @@ def one_for_each(run: Recording) -> None:
 @odometry.check(4, after=puts_it_there)
 def stamps_it(run: Recording) -> None:
     """The transform has the odometry's stamp: when it was measured, and not when it was sent."""
-    stamps = [_seconds(message.header.stamp) for _, message in _told(run)]
+    stamps = [since_start(message.header.stamp) for _, message in _told(run)]
     for sent, one in sent_frames(run, "/tf"):
-        stamp = _seconds(one.header.stamp)
+        stamp = since_start(one.header.stamp)
         if min(abs(stamp - known) for known in stamps) > 1e-6:
             hint = (
                 "Without a stamp it is a transform of time 0."
-                if stamp == 0.0
+                if one.header.stamp == Time()
                 else "Take header.stamp of the odometry: that is when the robot was there."
             )
             nearest = max((known for known in stamps if known <= sent), default=stamps[0])
-            raise Missed(f"the stamp {nearest:.3f} s", f"{stamp:.3f} s", hint)
+            raise Missed(f"the stamp of {nearest:.3f} s", stamp_words(one.header.stamp), hint)
+    known = {str(one.header.stamp) for _, one in sent_frames(run, "/tf")}
+    if len(known) < OFTEN * len(stamps):
+        hint = "Each odometry has a stamp of its own: take header.stamp of the one that has just come."
+        raise Missed(f"{len(stamps)} stamps, one for each odometry", f"{len(known)}", hint)
 
 
 def _told(run: Recording) -> list[tuple[float, Odometry]]:
@@ -127,7 +162,3 @@ def _told(run: Recording) -> list[tuple[float, Odometry]]:
     if len(told) < 5:
         raise silence(run, "odometry", f"{len(told)}", run.graph.publishers("/wheels/odom"))
     return told
-
-
-def _seconds(stamp: object) -> float:
-    return Time.from_msg(stamp).nanoseconds / 1e9

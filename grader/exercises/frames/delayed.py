@@ -14,10 +14,12 @@ from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.frames.partners import Flat, transform
-from sim.evidence import Heard, Recording
+from sim.evidence import Heard, Recording, since_start
 
 POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON = 0.03, 1.2  # m, s
+OFTEN, ELSEWHERE = 0.4, 0.3  # of the points, where it is said more than once, or of an earlier moment
+SWERVE = 0.04  # m, from one moment to the next
 
 
 class SlowLocalization(Node):
@@ -31,24 +33,27 @@ class SlowLocalization(Node):
         self.broadcaster = TransformBroadcaster(self)
         self.publisher = self.create_publisher(PointStamped, "/detection", 10)
         self.phase, self.delay = random.uniform(-3.0, 3.0), random.choice((8, 10, 12))
-        self.waiting: list[Time] = []
+        self.waiting: list[tuple[Time, Flat]] = []
+        self.aside = 0.0  # m off the circle: who drives swerves, and nobody knows beforehand where to
         self.ticks = 0
         self.create_timer(0.05, self.tick)
 
     def tick(self) -> None:
         """Measure now, say what was measured a while ago, and see something now and then."""
         now = self.get_clock().now()
-        self.waiting.append(now)
+        self.aside += random.uniform(-SWERVE, SWERVE)
+        x, y, yaw = self.where(now)
+        self.waiting.append((now, (x + self.aside, y - self.aside, yaw)))
         if len(self.waiting) > self.delay:
-            then = self.waiting.pop(0)
-            self.broadcaster.sendTransform(transform("map", "base_link", self.where(then), then))
+            then, place = self.waiting.pop(0)
+            self.broadcaster.sendTransform(transform("map", "base_link", place, then))
         self.ticks += 1
         if self.ticks % 8 == 0 and self.ticks > self.delay:
             self.see(now)
 
     def where(self, when: Time) -> Flat:
-        """A circle, driven at 1 m/s."""
-        angle = self.phase + 0.5 * when.nanoseconds / 1e9
+        """A circle, driven at 1 m/s; the robot swerves on it."""
+        angle = self.phase + 0.5 * since_start(when.to_msg())
         return 2.0 * math.cos(angle), 2.0 * math.sin(angle), math.remainder(angle + math.pi / 2, math.tau)
 
     def see(self, now: Time) -> None:
@@ -83,10 +88,12 @@ def places_them(run: Recording) -> None:
     answered = [sum(_same(one, other) for other in found if other.stamp < one.stamp + SOON) for one in seen]
     missing = [one for one, count in zip(seen, answered, strict=True) if count != 1]
     if missing:
-        saw = f"{sum(count == 1 for count in answered)} of {len(seen)}"
+        saw, credit = f"{sum(count == 1 for count in answered)} of {len(seen)}", 0.0
         if max(answered) > 1:
-            saw = f"{max(answered)} for one of them"
-        raise Missed(f"one message for each of {len(seen)} detections, with its stamp", saw, hint)
+            saw, credit = f"{max(answered)} for one of them", OFTEN if min(answered) else 0.0
+        _where_they_are(run)
+        expected = f"one message for each of {len(seen)} detections, with its stamp"
+        raise Missed(expected, saw, hint, credit=credit)
     _where_they_are(run)
 
 
@@ -96,6 +103,10 @@ def waits_no_longer_than_needed(run: Recording) -> None:
     for seen in _seen(run):
         ready = next(stamp for stamp, when, _ in _robot(run) if when >= _when(seen) - 1e-6)
         one = next((one for one in run.messages("/found") if _same(seen, one)), None)
+        if one is not None and one.stamp < ready - 1e-6:
+            hint = "Nobody knew then where the robot had been. Wait for the time of the detection."
+            expected = f"the detection of {seen.stamp:.3g} s on /found not before {ready:.3g} s"
+            raise Missed(expected, f"at {one.stamp:.3g} s", hint)
         if one is not None and one.stamp > ready + 0.2:
             expected = f"the detection of {seen.stamp:.3g} s on /found by {ready + 0.2:.3g} s"
             hint = "Look again in a timer of 0.05 s, or await what wait_for_transform_async gives."
@@ -117,7 +128,8 @@ def _where_they_are(run: Recording) -> None:
                 "Time() asks for the newest transform that has come, and that one is half a second old: the "
                 "robot was elsewhere. Wait for the time of the detection, msg.header.stamp."
             )
-            raise Missed(expected, told, hint)
+            once = math.dist(said, _seen_from(_newest(run, seen), seen)) <= NEAR
+            raise Missed(expected, told, hint, credit=ELSEWHERE if once else 0.0)
 
 
 def _seen(run: Recording) -> list[Heard]:
@@ -129,7 +141,7 @@ def _seen(run: Recording) -> list[Heard]:
 
 
 def _when(heard: Heard) -> float:
-    return Time.from_msg(heard.message.header.stamp).nanoseconds / 1e9
+    return since_start(heard.message.header.stamp)
 
 
 def _same(seen: Heard, found: Heard) -> bool:
@@ -142,14 +154,23 @@ def _robot(run: Recording) -> list[tuple[float, float, Flat]]:
     for heard in run.messages("/tf"):
         for one in heard.message.transforms if heard.ours else ():
             shift, turn = one.transform.translation, one.transform.rotation
-            when = Time.from_msg(one.header.stamp).nanoseconds / 1e9
+            when = since_start(one.header.stamp)
             told.append((heard.stamp, when, (shift.x, shift.y, 2 * math.atan2(turn.z, turn.w))))
     return told
 
 
 def _place(run: Recording, seen: Heard) -> tuple[float, float]:
     """Where it really was: ours measure at each moment of a detection."""
-    _, _, (x, y, yaw) = min(_robot(run), key=lambda row: abs(row[1] - _when(seen)))
-    point = seen.message.point
+    _, _, pose = min(_robot(run), key=lambda row: abs(row[1] - _when(seen)))
+    return _seen_from(pose, seen)
+
+
+def _newest(run: Recording, seen: Heard) -> Flat:
+    """Where the robot was, by what had come when something was seen."""
+    return max(row for row in _robot(run) if row[0] <= seen.stamp)[2]
+
+
+def _seen_from(pose: Flat, seen: Heard) -> tuple[float, float]:
+    (x, y, yaw), point = pose, seen.message.point
     cos, sin = math.cos(yaw), math.sin(yaw)
     return x + cos * point.x - sin * point.y, y + sin * point.x + cos * point.y

@@ -16,6 +16,8 @@ from grader.exercises.frames.places import square
 from sim.evidence import Recording
 
 OUT, STRANGER = "/tower/cmd_vel", "/cmd_vel"
+HALF = 0.2  # of the points, where one of the two faults is mended: with the rest that makes half
+WAITING = "Waiting"  # what the watcher says of a frame that it doesn't know
 SETTLED, BAND, STILL = 5.0, 0.3, 0.05  # s, rad, m or rad
 
 
@@ -39,7 +41,7 @@ class Watcher(Node):
         try:
             found = self.buffer.lookup_transform("tower/base_link", target, Time())
         except TransformException as error:
-            self.get_logger().warning(f"Waiting: {error}", throttle_duration_sec=1.0)
+            self.get_logger().warning(f"{WAITING}: {error}", throttle_duration_sec=1.0)
             return
         command, place = Twist(), found.transform.translation
         command.angular.z = max(-1.5, min(1.5, 2.0 * math.atan2(place.y, place.x)))
@@ -94,7 +96,10 @@ def _waits_no_more(run: Recording) -> None:
     waits = [line for line in run.logs if not line.ours and line.level == "WARN" and line.stamp > 1.0]
     if waits:
         hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
-        raise Missed("no warning after 1 s", f"“{waits[0].text}” at {waits[0].stamp:.3g} s", hint)
+        watching = all(line.text.startswith(WAITING) for line in waits)  # it is our Watcher that warns
+        mended = watching and [end for end in run.graph.publishers(OUT) if not end.ours]
+        told = f"“{waits[0].text}” at {waits[0].stamp:.3g} s"
+        raise Missed("no warning after 1 s", told, hint, credit=HALF if mended else 0.0)
 
 
 def _drives_nobody_else(run: Recording) -> None:
@@ -105,4 +110,5 @@ def _drives_nobody_else(run: Recording) -> None:
             "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
             "from cmd_vel to the tower's own topic, sends it there."
         )
-        raise Missed(f"commands on {OUT}", f"{strange[0].node} publishes on {STRANGER}", hint, unsafe=True)
+        told = f"{strange[0].node} publishes on {STRANGER}"
+        raise Missed(f"commands on {OUT}", told, hint, credit=HALF, unsafe=True)

@@ -3,87 +3,20 @@
 from __future__ import annotations
 
 import math
-import random
-
-from geometry_msgs.msg import PointStamped
-from rclpy.duration import Duration
-from rclpy.node import Node
-from rclpy.time import Time
-from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+from typing import Any
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.fields import stamp_words
 from grader.checks.silence import silence
 from grader.exercise import Exercise
-from grader.exercises.frames.partners import Flat, transform
-from sim.evidence import Heard, Recording
+from grader.exercises.frames.measures import flat
+from grader.exercises.frames.partners import Flat
+from grader.exercises.frames.team import SIGHTINGS, Team
+from sim.evidence import Heard, Recording, since_start
 
 POINT, STRING = "geometry_msgs/msg/PointStamped", "std_msgs/msg/String"
-BEGIN, PAUSE = 2.0, 0.5  # s; the first sighting, and from one to the next
-SOON, NEAR = 0.3, 0.05  # s, m
-# In turn: how old each sighting is (s), and who has seen it. "ghost" is in no tree, "island" in another one.
-SIGHTINGS = (
-    (0.6, "robot1"),
-    (1.2, "robot2"),
-    (0.5, "ghost"),
-    (0.9, "robot2"),
-    (60.0, "robot1"),
-    (0.7, "island"),
-)
-REASONS = {"ghost": "LookupException", "island": "ConnectivityException"}
-OLD = 10.0  # s; who asks for what is older gets an ExtrapolationException
-
-
-class Team(Node):
-    """Robots that drive round (/tf), their cameras (/tf_static), and what these have seen (/sighting)."""
-
-    def __init__(self) -> None:
-        super().__init__("team")
-        self.moving, self.static = TransformBroadcaster(self), StaticTransformBroadcaster(self)
-        self.publisher = self.create_publisher(PointStamped, "/sighting", 10)
-        self.phase = random.uniform(-3.0, 3.0)
-        self.count = 0
-        cameras = [(f"{name}/base_link", f"{name}/camera", camera) for name, camera in CAMERAS.items()]
-        self.static.sendTransform([transform(*one) for one in cameras])
-        self.create_timer(0.05, self.move)
-        self.begin = self.create_timer(BEGIN, self.start)
-
-    def start(self) -> None:
-        """Begin to tell of what was seen."""
-        self.begin.cancel()
-        self.create_timer(PAUSE, self.see)
-
-    def move(self) -> None:
-        """Tell where all robots are."""
-        now = self.get_clock().now()
-        self.moving.sendTransform(
-            [
-                transform(
-                    "map" if name != "island" else "sea", f"{name}/base_link", self.where(name, now), now
-                )
-                for name in CAMERAS
-            ]
-        )
-
-    def where(self, name: str, now: Time) -> Flat:
-        """Each on a circle of its own."""
-        angle = self.phase + 0.8 * now.nanoseconds / 1e9 + len(name) + 2.0 * (name == "robot2")
-        return 3.0 * math.cos(angle), 2.0 * math.sin(angle), math.remainder(angle + 1.5, math.tau)
-
-    def see(self) -> None:
-        """Tell of the next thing: a point in the frame of a camera, and when it was there."""
-        age, name = SIGHTINGS[self.count % len(SIGHTINGS)]
-        self.count += 1
-        point = PointStamped()
-        now = self.get_clock().now()
-        point.header.stamp = (now - Duration(seconds=min(age, now.nanoseconds / 1e9 - 1e-3))).to_msg()
-        if age > OLD:  # before anybody said where the robots were
-            point.header.stamp = Time(nanoseconds=1).to_msg()
-        point.header.frame_id = f"{name}/camera"
-        point.point.x, point.point.y = random.uniform(0.5, 2.0), random.uniform(-1.0, 1.0)
-        self.publisher.publish(point)
-
-
-CAMERAS: dict[str, Flat] = {"robot1": (0.2, 0.0, 0.5), "robot2": (-0.1, 0.1, -1.2), "island": (0.0, 0.0, 0.0)}
+SOON, NEAR, LATE = 0.3, 0.05, 0.3  # s, m, m
+PART = 0.3  # less than this is none
 
 lookup = Exercise("lookup", "Where was it?", seconds=6, companions=[Team], seeds=(1, 2))
 
@@ -101,21 +34,35 @@ def hears_sightings(run: Recording) -> None:
 def places_them(run: Recording) -> None:
     """Each sighting by a robot on the map comes out on /found (PointStamped): where it was, in map."""
     publishes(run, "/found", POINT)
-    for seen in _seen(run):
-        if _reason(seen):
-            continue
-        found = [one for one in run.messages("/found") if seen.stamp <= one.stamp < seen.stamp + SOON]
-        wanted = _place(run, seen, _seconds(seen.message))
-        expected = f"({wanted[0]:.2f}, {wanted[1]:.2f}) m in map, for the sighting at {seen.stamp:.3g} s"
-        if len(found) != 1:
-            guess = "Publish in the callback: what buffer.transform or do_transform_point gives."
-            raise Missed(expected, f"{len(found)} messages", guess=guess)
-        point = found[0].message.point
-        if found[0].message.header.frame_id != "map":
-            told = f"a point in {found[0].message.header.frame_id or 'no frame'}"
-            raise Missed(expected, told, "Target first, then source: buffer.transform(msg, 'map').")
-        if not math.dist((point.x, point.y), wanted) <= NEAR:
-            raise Missed(expected, f"({point.x:.2f}, {point.y:.2f}) m", _why(run, seen, (point.x, point.y)))
+    judged = [seen for seen in _seen(run) if not _reason(run, seen)]
+    faults = [fault for fault in (_fault(run, seen) for seen in judged) if fault]
+    if faults:
+        wrong = sum(1.0 - fault.credit for fault in faults)
+        right = 1.0 - wrong / len(judged)
+        raise Missed(
+            faults[0].expected,
+            faults[0].saw,
+            faults[0].hint,
+            credit=right if right >= PART else 0.0,
+        )
+
+
+def _fault(run: Recording, seen: Heard) -> Missed | None:
+    """What is wrong with the answer to a sighting; half right if it was there later."""
+    found = [one for one in run.messages("/found") if seen.stamp <= one.stamp < seen.stamp + SOON]
+    wanted = _place(run, seen, _seconds(seen.message))
+    expected = f"({wanted[0]:.2f}, {wanted[1]:.2f}) m in map, for the sighting at {seen.stamp:.3g} s"
+    if len(found) != 1:
+        hint = "Publish in the callback: what buffer.transform or do_transform_point gives."
+        return Missed(expected, f"{len(found)} messages", hint)
+    said = found[0].message.point.x, found[0].message.point.y
+    if found[0].message.header.frame_id != "map":
+        told = f"a point in {found[0].message.header.frame_id or 'no frame'}"
+        return Missed(expected, told, "Target first, then source: buffer.transform(msg, 'map').")
+    if not math.dist(said, wanted) <= NEAR:
+        moment = 0.5 if math.dist(said, _place(run, seen, seen.stamp)) < LATE else 0.0
+        return Missed(expected, f"({said[0]:.2f}, {said[1]:.2f}) m", _why(run, seen, said), credit=moment)
+    return None
 
 
 @lookup.check(5, after=places_them)
@@ -123,7 +70,7 @@ def tells_why_not(run: Recording) -> None:
     """Where it can't be had, the exception's name comes out on /refused (String), such as LookupException."""
     publishes(run, "/refused", STRING)
     for seen in _seen(run):
-        if not (reason := _reason(seen)):
+        if not (reason := _reason(run, seen)):
             continue
         told = [
             one.message.data
@@ -144,10 +91,8 @@ def tells_why_not(run: Recording) -> None:
 @lookup.check(3, after=tells_why_not)
 def goes_on(run: Recording) -> None:
     """Nothing else is said, and the node goes on to the end."""
-    known, refused = (
-        [one for one in _seen(run) if not _reason(one)],
-        [one for one in _seen(run) if _reason(one)],
-    )
+    known = [one for one in _seen(run) if not _reason(run, one)]
+    refused = [one for one in _seen(run) if _reason(run, one)]
     end = run.ended.stamp - SOON
     for topic, wanted in (("/found", known), ("/refused", refused)):
         said = [one for one in run.messages(topic) if one.stamp < end]
@@ -166,7 +111,7 @@ def keeps_the_stamp(run: Recording) -> None:
             and min(abs(_seconds(one.message) - known) for known in stamps) > 1e-6
         ):
             hint = "buffer.transform keeps it; what do_transform_point gives has the stamp of the lookup."
-            raise Missed("a stamp of one of the sightings", f"{_seconds(one.message):.3f} s", hint)
+            raise Missed("a stamp of one of the sightings", stamp_words(one.message.header.stamp), hint)
 
 
 def _seen(run: Recording) -> list[Heard]:
@@ -177,33 +122,41 @@ def _seen(run: Recording) -> list[Heard]:
     return seen
 
 
-def _reason(seen: Heard) -> str:
+def _reason(run: Recording, seen: Heard) -> str:
     """Why there is no answer; empty where there is one."""
-    name = seen.message.header.frame_id.partition("/")[0]
-    too_old = _seconds(seen.message) < 1e-3
-    return REASONS.get(name, "ExtrapolationException" if too_old else "")
+    trees = {one.header.frame_id for one in _told(run, "/tf", f"{_robot(seen)}/base_link")}
+    if "map" not in trees:
+        return "ConnectivityException" if trees else "LookupException"
+    return "ExtrapolationException" if _seconds(seen.message) < 0 else ""
+
+
+def _robot(seen: Heard) -> str:
+    """The name of the robot that has seen it."""
+    return seen.message.header.frame_id.partition("/")[0]
+
+
+def _told(run: Recording, topic: str, child: str) -> list[Any]:
+    """What our team said of where a frame is."""
+    ours = [one for heard in run.messages(topic) if heard.ours for one in heard.message.transforms]
+    return [one for one in ours if one.child_frame_id == child]
 
 
 def _seconds(message: object) -> float:
-    return Time.from_msg(message.header.stamp).nanoseconds / 1e9
+    return since_start(message.header.stamp)
 
 
 def _place(run: Recording, seen: Heard, when: float) -> tuple[float, float]:
     """Where the point was in the map, by what the team itself said of its robots."""
-    name = seen.message.header.frame_id.partition("/")[0]
-    base = _base(run, name, when)
-    return _into(base, _into(CAMERAS[name], (seen.message.point.x, seen.message.point.y)))
+    camera = flat(_told(run, "/tf_static", f"{_robot(seen)}/camera")[-1].transform)
+    base = _base(run, _robot(seen), when)
+    return _into(base, _into(camera, (seen.message.point.x, seen.message.point.y)))
 
 
 def _base(run: Recording, name: str, when: float) -> Flat:
     """A robot at a time, between the two transforms around it."""
     poses = []
-    for heard in run.messages("/tf"):
-        for one in heard.message.transforms if heard.ours else ():
-            if one.child_frame_id == f"{name}/base_link":
-                yaw = 2 * math.atan2(one.transform.rotation.z, one.transform.rotation.w)
-                shift = one.transform.translation
-                poses.append((Time.from_msg(one.header.stamp).nanoseconds / 1e9, shift.x, shift.y, yaw))
+    for one in _told(run, "/tf", f"{name}/base_link"):
+        poses.append((since_start(one.header.stamp), *flat(one.transform)))
     before = max((pose for pose in poses if pose[0] <= when), default=poses[0])
     after = min((pose for pose in poses if pose[0] > when), default=before)
     ratio = (when - before[0]) / (after[0] - before[0]) if after[0] > before[0] else 0.0
@@ -222,7 +175,7 @@ def _why(run: Recording, seen: Heard, said: tuple[float, float]) -> str:
     """The usual reasons for another place."""
     point = seen.message.point
     newest = _place(run, seen, seen.stamp)
-    if math.dist(said, newest) < 0.3:
+    if math.dist(said, newest) < LATE:
         return (
             "That is where it would be now. The robot has driven on since: ask for the time of the sighting, "
             "msg.header.stamp, and not for the newest, Time()."

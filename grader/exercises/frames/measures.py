@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from grader.checks import Missed
 from grader.exercises.frames.partners import Flat
 from sim.evidence import Recording
 
+Sent = list[tuple[float, Any]]  # transforms, each with the moment when it was sent (s)
+
 TF = "tf2_msgs/msg/TFMessage"
 UNIT = 0.01  # how far a quaternion's squared length may be from 1: tf2 throws others away
 NEAR = 0.02  # m, rad
+PART = 0.2  # of the points, where one thing is wrong and the rest right
 FULL_TURN = (
-    "A quaternion is no angle: for a turn by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
+    "A quaternion is not an angle: for a turn by yaw about z, z = sin(yaw / 2) and w = cos(yaw / 2). "
     "quaternion_from_euler(0, 0, yaw) gives all four numbers."
 )
 
@@ -56,9 +59,12 @@ def alike(one: Flat, other: Flat) -> bool:
 
 
 def named_right(
-    found: list[tuple[float, Any]], parent: str, child: str, topic: str
-) -> list[tuple[float, Any]]:
-    """The transforms between these two frames. Raises Missed where there are none."""
+    found: Sent, parent: str, child: str, topic: str, is_there: Callable[[float, Any], bool]
+) -> Sent:
+    """The transforms between these two frames.
+
+    Raises Missed where there are none; with a part of the points where the last one `is_there` all the same.
+    """
     right = [(stamp, one) for stamp, one in found if names(one) == f"{parent} → {child}"]
     if right:
         return right
@@ -67,4 +73,6 @@ def named_right(
     else:
         hint = "header.frame_id is the parent, child_frame_id the child. Each letter counts."
     told = ", ".join(dict.fromkeys(names(one) for _, one in found)) or "no transform"
-    raise Missed(f"{parent} → {child} on {topic}", told, hint)
+    kept = found[-1:] if found and is_there(*found[-1]) else []
+    credit = PART if kept else 0.0
+    raise Missed(f"{parent} → {child} on {topic}", told, hint, credit=credit, measured=kept)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from typing import Any
 
 from geometry_msgs.msg import Pose2D
 from rclpy.node import Node
@@ -14,7 +15,10 @@ from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.frames.measures import (
     FULL_TURN,
+    NEAR,
+    PART,
     TF,
+    Sent,
     alike,
     flat,
     is_turn,
@@ -53,27 +57,32 @@ def sends_static_transforms(run: Recording) -> None:
 
 
 @mount.check(5, after=sends_static_transforms)
-def puts_it_there(run: Recording) -> None:
+def puts_it_there(run: Recording) -> Sent:
     """The parent is base_link, the child base_scan, and it is where the mechanic says: x and y."""
-    wanted, (_, one) = (
-        _truth(run),
-        named_right(list(sent_frames(run, STATIC)), "base_link", "base_scan", STATIC)[-1],
-    )
-    found = flat(one.transform)
-    if not alike((*found[:2], 0.0), (*wanted[:2], 0.0)):
-        hint = "translation.x is msg.x, and translation.y is msg.y."
+    wanted = _truth(run)
+
+    def is_there(_: float, one: Any) -> bool:
+        return alike((*flat(one.transform)[:2], 0.0), (*wanted[:2], 0.0))
+
+    sent = named_right(list(sent_frames(run, STATIC)), "base_link", "base_scan", STATIC, is_there)
+    if not is_there(*sent[-1]):
+        found, hint = flat(sent[-1][1].transform), "translation.x is msg.x, and translation.y is msg.y."
+        pairs = zip(wanted[:2], found[:2], strict=True)
+        known = [abs(want - saw) <= NEAR < abs(want) / 2 for want, saw in pairs]  # and not by chance, as 0 is
         raise Missed(
-            f"x {wanted[0]:.2f} m, y {wanted[1]:.2f} m", f"x {found[0]:.2f} m, y {found[1]:.2f} m", hint
+            f"x {wanted[0]:.2f} m, y {wanted[1]:.2f} m",
+            f"x {found[0]:.2f} m, y {found[1]:.2f} m",
+            hint,
+            credit=PART if any(known) else 0.0,
+            measured=sent,
         )
+    return sent
 
 
 @mount.check(5, after=puts_it_there)
-def turns_it(run: Recording) -> None:
+def turns_it(run: Recording, sent: Sent) -> None:
     """It is turned as the mechanic says: a quaternion of length 1, for theta about z."""
-    wanted, (_, one) = (
-        _truth(run),
-        named_right(list(sent_frames(run, STATIC)), "base_link", "base_scan", STATIC)[-1],
-    )
+    wanted, (_, one) = _truth(run), sent[-1]
     turn = one.transform.rotation
     if not is_turn(one.transform):
         length = math.hypot(turn.x, turn.y, turn.z, turn.w)
@@ -88,7 +97,7 @@ def turns_it(run: Recording) -> None:
 
 
 @mount.check(2, after=puts_it_there)
-def says_it_once(run: Recording) -> None:
+def says_it_once(run: Recording, _: object) -> None:
     """It is said once, and kept for all who come later."""
     sent = [heard for heard in run.messages(STATIC) if not heard.ours]
     volatile = [

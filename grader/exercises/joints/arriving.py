@@ -14,6 +14,7 @@ from sim.evidence import Recording, Seconds
 FLOAT, COMMANDS = "std_msgs/msg/Float64", "/joint_commands"
 CLOSE, STANDS = 0.03, 0.1  # rad, rad/s
 SOON = 0.6  # s
+UNEVEN = 1.0  # s: who looks at the joint is late by about the same each time
 
 arrive = Exercise("arrive", "Wait for arrival", world=joint_of, seconds=18, companions=foreman, seeds=(1, 2))
 
@@ -31,7 +32,7 @@ def publishes_commands(run: Recording) -> None:
     publishes(run, COMMANDS, FLOAT)
 
 
-@arrive.check(3, after=publishes_commands)
+@arrive.check(2, after=publishes_commands)
 def begins_with_the_first(run: Recording) -> list[Order]:
     """The first command is the first position of /positions."""
     orders, wanted = _orders(run), _wanted(run)
@@ -43,7 +44,7 @@ def begins_with_the_first(run: Recording) -> list[Order]:
 
 
 @arrive.check(6, after=begins_with_the_first)
-def waits_for_arrival(run: Recording, orders: list[Order]) -> None:
+def waits_for_arrival(run: Recording, orders: list[Order]) -> list[Order]:
     """No command comes before the joint stands where the one before has sent it."""
     for before, after in itertools.pairwise(orders):
         gap, speed = abs(tip_at(run, after.stamp).yaw - before.position), _speed(run, after.stamp)
@@ -55,18 +56,28 @@ def waits_for_arrival(run: Recording, orders: list[Order]) -> None:
                 _why_early(orders, gap),
                 picture="path",
             )
+    _is_no_matter_of_time(run, orders)
+    share = (len(orders) - 1) / (len(_wanted(run)) - 1)
+    if share < 1.0:
+        saw = "one command, and no other" if len(orders) == 1 else f"{len(orders)} of them"
+        hint = _why_not_all(orders, [one.position for one in orders], _wanted(run))
+        raise Missed(
+            f"a command for each of {len(_wanted(run))} positions", saw, hint, credit=share, measured=orders
+        )
+    return orders
 
 
-@arrive.check(3, after=(begins_with_the_first, waits_for_arrival))
-def goes_to_all(run: Recording, orders: list[Order], _: None) -> None:
+@arrive.check(3, after=waits_for_arrival)
+def goes_to_all(run: Recording, orders: list[Order]) -> list[Order]:
     """The joint is sent to all of the positions, in their order, each of them once."""
     wanted, told = _wanted(run), [one.position for one in orders]
     if len(told) != len(wanted) or any(abs(a - b) > 1e-6 for a, b in zip(told, wanted, strict=True)):
         raise Missed(_listed(wanted), _listed(told), _why_not_all(orders, told, wanted))
+    return orders
 
 
-@arrive.check(2, after=(begins_with_the_first, goes_to_all))
-def wastes_no_time(run: Recording, orders: list[Order], _: None) -> None:
+@arrive.check(3, after=goes_to_all)
+def wastes_no_time(run: Recording, orders: list[Order]) -> None:
     """Each command comes within 0.6 s of the joint's arrival."""
     for before, after in itertools.pairwise(orders):
         came = _arrival(run, before, after.stamp)
@@ -77,6 +88,20 @@ def wastes_no_time(run: Recording, orders: list[Order], _: None) -> None:
                 f"{after.stamp - came:.2g} s later",
                 "Look at each message on /joint_states: as soon as the joint has arrived, send the next one.",
             )
+
+
+def _is_no_matter_of_time(run: Recording, orders: list[Order]) -> None:
+    """Raises Missed where the joint was always there when a command came, and nobody had looked."""
+    pairs = itertools.pairwise(orders)
+    waits = [after.stamp - _arrival(run, before, after.stamp) for before, after in pairs]
+    if waits and max(waits) - min(waits) > UNEVEN:
+        raise Missed(
+            "the next command because the joint has arrived",
+            f"it once {min(waits):.2g} s after that, and once {max(waits):.2g} s",
+            "No way takes longer than that, and most take less: time says nothing about arrival. Compare the "
+            "position on /joint_states with the target.",
+            picture="path",
+        )
 
 
 def _wanted(run: Recording) -> list[float]:
@@ -115,7 +140,7 @@ def _why_other(sent: float, wanted: list[float]) -> str:
         return "The positions are radians already, and /joint_commands wants radians."
     if any(abs(sent - other) < 1e-6 for other in wanted[1:]):
         return "Begin with the first: self.positions.pop(0) gives it, and pop() the last."
-    return "Publish the numbers of /positions as they are; they come once, latched, before anything else."
+    return "Publish the numbers of /positions as they are; they come once, latched."
 
 
 def _why_early(orders: list[Order], gap: float) -> str:

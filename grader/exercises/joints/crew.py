@@ -19,6 +19,7 @@ from sim.world.machines import JointModel
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 NAMES = ["shoulder_joint", "elbow_joint"]
 STATIONS, VISIT = 4, 2.2  # positions; s that the gymnast stays
+BEGIN = 0.1  # s
 NEAR, FAR = (0.03, 0.07), (0.25, 0.6)  # rad from a limit: near for sure, and not near for sure
 CRUISE = 0.8  # rad/s, in tasks
 LESSON, INTERRUPTION = 4.5, 1.0  # s, between two paths, and until one is broken off
@@ -39,12 +40,21 @@ def stations(seed: int) -> list[float]:
 
 
 class Foreman(Node):
-    """Says once, for all who come, where the joint is to go: /positions (Float64MultiArray), latched."""
+    """Says once, for all who come, where the joint is to go: /positions (Float64MultiArray), latched.
+
+    It does so when all programs have found each other: who passes the first position on at once is heard.
+    """
 
     def __init__(self, places: list[float]) -> None:
         super().__init__("foreman")
+        self.places = places
         self.publisher = self.create_publisher(Float64MultiArray, "/positions", LATCHED)
-        self.publisher.publish(Float64MultiArray(data=places))
+        self.begin = self.create_timer(BEGIN, self.tell)
+
+    def tell(self) -> None:
+        """Say it."""
+        self.begin.cancel()
+        self.publisher.publish(Float64MultiArray(data=self.places))
 
 
 def foreman(seed: int) -> list[Callable[[], Node]]:

@@ -35,18 +35,6 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
         raise Missed("a goal that succeeds", f"{wrong.status or 'no answer'}: {why}", _why_not(why))
 
 
-@draw.check(5, after=can_be_followed)
-def keeps_off_the_table(run: Recording) -> None:
-    """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
-    hint = (
-        "To every place there are two ways to bend the arm, mirrored. Take the one whose elbow "
-        "is on the figure's side, away from the table: its angle negative where y > 0, positive where y < 0."
-    )
-    if not _near(run, _line(run)[:1]):
-        hint = "The tip doesn't come to the figure either, as the other line says: that one first."
-    keeps_off(run, hint)
-
-
 @draw.check(10, after=can_be_followed)
 def draws_the_figure(run: Recording) -> None:
     """The tip draws the whole figure, and nothing else once it has begun, within 1.5 cm."""
@@ -56,6 +44,16 @@ def draws_the_figure(run: Recording) -> None:
     except Missed as missed:
         missed.hint = _why_off(run, line)
         raise
+
+
+@draw.check(5, after=draws_the_figure)
+def keeps_off_the_table(run: Recording) -> None:
+    """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
+    hint = (
+        "To every place there are two ways to bend the arm, mirrored. Take the one whose elbow "
+        "is on the figure's side, away from the table: its angle negative where y > 0, positive where y < 0."
+    )
+    keeps_off(run, hint)
 
 
 def _line(run: Recording) -> list[tuple[float, float]]:

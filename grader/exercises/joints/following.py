@@ -13,6 +13,7 @@ from grader.exercise import Exercise
 from grader.exercises.joints.crew import CRUISE, teacher
 from grader.exercises.joints.places import arm_of
 from sim.evidence import Goal, Heard, Recording
+from sim.nanoseconds import in_seconds
 
 ACTION = "/arm_controller/follow_joint_trajectory"
 TYPE = "control_msgs/action/FollowJointTrajectory"
@@ -64,7 +65,7 @@ def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
         sent, before, since = goal.request.trajectory, _positions_at(run, goal), 0.0
         for number, point in enumerate(sent.points, start=1):
             now = dict(zip(sent.joint_names, point.positions, strict=True))
-            time = point.time_from_start.sec + point.time_from_start.nanosec / 1e9
+            time = in_seconds(point.time_from_start)
             needed = max(abs(now[name] - before[name]) for name in now) / CRUISE
             if not needed - 0.01 <= time - since <= SLOW * needed + REST:
                 saw = f"{time - since:.3g} s (time_from_start is {time:.3g} s)"
@@ -175,7 +176,7 @@ def _why_other(asked: Any, sent: Any) -> str:
 
 def _why_time(points: Sequence[Any], needed: float, time: float, since: float) -> str:
     """The usual reasons for other times."""
-    times = [point.time_from_start.sec + point.time_from_start.nanosec / 1e9 for point in points]
+    times = [in_seconds(point.time_from_start) for point in points]
     if not any(times):
         return "time_from_start is not set: Duration(seconds=time).to_msg()."
     if since and abs(time - needed) < 0.02:

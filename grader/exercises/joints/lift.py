@@ -37,8 +37,8 @@ class Plan(NamedTuple):
 def plan(seed: int) -> Plan:
     """The plan of a seed: five places that the lift can go to, on the way to two of which it gets stuck."""
     draw = random.Random(f"lift {seed}")
-    lower, upper = -round(draw.uniform(0.6, 1.0), 2), round(draw.uniform(1.2, 1.8), 2)
-    middle, places = (lower + upper) / 2, []
+    middle, half = draw.uniform(-0.45, 0.45), draw.uniform(0.66, 0.76)  # no limits hold for two lifts
+    lower, upper, places = round(middle - half, 2), round(middle + half, 2), []
     for index in range(5):  # up and down in turns
         ahead = 1 if index % 2 else -1
         places.append(round(middle + ahead * draw.uniform(0.3, 0.6), 2))
@@ -77,7 +77,7 @@ class Lift(Node):
         self.create_timer(PERIOD, self.step)
 
     def obey(self, msg: Float64) -> None:
-        """Go there from now on, as far as the limits let the lift; what is no number is left alone."""
+        """Go there from now on, as far as the limits let the lift; what is not a number is left alone."""
         if math.isnan(msg.data):
             return
         self.target = min(max(msg.data, self.plan.lower), self.plan.upper)

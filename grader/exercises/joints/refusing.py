@@ -55,7 +55,7 @@ def passes_on(run: Recording) -> list[tuple[Heard, bool]]:
 
 @careful.check(4, after=passes_on)
 def refuses(run: Recording, wishes: list[tuple[Heard, bool]]) -> None:
-    """What lies beyond the limits, or is no number, is not passed on, nor anything else in its place."""
+    """What lies beyond the limits, or is not a number, is not passed on, nor anything else in its place."""
     lower, upper = limits_of(run)[JOINT]
     commands_within(run, COMMANDS, "data", lower, upper, _why_beyond(run, lower, upper))
     for heard, good in wishes:
@@ -177,7 +177,7 @@ def _why_not_passed(run: Recording, wish: Heard, wishes: list[tuple[Heard, bool]
     if any(not good and heard.stamp < wish.stamp for heard, good in wishes):
         bad = [heard for heard, good in wishes if not good and heard.stamp < wish.stamp]
         if not any(one.stamp > bad[0].stamp for one in run.messages(COMMANDS)):
-            return "A refusal is no end: return from the callback, and take the next wish as ever."
+            return "A refusal is not the end: return from the callback, and take the next wish as ever."
     lower, upper = limits_of(run)[JOINT]
     return f"It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description."
 

@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from sim.world import World
+from sim.world.clearance import clearance
 
 Point = tuple[float, float]
 Cell = tuple[int, int]  # (column, row)
@@ -35,7 +36,7 @@ class Ground:
         x = self.origin[0] + (np.arange(self.columns) + 0.5) * RESOLUTION
         y = self.origin[1] + (np.arange(self.rows) + 0.5) * RESOLUTION
         self.x, self.y = np.meshgrid(x, y)
-        self.clearance = _clearance(world, self.x, self.y)
+        self.clearance = clearance(world, self.x, self.y)
         near = RESOLUTION * 0.75
         self.known = (self.x > left - near) & (self.x < right + near)
         self.known &= (self.y > bottom - near) & (self.y < top + near)
@@ -87,21 +88,6 @@ class Ground:
             np.minimum.at(flat, there, length)
             reached = np.unique(np.concatenate((reached[~near], there)))
         return lengths[2:-2, 2:-2].copy()
-
-
-def _clearance(world: World, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    gaps = np.full(x.shape, np.inf)
-    for x0, y0, x1, y1 in world.segments():
-        ex, ey = x1 - x0, y1 - y0
-        along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
-        gaps = np.minimum(gaps, np.hypot(x0 + along * ex - x, y0 + along * ey - y))
-    for disc_x, disc_y, radius in world.discs():
-        gaps = np.minimum(gaps, np.maximum(np.hypot(x - disc_x, y - disc_y) - radius, 0.0))
-    for box in world.boxes:
-        c, s = math.cos(box.yaw), math.sin(box.yaw)
-        u, v = c * (x - box.x) + s * (y - box.y), c * (y - box.y) - s * (x - box.x)
-        gaps[(np.abs(u) < box.width / 2) & (np.abs(v) < box.height / 2)] = 0.0
-    return gaps
 
 
 @functools.lru_cache(maxsize=64)

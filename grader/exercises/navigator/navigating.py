@@ -30,6 +30,7 @@ SLOW = 0.15  # m/s; on the shortest way, so that there is time for turns and det
 FEEDBACK = 2.0  # seconds between two messages at most
 THREADS = "spin the node with a MultiThreadedExecutor"
 CANCEL_AFTER = 5.0  # seconds
+TURNED = "This lidar sits turned: its rays begin where scan.header.frame_id is in the map, at header.stamp."
 
 
 def _done(goals: int) -> Any:
@@ -94,6 +95,8 @@ def reaches_the_goal(run: Recording) -> None:
 def goes_round(run: Recording) -> None:
     """The robot gets to the goal, too, when a box that is in no map stands in its way; it touches nothing."""
     hint = "The map doesn't know the box, but the lidar sees it: plan anew when the path is blocked."
+    if len(run.messages("/plan")) > 1:
+        hint = f"It planned anew. Is the box inflated, and marked where it is? {TURNED}"
     keeps_off(run, hint, "no contact")
     _succeeds(run)
 
@@ -207,6 +210,8 @@ def _why_not_there(run: Recording, goal: Goal, left: float) -> str:
         )
     if not any(plan.poses for plan in plans):
         return "All plans are empty. Is the start where the robot is in the map, and are both cells free?"
+    if run.world.lidar.yaw and len(plans) > 3:
+        return f"It plans again and again. Does it mark the box, and no more? {TURNED}"
     if travelled(run) < 0.05 and any(series(run, "/cmd_vel", "angular.z")):
         return f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}."
     if travelled(run) < 0.05:

@@ -25,6 +25,7 @@ from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
 from sim.world import World
 
+AHEAD = SECOND // 10
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -95,6 +96,7 @@ class CostmapServer(Node):
 class Localization(Node):
     """Says on /tf, 20 times a second, where the frame odom lies in the frame map.
 
+    As AMCL does, it dates this a little ahead, so that where something was seen just now can be looked up.
     It trusts the odometry, and knows where the robot started; so the answer is always the same. AMCL, which
     does this on a robot, compares the lidar with the map and corrects the answer all the time.
     """
@@ -116,8 +118,8 @@ class Localization(Node):
 
     def tell(self) -> None:
         """Publish the transform from map to odom."""
-        now = self.get_clock().now().nanoseconds
-        self.publisher.publish(self.message.fill(*divmod(now, SECOND)))
+        until = self.get_clock().now().nanoseconds + AHEAD
+        self.publisher.publish(self.message.fill(*divmod(until, SECOND)))
 
 
 class Wanderer(Node):

@@ -129,7 +129,7 @@ def _answer(run: Recording, goal: int) -> tuple[Seconds, Any]:
 
 
 def _gaps(points: list[Point]) -> list[tuple[float, Point]]:
-    """How far it is from each point to the next one (m), and the point; inf where one is no number."""
+    """How far it is from each point to the next one (m), and the point; inf where one is not a number."""
     gaps = [(math.dist(one, two), one) for one, two in itertools.pairwise([*points, points[-1]])]
     return [(gap if math.isfinite(gap) else math.inf, one) for gap, one in gaps]
 

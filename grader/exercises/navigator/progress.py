@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from grader.checks import Missed
 from grader.exercises.navigator.ground import ground, shortest
 from grader.exercises.navigator.measures import cells_of
 from sim.evidence import Goal, Heard, Pose, Recording, Seconds
+from sim.nanoseconds import in_seconds
 from sim.world import World
 
 ACTION, TYPE = "/navigate_to_pose", "nav2_msgs/action/NavigateToPose"
@@ -80,12 +80,8 @@ def _while_odometry_is_right(run: Recording, goal: Goal) -> list[Heard]:
 
 def no_estimate(goal: Goal) -> Fault | None:
     """A goal whose feedback says on the way that no time is left."""
-    times = [_seconds(heard.message.estimated_time_remaining) for heard in goal.feedback]
+    times = [in_seconds(heard.message.estimated_time_remaining) for heard in goal.feedback]
     if all(seconds > 0 for seconds in times[: len(times) // 2]):
         return None
     hint = "It is the distance by the speed, as a message: Duration(seconds=distance / speed).to_msg()."
     return "an estimated_time_remaining above 0 on the way", "0 s or less", hint
-
-
-def _seconds(duration: Any) -> Seconds:
-    return duration.sec + duration.nanosec / 1e9

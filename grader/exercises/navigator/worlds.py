@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import random
 from dataclasses import replace
 
@@ -30,13 +31,19 @@ def world_of(kind: str, seed: int) -> World:
 
 @functools.lru_cache(maxsize=64)
 def blocked(seed: int) -> tuple[World, World]:
-    """A room as it is, with a box in the way, and the same room as the map has it: without the box."""
+    """A room as it is, with a box in the way, and the same room as the map has it: without the box.
+
+    The robot's lidar sits a little off its middle, and turned.
+    """
+    draw = random.Random(f"lidar {seed}")
+    turn = draw.choice((-1.0, 1.0)) * round(draw.uniform(1.2, math.pi), 2)
+    lidar = replace(CHEAP, x=round(draw.uniform(-0.06, 0.06), 2), y=0.05, yaw=turn)
     for attempt in range(100):
         known = World.generate("room", seed=(seed + attempt * 7919) % 2**32, boxes=3)
         known = replace(known, name=f"blocked_{seed}")
         x, y = _halfway(drivable(known))
         box = Box(x, y, known.start[2], BLOCK, BLOCK)
-        real = replace(known, boxes=(*known.boxes, box), lidar=CHEAP)
+        real = replace(known, boxes=(*known.boxes, box), lidar=lidar)
         if shortest(real, ROOM) < 1.5 * shortest(known, ROOM):
             return real, known
     raise ValueError(f"seed {seed}: no room could be blocked so that a way is left")

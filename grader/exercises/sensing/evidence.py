@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sim.evidence import Heard, Recording, Seconds, stamps
+from sim.evidence import Heard, Recording, Seconds, since_start, stamps
 
 RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
 STEP = 0.1  # seconds between the moments that are looked at
@@ -53,7 +53,7 @@ def _scans(run: Recording) -> list[tuple[Seconds, Seconds, float]]:
     found = []
     for heard in _ours(run, LIDAR):
         message = heard.message
-        measured = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
+        measured = since_start(message.header.stamp)
         ahead = np.array(message.ranges[:61] + message.ranges[-60:])
         found.append((heard.stamp, heard.stamp - measured, float(np.nanmin(ahead))))
     return found

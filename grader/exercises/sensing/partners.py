@@ -10,6 +10,8 @@ from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 
+from sim.evidence import since_start
+
 RAYS = 180
 
 
@@ -111,7 +113,7 @@ class CarelessDriver(Node):
 
     def drive(self) -> None:
         """Ahead for some seconds, then a turn on the spot, and so on."""
-        now = self.get_clock().now().nanoseconds / 1e9
+        now = since_start(self.get_clock().now().to_msg())
         if now >= self.until:
             self.ahead = not self.ahead
             self.until = now + (random.uniform(4.0, 8.0) if self.ahead else random.uniform(1.0, 2.0))
@@ -135,7 +137,7 @@ class CrashingDriver(Node):
 
     def drive(self) -> None:
         """Ahead, except in the pause."""
-        now = self.get_clock().now().nanoseconds / 1e9
+        now = since_start(self.get_clock().now().to_msg())
         if not self.start < now < self.start + 3.0:
             msg = Twist()
             msg.linear.x = 0.4
@@ -155,7 +157,7 @@ class Radio(Node):
         """Pass the scans on that have waited as long as the link takes now."""
         now = self.get_clock().now()
         self.waiting.append(msg)
-        delay = self.delay(now.nanoseconds / 1e9)
+        delay = self.delay(since_start(now.to_msg()))
         while self.waiting and (now - Time.from_msg(self.waiting[0].header.stamp)).nanoseconds >= delay * 1e9:
             self.publisher.publish(self.waiting.pop(0))
 
@@ -173,7 +175,7 @@ class BadRadio(Radio):
 
     def relay(self, msg: LaserScan) -> None:
         """Nothing in the silence; what was said in it is lost."""
-        if not self.silent < self.get_clock().now().nanoseconds / 1e9 < self.silent + 3.0:
+        if not self.silent < since_start(self.get_clock().now().to_msg()) < self.silent + 3.0:
             super().relay(msg)
 
     def delay(self, now: float) -> float:

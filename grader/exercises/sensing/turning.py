@@ -51,7 +51,7 @@ def heading_is_right(run: Recording, headings: Said) -> Said:
 
 _MISTAKES: dict[str, Callable[[float], float]] = {  # what a node says in place of a yaw in rad
     "That is the angle in radians: math.degrees(...) turns it into degrees.": lambda yaw: yaw,
-    "That is orientation.z. The numbers of a quaternion are no angles: yaw = 2 * atan2(z, w).": (
+    "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).": (
         lambda yaw: math.sin(yaw / 2)
     ),
     "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).": (
@@ -199,7 +199,7 @@ def _wrong_sum(run: Recording, headings: Said) -> str:
     """Where something is added up, but not the turn: what is wrong with it, most likely."""
     strange = next((said for _, said in headings if not math.isfinite(said)), None)
     if strange is not None:
-        return f"{strange} is no heading: something was divided by zero, or a sum began with no number."
+        return f"{strange} is not a heading: something was divided by zero, or a sum began with no number."
     return _wrong_scale(run, headings) or _wrong_bias(run, headings) or BIAS
 
 

@@ -33,7 +33,7 @@ def leaves_the_start(run: Recording) -> None:
         )
 
 
-@wall.check(8, after=leaves_the_start)
+@wall.check(4, after=leaves_the_start)
 def goes_round(run: Recording) -> None:
     """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
     left, low, right, top = run.world.bounds
@@ -56,12 +56,22 @@ def goes_round(run: Recording) -> None:
         ) from None
 
 
-@wall.check(4, after=goes_round)
+@wall.check(8, after=goes_round)
 def keeps_the_distance(run: Recording) -> None:
-    """It keeps 30 cm to 80 cm from the wall, for nine tenths of the time or more."""
-    gaps = [_gap(run, pose) for pose in run.path if pose.stamp >= SETTLED]
-    share = sum(NEAR <= gap <= FAR for gap in gaps) / len(gaps)
+    """It keeps 30 cm to 80 cm from the wall on its right, for nine tenths of the time or more."""
+    poses = [pose for pose in run.path if pose.stamp >= SETTLED]
+    gaps = [_gap(run, pose) for pose in poses]
+    left = [_is_left(run, pose) for pose in poses]
+    share = sum(NEAR <= gap <= FAR and not other for gap, other in zip(gaps, left, strict=True)) / len(gaps)
     if share < SHARE:
+        if sum(left) > len(left) / 2:
+            raise Missed(
+                "a robot with the wall on its right",
+                f"the nearest wall on its left, for {sum(left) / len(left):.0%} of the time",
+                "Look to the right, at ranges[270], and steer by what is there.",
+                picture="path",
+            )
+        other = 1.0 - share - sum(not NEAR <= gap <= FAR for gap in gaps) / len(gaps)
         near, far = sum(gap < NEAR for gap in gaps), sum(gap > FAR for gap in gaps)
         hint = (
             "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before "
@@ -72,7 +82,8 @@ def keeps_the_distance(run: Recording) -> None:
         )
         raise Missed(
             f"{SHARE:.0%} of the time at {NEAR:g} m to {FAR:g} m from the nearest wall",
-            f"{share:.0%} of the time; {near / len(gaps):.0%} nearer, {far / len(gaps):.0%} further away",
+            f"{share:.0%} of the time; {near / len(gaps):.0%} nearer, {far / len(gaps):.0%} further away"
+            + (f", {other:.0%} with a wall on its left" if other >= 0.05 else ""),
             hint,
             credit=share * 0.8 if share >= 0.5 else 0.0,
             picture="path",
@@ -89,8 +100,19 @@ def touches_nothing(run: Recording) -> None:
 
 def _gap(run: Recording, pose: Pose) -> float:
     """The distance to the nearest of the room's walls, m."""
+    return _nearest(run, pose)[0]
+
+
+def _is_left(run: Recording, pose: Pose) -> bool:
+    """Whether the nearest of the room's walls is on the robot's left, and not rather ahead or behind."""
+    return math.sin(_nearest(run, pose)[1] - pose.yaw) > 0.5
+
+
+def _nearest(run: Recording, pose: Pose) -> tuple[float, float]:
+    """How far (m) the nearest of the room's walls is, and in which direction (rad, in the map)."""
     left, low, right, top = run.world.bounds
-    return min(pose.x - left, right - pose.x, pose.y - low, top - pose.y)
+    gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
+    return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
 
 
 def _why_not_round(run: Recording) -> str:

@@ -15,7 +15,7 @@ TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
 RADIUS, SPEED = 0.5, 0.3  # m, m/s
 NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and turned
 COMPLAINT = re.compile(
-    "error:|command not found|is no command|can't be read|populate field|is invalid"
+    "error:|command not found|is not a command|can't be read|populate field|is invalid"
 )  # of ros2
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
@@ -91,7 +91,7 @@ def _how_to_read(wrong: str) -> str:
         return "`ros2 interface show geometry_msgs/msg/Twist` shows the fields of the message."
     if "type is invalid" in wrong:
         return "A type has three parts, package/msg/Name: `ros2 topic info /cmd_vel` shows it."
-    if "command not found" in wrong or "is no command" in wrong:
+    if "command not found" in wrong or "is not a command" in wrong:
         return 'The text begins with the word ros2, and is returned: return "ros2 topic pub ...".'
     return "Read the complaint; `ros2 topic pub --help` shows what the command takes, and in which order."
 

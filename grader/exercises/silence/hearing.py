@@ -32,12 +32,14 @@ def listens_to_scans(run: Recording) -> None:
         subscribes(run, "/scan", SCAN)
 
 
-@lidar.check(5, after=listens_to_scans)
+@lidar.check(3, after=listens_to_scans)
 def hears_every_scan(run: Recording) -> list[Counted]:
     """It hears the scans: with each that comes, one count (Int32) goes out on /missed."""
     said = publishes(run, "/missed", COUNT)
     ways = [way for way in run.crossings if way.topic == "/scan" and way.listener not in run.ours]
-    arrived = sum(way.sent - way.lost for way in ways)
+    # Each node that listens has its own way, on which others get lost; one of them counts.
+    came = [way.sent - way.lost for way in ways]
+    arrived = min(came, key=lambda count: abs(count - len(said)), default=0)
     with hinting("Publish in the scan's callback, each time it is called."):
         if not arrived - 1 <= len(said) <= arrived:  # one may be under way in the end
             expected = "one message on /missed for each scan that came"
@@ -45,7 +47,7 @@ def hears_every_scan(run: Recording) -> list[Counted]:
         return _counted(run)
 
 
-@lidar.check(6, after=hears_every_scan)
+@lidar.check(8, after=hears_every_scan)
 def counts_all(run: Recording, counted: list[Counted]) -> None:
     """At the end the count is how many scans have got lost since the first one."""
     last = counted[-1]

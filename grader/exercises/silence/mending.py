@@ -19,6 +19,7 @@ CURES = {
     "deadline": "deadline",
     "mute": "running",
 }  # the parameter that mends a fault; where nobody is there, none does
+CHANGES_ALL = "Who changes everything mends by chance, and breaks what was right. Find the fault first."
 
 doctor = Exercise("doctor", "A doctor for silent systems", seconds=9, companions=ward, seeds=(1, 2))
 
@@ -31,6 +32,11 @@ class Patient(NamedTuple):
     words: tuple[str, ...]  # that the student's node said of it
     hears: bool  # whether its display hears something in the end
     changes: tuple[str, ...]  # the parameters of its display that were set
+
+    @property
+    def idle(self) -> list[str]:
+        """Those of them that don't mend its fault."""
+        return [name for name in self.changes if name != CURES.get(self.case.fault, "")]
 
 
 @doctor.check(2)
@@ -59,9 +65,9 @@ def names_the_faults(run: Recording) -> None:
 
 @doctor.check(8, after=answers_complaints)
 def mends_the_faults(run: Recording) -> None:
-    """It mends the fault: every display hears its sensor again, where there is one."""
+    """It mends the fault, by that alone: every display hears its sensor again, where there is one."""
     patients = [one for one in _patients(run) if one.case.fault != "nobody"]
-    deaf = [one for one in patients if not one.hears]
+    deaf = [one for one in patients if not one.hears or one.idle]
     if deaf:
         first = deaf[0]
         done = (
@@ -71,8 +77,9 @@ def mends_the_faults(run: Recording) -> None:
         )
         raise Missed(
             f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”",
-            f"it hears nothing, and {done}; {len(patients) - len(deaf)} of {len(patients)} hear",
-            _why_deaf(first),
+            f"it hears {'again' if first.hears else 'nothing'}, and {done}; "
+            f"{len(patients) - len(deaf)} of {len(patients)} were mended so",
+            CHANGES_ALL if first.idle else _why_deaf(first),
             credit=_share(len(patients) - len(deaf), len(patients)),
         )
 
@@ -81,12 +88,10 @@ def mends_the_faults(run: Recording) -> None:
 def touches_nothing_else(run: Recording) -> None:
     """It sets only what is at fault: nothing at a display that waits for nobody, and no other parameter."""
     for one in _patients(run):
-        needed = CURES.get(one.case.fault, "")
-        idle = [name for name in one.changes if name != needed]
-        if idle:
+        if one.idle:
+            needed = CURES.get(one.case.fault, "")
             expected = f"{f'{needed} alone' if needed else 'nothing'} set at the display of {one.case.topic}"
-            hint = "Who changes everything mends by chance, and breaks what was right. Find the fault first."
-            raise Missed(expected, ", ".join(dict.fromkeys(one.changes)), hint)
+            raise Missed(expected, ", ".join(dict.fromkeys(one.changes)), CHANGES_ALL)
 
 
 def _share(right: int, of: int) -> float:

@@ -18,6 +18,7 @@ LAG = 0.12  # s, until a command has to be passed on
 SOON, STOPPED = 0.4, 1.0  # s of silence, after which zeros go out, and after which the robot stands
 LONGEST = 0.3  # s, a deadline that notices soon enough
 STEP, STANDING = 0.05, 0.02  # s, m/s
+PROFILE = "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline."
 Command = tuple[float, float]  # m/s, rad/s
 
 joystick = Exercise(
@@ -25,7 +26,7 @@ joystick = Exercise(
 )
 
 
-@joystick.check(3)
+@joystick.check(2)
 def stands_between(run: Recording) -> None:
     """The node hears /joystick, and publishes Twist messages on /cmd_vel."""
     with hinting("The joystick talks on /joystick, and the robot listens to /cmd_vel."):
@@ -33,27 +34,14 @@ def stands_between(run: Recording) -> None:
         publishes(run, SENT, TWIST, at_least=10)
 
 
-@joystick.check(5, after=stands_between)
+@joystick.check(3, after=stands_between)
 def passes_commands_on(run: Recording) -> None:
     """While the joystick speaks, the robot gets its commands, from a tenth of a second later on."""
     (begin, _), *_ = _silences(run)
     _alike(run, 0.5, begin, "Remember the last command in the callback, and publish it in the timer.")
 
 
-@joystick.check(5, after=stands_between)
-def asks_for_a_deadline(run: Recording) -> None:
-    """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
-    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.ours]
-    shortest = min((limit for limit in asked if limit is not None), default=None)
-    if shortest is None or not OFFERED <= shortest <= LONGEST:
-        raise Missed(
-            f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription",
-            "none" if shortest is None else f"{shortest:g} s",
-            "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline.",
-        )
-
-
-@joystick.check(5, after=passes_commands_on)
+@joystick.check(7, after=passes_commands_on)
 def stops_when_it_falls_silent(run: Recording) -> None:
     """When the joystick falls silent, zeros go out within 0.4 s, and the robot stands within 1 s."""
     for begin, end in _silences(run):
@@ -65,13 +53,24 @@ def stops_when_it_falls_silent(run: Recording) -> None:
                 raise Missed(
                     f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
                     f"{_told(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
-                    _why_not_zero(run.during(begin + STOPPED, end)),
+                    _why_not_zero(run, begin + STOPPED, end),
                     picture="topics",
                     unsafe=unsafe,
                 )
 
 
-@joystick.check(2, after=stops_when_it_falls_silent)
+@joystick.check(5, after=stops_when_it_falls_silent)
+def asks_for_a_deadline(run: Recording) -> None:
+    """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
+    shortest = _deadline(run)
+    if not OFFERED <= shortest <= LONGEST:
+        saw = "none" if shortest == math.inf else f"{shortest:g} s"
+        raise Missed(
+            f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription", saw, PROFILE
+        )
+
+
+@joystick.check(3, after=stops_when_it_falls_silent)
 def goes_on_afterwards(run: Recording) -> None:
     """When the joystick speaks again, the robot gets its commands again."""
     guess = "A stop holds until the next command comes: then that one counts."
@@ -131,8 +130,16 @@ def _told(command: Command | None) -> str:
     return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
 
 
-def _why_not_zero(rest: Recording) -> str:
-    if not rest.messages(SENT):
+def _deadline(run: Recording) -> Seconds:
+    """The shortest that a student's subscription asks for."""
+    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.ours]
+    return min((limit for limit in asked if limit is not None), default=math.inf)
+
+
+def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
+    if _deadline(run) > LONGEST:
+        return f"Nobody is told that it is late, unless a deadline is asked for. {PROFILE}"
+    if not run.during(begin, end).messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
     return (
         "The callback for a missed deadline belongs to the subscription: event_callbacks="

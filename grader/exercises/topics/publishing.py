@@ -6,8 +6,9 @@ import itertools
 import math
 
 from grader.checks import Missed, publishes, rate, within
+from grader.checks.fields import stamp_words
 from grader.exercise import Exercise
-from sim.evidence import Heard, Recording
+from sim.evidence import Heard, Recording, since_start
 
 greeting = Exercise("greeting", "A publisher in one line", seconds=5)
 
@@ -96,11 +97,10 @@ def imu_is_stamped(run: Recording, sent: list[Heard]) -> None:
     """The header's stamp is the time at which the message is sent."""
     for heard in sent:
         stamp = heard.message.header.stamp
-        seconds = stamp.sec + stamp.nanosec / 1e9
-        if abs(seconds - heard.stamp) > 0.02:
+        if abs(since_start(stamp) - heard.stamp) > 0.02:
             raise Missed(
-                f"a stamp of {heard.stamp:.3g} s in the message sent at {heard.stamp:.3g} s",
-                f"{seconds:.10g} s",
+                f"a stamp of {heard.stamp:.3f} s after the start in the message sent then",
+                stamp_words(stamp),
                 "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg().",
             )
 

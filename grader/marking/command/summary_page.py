@@ -4,10 +4,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from urllib.parse import quote
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from grader.marking.command.summary import Summary
 from grader.marking.gradebook.course import Course
+from grader.marking.templates import templates
 
 
 def as_page(summary: Summary, links: Mapping[str, str] | None = None) -> str:
@@ -25,11 +24,5 @@ def page_links(course: Course, assignment: str, students: Iterable[str], place: 
     }
 
 
-_pages = Environment(
-    loader=FileSystemLoader(Path(__file__).parent),
-    autoescape=True,
-    trim_blocks=True,
-    lstrip_blocks=True,
-    undefined=StrictUndefined,
-)
+_pages = templates(Path(__file__).parent)
 _pages.filters["number"] = "{:g}".format

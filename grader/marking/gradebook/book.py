@@ -1,6 +1,7 @@
 """The one writer to nbgrader's gradebook. What it writes is what `nbgrader autograde` would."""
 import contextlib
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from types import TracebackType
 
@@ -31,6 +32,23 @@ ADVICE = {
     "full": "the disk is full: make room, then mark again",
     "no such": "it was made by another nbgrader: copy it, run `nbgrader db upgrade`, then mark again",
 }
+
+
+@dataclass(frozen=True)
+class BookMark:
+    """A student's mark in an assignment, as the gradebook has it.
+
+    name: first and last, or the id. points: with what was entered by hand and what being late cost.
+    by_marking: what each test cell earned, by notebook and cell; None where it was not marked.
+    """
+
+    student: str
+    name: str
+    assignment: str
+    points: float
+    most: float
+    by_marking: dict[tuple[str, str], float | None]
+    needs_look: bool
 
 
 class Book:
@@ -70,6 +88,12 @@ class Book:
             except MissingEntry:
                 return False
             return timestamp is None or submission.timestamp == timestamp
+
+    def marks(self) -> list[BookMark]:
+        """All marks of the class, by assignment and student."""
+        with self._transaction() as book:
+            submissions = [found for each in book.assignments for found in each.submissions]
+            return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
 
     def write(self, result: Result, pages: Mapping[str, NotebookNode], timestamp: datetime | None) -> None:
         """Write a result: all of it, or nothing where this raises.
@@ -130,6 +154,20 @@ class Book:
             place = self._address.render_as_string(hide_password=True)
             said = f"the gradebook {place} can't be used ({reason})"
             raise GradebookError(f"{said}: {next(advice, 'repair it, then mark again')}") from None
+
+
+def _mark(found: SubmittedAssignment) -> BookMark:
+    who = found.student
+    cells = {(note.name, grade.name): grade.auto_score for note in found.notebooks for grade in note.grades}
+    return BookMark(
+        student=who.id,
+        name=" ".join(part for part in (who.first_name, who.last_name) if part) or who.id,
+        assignment=found.assignment.name,
+        points=max(0.0, found.score - (found.late_submission_penalty or 0.0)),
+        most=found.max_score,
+        by_marking=cells,
+        needs_look=bool(found.needs_manual_grade),
+    )
 
 
 def _name(student: Student) -> None:

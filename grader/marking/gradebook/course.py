@@ -76,6 +76,10 @@ class Course:
         """Where marking keeps its results, beside what nbgrader makes of them."""
         return (self.root / self.directory.autograded_directory).parent / "marking" / assignment
 
+    def certificates(self) -> Path:
+        """Where certificates and their receipt lie."""
+        return (self.root / self.directory.autograded_directory).parent / "certificates"
+
     def assignments(self) -> list[str]:
         """The names of all assignments that are released."""
         return sorted({notebook.parent.name for notebook in self.release("*").parent.glob("*/*.ipynb")})

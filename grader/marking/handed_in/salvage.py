@@ -114,5 +114,5 @@ def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
         problem = f"{quote(file)} holds a web page, maybe one that asks for a password; expected a notebook."
         raise Unusable(f"{problem} {AGAIN}")
     if not text.startswith("{"):  # its words are not told: where it is linked to, a secret may lie
-        problem = f"{quote(file)} is no notebook: expected JSON, which begins with `{{`, saw something else."
+        problem = f"{quote(file)} is not a notebook: expected JSON, beginning with `{{`, saw something else."
         raise Unusable(f"{problem} {AGAIN}")

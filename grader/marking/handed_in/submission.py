@@ -16,11 +16,13 @@ from grader.marking.errors import CourseError, Unusable
 from grader.marking.handed_in.cells import PlainNotebook, read_notebook
 from grader.marking.handed_in.folder import FILE, FOLDER, FolderEntry, list_entries, read_file
 from grader.marking.handed_in.words import list_names, quote
+from grader.workspace.sources import Refused, read_files
 
 LARGEST = 128_000_000  # bytes of a notebook's file
 MOST_CANDIDATES = 20
 SUFFIX = ".ipynb"
 SILENT = {"timestamp.txt"}  # nbgrader's own
+WORKSPACE = "ws"  # the folder that assignments on packages write
 DATA = 20_000_000  # bytes of the files that a release may bring along
 
 
@@ -42,12 +44,14 @@ class HandedIn:
     """All of a student's folder that matters for a mark: plain data, the same on every machine.
 
     contents: by path, the bytes of each file that is one of the assignment's notebooks or may stand for one,
-    or why it can't be read. problem: why the folder itself can't be, or "".
+    or why it can't be read. problem: why the folder itself can't be, or "". workspace: the files of packages
+    beside the notebook, by path from there; or why they can't be taken.
     """
 
     entries: tuple[FolderEntry, ...] = ()
     contents: Mapping[str, bytes | str] = field(default_factory=dict)
     problem: str = ""
+    workspace: Mapping[str, bytes] | str = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,9 @@ def read_folder(folder: Path, release: Release) -> HandedIn:
         return HandedIn(problem=str(reason))
     own = [name + SUFFIX for name in release.notebooks]
     paths = [*(path for path in own if os.path.lexists(folder / path)), *_candidates(there, own)]
-    return HandedIn(there, {path: _content(folder, path) for path in paths})
+    return HandedIn(
+        there, {path: _content(folder, path) for path in paths}, workspace=_workspace(folder)
+    )
 
 
 def submission_key(handed_in: HandedIn, release: Release, secret_fingerprint: str, version: str) -> str:
@@ -90,7 +96,9 @@ def submission_key(handed_in: HandedIn, release: Release, secret_fingerprint: st
     there = [f"{entry.path} {entry.kind}" for entry in handed_in.entries if entry.path not in SILENT]
     contents = [item for path in sorted(handed_in.contents) for item in (path, handed_in.contents[path])]
     about = [secret_fingerprint, version, release.digest, handed_in.problem]
-    return _digest([*about, f"{len(there)}", *there, *contents])
+    packages = handed_in.workspace
+    told = [packages] if isinstance(packages, str) else [item for pair in packages.items() for item in pair]
+    return _digest([*about, f"{len(there)}", *there, *contents, *told])
 
 
 def read_submission(handed_in: HandedIn, release: Release) -> Submission:
@@ -110,9 +118,23 @@ def read_submission(handed_in: HandedIn, release: Release) -> Submission:
             found.repairs.append(f"{quote(used[name])} was taken for {quote(name + SUFFIX)}.")
     if not found.notebooks:
         raise Unusable(" ".join(found.missing.values()))
-    if left := list(_unused(handed_in.entries, set(used.values()), release)):
+    if isinstance(handed_in.workspace, str):
+        found.repairs.append(f"No file of your workspace was taken. {handed_in.workspace}")
+    taken = {*used.values(), WORKSPACE} if handed_in.workspace else set(used.values())
+    if left := list(_unused(handed_in.entries, taken, release)):
         found.repairs.append(f"Handed in beside the notebook and not used: {list_names(left)}.")
     return found
+
+
+def _workspace(folder: Path) -> Mapping[str, bytes] | str:
+    """The sources in a workspace beside the notebook, by path from there; or why they can't be taken."""
+    try:
+        if (folder / WORKSPACE).is_symlink():
+            raise Refused(f"`{WORKSPACE}` is a link. Hand in the folder itself.")
+        found = read_files(folder / WORKSPACE / "src", f"{WORKSPACE}/src")
+    except Refused as reason:
+        return str(reason)
+    return {f"{WORKSPACE}/src/{path}": data for path, data in found.items()}
 
 
 def _content(folder: Path, path: str) -> bytes | str:

@@ -1,7 +1,8 @@
 """The process of one judge: takes one submission over a socket, marks it, gives the result and ends.
 
-It says {"student": true} when it needs a student's process, and gets a socket to it; {"ending": true} to hear
-how that process ended; at last {"result": text}, or {"failed": why} for an assignment that it can't mark.
+It says {"student": true} when it needs a student's process, and gets a socket to it; {"build": true} does the
+same for a process that builds a package. {"ending": "student"}, or "build", asks how the last of these ended.
+At last comes {"result": text}, or {"failed": why} for an assignment that it can't mark.
 """
 
 from __future__ import annotations
@@ -9,10 +10,13 @@ from __future__ import annotations
 import contextlib
 import socket
 
+from grader.marking.building.asking import build_there
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.led_process import LedProcess
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.task import RESULT, receive_order
+from grader.workspace.building import Built
+from grader.workspace.sources import Sources
 from sim.ros.remote import Wire, WireError
 
 ANSWER_S = 60.0  # for an answer of the marker's, on a busy machine
@@ -23,14 +27,21 @@ def main(sock: socket.socket) -> None:
     order = receive_order(sock)
     marker = Wire(sock, RESULT)
 
-    def ending() -> str:
-        marker.send(ending=True)
+    def ending(whose: str) -> str:
+        marker.send(ending=whose)
         return str(marker.receive(ANSWER_S)["ending"])
 
-    def start_process() -> LedProcess:
-        marker.send(student=True)
+    def socket_to(**whose: bool) -> socket.socket:
+        marker.send(**whose)
         _, [descriptor], _, _ = socket.recv_fds(sock, 1, 1)
-        return LedProcess(socket.socket(fileno=descriptor), order.time_limits, ending)
+        return socket.socket(fileno=descriptor)
+
+    def build(sources: Sources) -> Built:
+        return build_there(socket_to(build=True), sources, lambda: ending("build"))
+
+    def start_process() -> LedProcess:
+        to_student = socket_to(student=True)
+        return LedProcess(to_student, order.time_limits, lambda: ending("student"), build)
 
     with contextlib.suppress(WireError):  # the marker is gone: nobody wants a result
         try:

@@ -16,6 +16,8 @@ from grader.marking.errors import StudentProcessGone
 from grader.marking.judge.cell_outputs import CellOutputs, Displays
 from grader.marking.task import TimeLimits
 from grader.score import Score
+from grader.workspace.building import Build, Built
+from grader.workspace.sources import Sources
 from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
 
 MESSAGE = 8_000_000  # bytes of one message
@@ -57,11 +59,18 @@ class LedProcess:
 
     threads: whether threads of the notebook still ran when its last cell was over, as the process says.
     ending: asked when the wire breaks; how the process ended, as a sentence, or "" where that isn't known.
+    build: builds the packages that it hands over.
     """
 
-    def __init__(self, sock: socket.socket, time_limits: TimeLimits, ending: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        sock: socket.socket,
+        time_limits: TimeLimits,
+        ending: Callable[[], str],
+        build: Build,
+    ) -> None:
         self._wire = DeadlineWire(sock, MESSAGE)
-        self._time_limits, self._ending = time_limits, ending
+        self._time_limits, self._ending, self._build = time_limits, ending, build
         self._over = monotonic() + time_limits.start
         self.threads = False
 
@@ -74,14 +83,11 @@ class LedProcess:
         self._listen(CellOutputs(Displays()))
         self._over = monotonic() + self._time_limits.notebook
 
-    def run(self, source: str, outputs: CellOutputs, pictures: bool = True) -> None:
-        """Run a cell. Says so in the outputs when it had to be interrupted. Raises StudentProcessGone.
-
-        pictures: whether to draw what the cell shows; else its name stands there.
-        """
+    def run(self, source: str, outputs: CellOutputs) -> None:
+        """Run a cell. Says so in the outputs when it had to be interrupted. Raises StudentProcessGone."""
         began = monotonic()
         self._limit(self._time_limits.cell + GRACE)
-        self._send(run=source, seconds=self._time_limits.cell, pictures=pictures)
+        self._send(run=source, seconds=self._time_limits.cell)
         while self._listen(outputs) is not None:
             pass  # nobody has asked for nodes
         self._say_if_late(began, outputs)
@@ -114,9 +120,20 @@ class LedProcess:
         self._limit(self._time_limits.test)
         remote = Remote(self._wire)
         remote.deadline = self._wire.deadline
+
+        def build(sources: Sources) -> Built:
+            """In time that is not the student's: another process works."""
+            began = monotonic()
+            try:
+                return self._build(sources)
+            finally:
+                self._over += monotonic() - began
+                self._limit(self._time_limits.test)
+                remote.deadline = self._wire.deadline
+
         try:
             try:
-                tested.score = exercise.judge(RemoteCast(remote, secret), secret)
+                tested.score = exercise.judge(RemoteCast(remote, secret, build), secret)
             except RemoteLost as lost:
                 if not lost.lives:
                     raise

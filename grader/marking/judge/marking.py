@@ -37,6 +37,12 @@ class Marking:
     stops: list[str] = field(default_factory=list)
     timings: dict[str, float] = field(default_factory=lambda: {"judged": 0.0})
 
+    @property
+    def files(self) -> dict[str, bytes]:
+        """What lies beside the notebooks: the release's files, and the student's packages."""
+        workspace = self.task.handed_in.workspace
+        return dict(self.task.release.files) | ({} if isinstance(workspace, str) else dict(workspace))
+
     def notebook(self, name: str) -> NotebookNode:
         """What is run; of one that could not be rebuilt, the release's, which is not."""
         rebuilt = self.rebuilt.notebooks.get(name)

@@ -16,10 +16,13 @@ from grader.marking.handed_in.words import quote
 from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.led_process import LedProcess
+from grader.marking.judge.looking_cells import looking_cells
 from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.testcells import is_test
 from grader.marking.outputs import writable_text
 
+NOTHING = "pass"  # in place of a cell that is left out: the ones below keep their numbers
+LEFT_OUT = "Not run for marking, where the tests look at what your nodes do."
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
 
 
@@ -29,9 +32,12 @@ class NotebookRun:
     def __init__(self, marking: Marking, name: str) -> None:
         self._marking, self._name = marking, name
         self._exercises, self._results = marking.exercises[name], marking.cells[name]
-        # Cells of ours that only show a run: the student has seen that, and the test looks at it anew.
-        cells = [cell for cell in marking.task.release.notebooks[name].cells if cell.cell_type == "code"]
-        self._display_cells = {cell.source for cell in cells if not cell_name(cell)}
+        self._cells = _code_cells(marking.notebook(name))
+        released = {
+            it.source for it in _code_cells(marking.task.release.notebooks[name]) if not cell_name(it)
+        }
+        ours = {at for at, it in enumerate(self._cells) if not cell_name(it) and it.source in released}
+        self._left_out = looking_cells([cell.source for cell in self._cells], ours)
 
     def run_all(self) -> None:
         """Run all code cells in order, as far as the process lives."""
@@ -39,13 +45,12 @@ class NotebookRun:
         where = "before its first cell"
         process = self._marking.start_process()
         try:
-            process.begin(self._marking.task.release.files)
+            process.begin(self._marking.files)
             self._marking.timings["start"] = monotonic() - began
-            cells = self._marking.notebook(self._name).cells
-            for cell in (cell for cell in cells if cell.cell_type == "code"):
+            for place, cell in enumerate(self._cells):
                 number += bool(cell.source.strip())  # as Jupyter counts
                 where = f"in {_cell_words(cell, number)}"
-                self._run(process, cell, number)
+                self._run(process, cell, number, place in self._left_out)
             if process.threads:
                 self._marking.flags.append(THREADS.format(quote(self._name)))
         except StudentProcessGone as gone:
@@ -53,13 +58,15 @@ class NotebookRun:
         finally:
             process.hang_up()
 
-    def _run(self, process: LedProcess, cell: NotebookNode, number: int) -> None:
+    def _run(self, process: LedProcess, cell: NotebookNode, number: int, left_out: bool) -> None:
         outputs, began = CellOutputs(self._marking.displays), monotonic()
         try:
             if is_test(cell):
                 cell.outputs = self._test(process, cell, number, outputs)
             else:
-                process.run(cell.source, outputs, pictures=cell.source not in self._display_cells)
+                process.run(NOTHING if left_out else cell.source, outputs)
+                if left_out:
+                    outputs.say(LEFT_OUT)
                 cell.outputs = outputs.list
         except StudentProcessGone as gone:
             outputs.say(f"The notebook stopped here. {gone} The cells below were not run.")
@@ -125,6 +132,10 @@ class NotebookRun:
 def _text(text: str) -> list[dict[str, Any]]:
     line = text if text.endswith("\n") else f"{text}\n"
     return [{"output_type": "stream", "name": "stdout", "text": line}] if text else []
+
+
+def _code_cells(notebook: NotebookNode) -> list[NotebookNode]:
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
 def _cell_words(cell: NotebookNode, number: int) -> str:

@@ -22,7 +22,7 @@ NAME = "ros2-course"
 # What students get besides lessons and exercises, and what of that they don't.
 PARTS = (
     *("LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
-    *(".ci/setup", ".ci/slim", ".ci/uv.txt"),
+    *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "interfaces", ".binder", ".devcontainer"),
 )
 KEPT_BACK = ("grader/marking", "grader/__main__.py", "jupyter/teach", "course/README.md")

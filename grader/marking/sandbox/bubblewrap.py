@@ -23,7 +23,8 @@ KNOBS = (
 )
 # Ubuntu's; it lets bubblewrap make a sandbox and confined processes none.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
-COURSE = "sim", "grader", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "tf_transformations"
+IN_PYTHON = "launch", "launch_ros", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "tf_transformations"
+COURSE = "sim", "grader", *IN_PYTHON
 
 
 def visible(extra: Sequence[Path]) -> list[str]:

@@ -11,7 +11,10 @@ KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "threads")
 
 @dataclass(frozen=True)
 class Limits:
-    """The most that one confined process may use. MB are 1024 * 1024 bytes."""
+    """The most that one confined process may use. MB are 1024 * 1024 bytes.
+
+    programs: it may start programs, and computing, threads and memory are those of all of them together.
+    """
 
     memory_mb: int = 2000  # of address space, of which an idle confined process has about 500
     cpu_s: int = 600  # seconds of computing, all threads together
@@ -21,6 +24,7 @@ class Limits:
     scratch_files: int = 4096
     threads: int = 256
     open_files: int = 256
+    programs: bool = False
 
 
 USUAL = Limits()

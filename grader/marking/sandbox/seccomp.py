@@ -1,7 +1,8 @@
 """The filter on system calls that every confined process has: a BPF program for x86_64.
 
 A call that is denied fails with EPERM, so student code gets an ordinary PermissionError. Threads are allowed,
-processes are not; nor is anything that outlives the confined process or is shared with another one.
+processes are not, unless it may start programs; nor is anything that outlives the confined process or is
+shared with another one.
 """
 
 import errno
@@ -10,13 +11,13 @@ import struct
 X86_64 = 0xC000003E
 _X32 = 0x40000000  # calls of the x32 ABI have this bit
 _CLONE_THREAD = 0x10000
+_CLONE_NEW = 0x7E020000  # any of the namespaces
 _AF_UNIX, _AF_INET, _AF_NETLINK, _NETLINK_ROUTE = 1, 2, 16, 0
 
 _CLONE, _CLONE3, _SOCKET = 56, 435, 41
 
+PROGRAMS = {"fork": 57, "vfork": 58, "execve": 59, "execveat": 322}  # new processes and programs
 DENIED = {
-    # new processes and programs
-    "fork": 57, "vfork": 58, "execve": 59, "execveat": 322,
     # other processes
     "ptrace": 101, "process_vm_readv": 310, "process_vm_writev": 311, "process_madvise": 440, "kcmp": 312,
     "pidfd_open": 434, "pidfd_getfd": 438,
@@ -63,8 +64,10 @@ def _rule(number: int, *steps: bytes) -> bytes:
     return _step(_EQUAL, number, 0, len(steps)) + b"".join(steps)
 
 
-def program() -> bytes:
-    """Return the filter as BPF instructions of 8 bytes."""
+def program(programs: bool = False) -> bytes:
+    """Return the filter as BPF instructions of 8 bytes. programs: whether it lets start programs."""
+    denied = DENIED if programs else PROGRAMS | DENIED
+    new, others = (_CLONE_NEW, (0, 1)) if programs else (_CLONE_THREAD, (1, 0))
     steps = [
         _step(_LOAD, _ARCHITECTURE),
         _step(_EQUAL, X86_64, 1, 0),
@@ -74,7 +77,7 @@ def program() -> bytes:
         _DENY,
         # clone3 keeps its flags where no filter can see them: glibc falls back to clone.
         _rule(_CLONE3, _UNKNOWN),
-        _rule(_CLONE, _argument(0), _step(_HAS, _CLONE_THREAD, 1, 0), _DENY, _ALLOW),
+        _rule(_CLONE, _argument(0), _step(_HAS, new, *others), _DENY, _ALLOW),
         # Fast DDS wants UDP, and netlink to list the interfaces; nobody answers on either. Others, such as
         # sockets to the host of a virtual machine, belong to no network namespace.
         _rule(
@@ -88,7 +91,7 @@ def program() -> bytes:
             _DENY,
             _ALLOW,
         ),
-        *(_rule(number, _DENY) for number in DENIED.values()),
+        *(_rule(number, _DENY) for number in denied.values()),
         _ALLOW,
     ]
     return b"".join(steps)

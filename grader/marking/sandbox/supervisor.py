@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import IO, Any, NoReturn
 
 from grader.marking.sandbox import linux, walls
+from grader.marking.sandbox.family import used_by
 from grader.marking.sandbox.limits import MB, Ending, Limits
 from grader.marking.sandbox.walls import Confinement
 
@@ -86,6 +87,11 @@ def _watch(process: int, pidfd: int, processes: int, limits: Limits) -> str:
     poll.register(pidfd, select.POLLIN)
     since, before = time.monotonic(), 0.0
     while not poll.poll(1000 * WATCH_S):
+        if limits.programs:
+            if reason := _family_exceeded(process, processes, deadline, limits):
+                os.kill(process, signal.SIGKILL)  # and with it all in its namespace
+                return reason
+            continue
         fields = _read(f"{process}/stat", processes).rpartition(b")")[2].split()
         used = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
         if reason := _exceeded(used, int(fields[17]), deadline, limits):
@@ -107,6 +113,14 @@ def _exceeded(cpu_s: float, threads: int, deadline: float, limits: Limits) -> st
     if threads > limits.threads:  # RLIMIT_NPROC does not bind the real root
         return "threads"
     return "time" if time.monotonic() > deadline else ""
+
+
+def _family_exceeded(process: int, processes: int, deadline: float, limits: Limits) -> str:
+    """The same for a process with all that it started."""
+    used = used_by(process, processes)
+    if used.memory_mb > limits.memory_mb:
+        return "memory"
+    return _exceeded(used.cpu_s, used.threads, deadline, limits)
 
 
 def _reserved_mb(process: int, processes: int) -> float:

@@ -119,7 +119,7 @@ def confine(confinement: Confinement, home: str) -> None:
         linux.drop_capabilities()
     else:
         _go_first()
-    linux.filter_calls(seccomp.program())
+    linux.filter_calls(seccomp.program(confinement.limits.programs))
 
 
 def _go_first() -> None:

@@ -34,8 +34,8 @@ def main(sock: socket.socket) -> None:
 class CellRunner:
     """Runs cells.
 
-    Hears {"files": {name: base64}} once, then {"run": source, "seconds": limit, "pictures": whether to draw}
-    or {"test": source, "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after
+    Hears {"files": {name: base64}} once, then {"run": source, "seconds": limit} or
+    {"test": source, "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after
     each of these, and with "threads" whether threads of the notebook go on. Before that it says what a cell
     shows, as `CellOutputs.add` takes it, and in a test cell {"grade": name} when that calls `Exercise.grade`.
     If the answer is {"go": true}, the wire is the run's until that is over.
@@ -57,9 +57,8 @@ class CellRunner:
         while not self._shell.exit_now:
             self._loop.run_until_complete(self._await_judge())
             match self._wire.receive():
-                case {"run": str(source), "seconds": seconds, "pictures": bool(pictures)}:
-                    with self._shell.drawing(pictures):
-                        self._run(source, seconds)
+                case {"run": str(source), "seconds": seconds}:
+                    self._run(source, seconds)
                 case {"test": str(source), "seconds": seconds}:
                     with self._grade_by_judge():
                         self._run(source, seconds)

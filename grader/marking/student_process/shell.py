@@ -6,17 +6,13 @@ await, and what it left running goes on while other cells wait.
 
 from __future__ import annotations
 
-import contextlib
-import inspect
 import io
 import os
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator
 from typing import Any, BinaryIO
 
-from IPython.core.compilerop import CachingCompiler
 from IPython.core.displayhook import DisplayHook
 from IPython.core.displaypub import DisplayPublisher
 from IPython.core.interactiveshell import InteractiveShell
@@ -68,22 +64,10 @@ class ValueHook(DisplayHook):
         self.shell.outlet.show(output=output)
 
 
-class Compiler(CachingCompiler):
-    """Names the code of cells."""
-
-    def cache(self, *args: Any, **kwargs: Any) -> str:
-        """Name a cell's code, and say whose it is."""
-        name = super().cache(*args, **kwargs)
-        # rclpy asks for every line that a node logs; else Python would look through all modules each time.
-        inspect.modulesbyfile[name] = "__main__"
-        return name
-
-
 class Shell(InteractiveShell):
     """IPython as a notebook's kernel has it, as far as a cell can tell."""
 
     outlet: Outlet = AnyTrait()
-    compiler_class = Type(Compiler)
     display_pub_class = Type(DisplaySender)
     displayhook_class = Type(ValueHook)
 
@@ -107,16 +91,6 @@ class Shell(InteractiveShell):
     def _format_exception_for_storage(self, *_: Any, **__: Any) -> list[str]:
         """Nobody reads that, and to make it takes longer than most cells."""
         return []
-
-    @contextlib.contextmanager
-    def drawing(self, pictures: bool) -> Iterator[None]:
-        """For a cell whose pictures are drawn, or only named: to draw one takes longer than most runs."""
-        formatter = self.display_formatter.formatters["image/png"]
-        formatter.enabled = pictures
-        try:
-            yield
-        finally:
-            formatter.enabled = True
 
     async def execute(self, source: str) -> None:
         """Run one cell; what comes out of it, errors too, goes to the outlet."""

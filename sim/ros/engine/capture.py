@@ -72,7 +72,9 @@ def student_streams() -> Iterator[None]:
     stdout, stderr = sys.stdout, sys.stderr
     sys.stdout = _student_stream(stdout, "printed")
     sys.stderr = _student_stream(stderr, "complained")
-    held = [*_hold(stdout, "printed"), *_hold(stderr, "complained")]
+    held = _hold(stdout, "printed")
+    if stderr is not stdout:  # both may be led to one place
+        held += _hold(stderr, "complained")
     try:
         yield
     finally:

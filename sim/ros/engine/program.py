@@ -14,10 +14,10 @@ from rclpy.node import Node
 class Process:
     """One program to run, with the settings a launch file would give it. The names are launch_ros's.
 
-    target: a Node class, a callable that returns a Node or a Process, or a main() function.
+    target: a Node class, a callable that returns a Node or a Process, a main() function, or a launch file.
     remappings: pairs (from, to). parameters: name to value, or a list of such, as in a launch file.
     arguments: further command-line words, which the program finds in `sys.argv`; those after `--ros-args` are
-    ROS's. stdin: the lines that `input()` returns, one after the other.
+    ROS's; a launch file takes NAME:=VALUE. stdin: the lines that `input()` returns, one after the other.
     whole_numbers: messages take 1 for 1.0, and 2.0 for 2; on a robot they don't.
     host: the computer that it runs on, where the run has a network; None for "laptop". The robot is "robot".
     """

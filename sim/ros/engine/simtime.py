@@ -12,7 +12,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.time import Time
 
-from sim.nanoseconds import Nanoseconds
+from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.ros.fibers.scheduler import Scheduler
 
 RCLError = _rclpy.RCLError
@@ -32,7 +32,7 @@ class SimulatedTime:
     def adopt(self, clock: ROSClock) -> None:
         """Let this ROS clock show the run's time."""
         with clock.handle:
-            clock.handle.set_ros_time_override(Time(nanoseconds=self._scheduler.now)._time_handle)
+            clock.handle.set_ros_time_override(Time(nanoseconds=EPOCH + self._scheduler.now)._time_handle)
             clock.handle.set_ros_time_override_is_enabled(True)
         self._handles[weakref.ref(clock, self._handles.pop)] = clock.handle
 
@@ -45,7 +45,7 @@ class SimulatedTime:
         self._scheduler.now = moment
         self._wall.append(time_ns())
         self._moments.append(moment)
-        time = Time(nanoseconds=moment)._time_handle
+        time = Time(nanoseconds=EPOCH + moment)._time_handle
         for handle in list(self._handles.values()):  # a clock may go meanwhile
             handle.set_ros_time_override(time)
 

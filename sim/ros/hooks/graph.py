@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import functools
+import os
+import sys
 from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
+import rclpy.logging
 from rclpy.duration import Duration
+from rclpy.impl import rcutils_logger
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -165,3 +171,31 @@ def log(original: Callable) -> Callable:
             run.logged(severity, name, text)
 
     return log
+
+
+@hook(
+    rcutils_logger.CallerId,
+    "__new__",
+    "a log line's place is found without reading the sources around it, and the names of all modules",
+)
+def caller_id(original: Callable) -> Callable:
+    def __new__(cls: type, frame: FrameType | None = None) -> Any:
+        if engine() is None:
+            return original(cls, frame or rcutils_logger._find_caller(sys._getframe(1)))
+        frame = frame or _outside_rclpy(sys._getframe(1))
+        code = frame.f_code
+        place = code.co_name, os.path.abspath(code.co_filename), frame.f_lineno, frame.f_lasti
+        return tuple.__new__(cls, place)
+
+    return __new__
+
+
+def _outside_rclpy(frame: FrameType) -> FrameType:
+    inner = *_LOGGERS, *rcutils_logger._internal_callers
+    while any(file in _real_path(frame.f_code.co_filename) for file in inner):
+        frame = frame.f_back
+    return frame
+
+
+_real_path = functools.cache(os.path.realpath)
+_LOGGERS = _real_path(rcutils_logger.__file__), _real_path(rclpy.logging.__file__)

@@ -14,14 +14,14 @@ from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
-from sim.ros.hooks.time_and_chance import EPOCH
 
 
-def _offset(clock: Clock) -> int:
-    return EPOCH * SECOND if clock.clock_type is ClockType.SYSTEM_TIME else 0
+def _offset(clock: Clock) -> Nanoseconds:
+    """What a clock shows at the start of a run."""
+    return 0 if clock.clock_type is ClockType.STEADY_TIME else EPOCH
 
 
 @hook(

@@ -91,6 +91,9 @@ def send_request(original: Callable) -> Callable:
             return lost
         number = original(self, request)
         if run is not None:  # also where another process's client asks
+            if not run.has_clients:  # a client that was made past create_client()
+                run.has_clients = run.eager = True
+                run.endpoints_changed()
             run.asked[self.service_name] += 1
         return number
 

@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy.random
 
-from sim.nanoseconds import SECOND, nanoseconds
+from sim.nanoseconds import EPOCH, SECOND, nanoseconds
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
-
-EPOCH = 1_735_689_600  # 2025-01-01 00:00 UTC: what time.time() says at the start of every run
 
 
 @hook(time, "sleep", "sleeping takes simulated time")
@@ -43,7 +41,7 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
             if run is None:
                 return original()
             run.called("looks at a clock")
-            return convert(epoch * SECOND + run.now)
+            return convert(epoch + run.now)
 
         return read
 
@@ -70,7 +68,7 @@ def _calendar(name: str) -> None:
         def at(seconds: float | None = None) -> Any:
             run = engine()
             if seconds is None and run is not None:
-                seconds = EPOCH + run.now / SECOND
+                seconds = (EPOCH + run.now) / SECOND
             return original(seconds)
 
         return at

@@ -55,6 +55,11 @@ def canonical(type_name: str, raw: bytes) -> bytes:
     return bytes(buffer[:end])
 
 
+def forget_layouts() -> None:
+    """Read all types anew: a name may mean another class by now."""
+    _layout_of.cache_clear()
+
+
 @functools.cache
 def _layout_of(type_name: str) -> tuple | None:
     try:

@@ -18,15 +18,22 @@ _MARK = b"\x11"  # fills a field, to find where it is
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 """The fields of a message with a header that change each time."""
 
-_FLOAT64, _INT32 = struct.Struct("<d"), struct.Struct("<i")
+_FLOAT64 = struct.Struct("<d")
+_PLACES = {
+    "double": _FLOAT64,
+    "float": struct.Struct("<f"),
+    "int32": struct.Struct("<i"),
+    "uint32": struct.Struct("<I"),
+    "uint8": struct.Struct("<B"),
+}
 
 
 class Template:
     """A message and the numbers in it that change.
 
-    fields: paths such as "pose.pose.position.x" or "transforms.0.header.stamp.sec" to a float64, to a
-    32-bit integer, or to a float32 sequence, whose length stays what it is in `message`. A float64 sequence
-    gives one number for each of its elements.
+    fields: paths such as "pose.pose.position.x" or "transforms.0.header.stamp.sec" to a number (float64,
+    float32, a 32-bit integer or uint8), or to a float32 sequence, whose length stays what it is in `message`.
+    A float64 sequence gives one number for each of its elements.
     """
 
     def __init__(self, message: Any, fields: Sequence[str]) -> None:
@@ -55,7 +62,8 @@ class Template:
             mark = array.array(before.typecode, _MARK * len(before) * before.itemsize)
             size, count = len(before) * before.itemsize, len(before) if place else 1
         else:
-            place = _FLOAT64 if isinstance(before, float) else _INT32
+            whole = hasattr(owner, "get_fields_and_field_types")  # else it is an array, of float64
+            place = _PLACES[owner.get_fields_and_field_types()[name]] if whole else _FLOAT64
             size, count = place.size, 1
             mark = place.unpack(_MARK * size)[0]
         _set(owner, name, mark)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from sim.ros.engine.program import Process
-from sim.ros.play.teleop import Teleop
+from sim.ros.play.teleop import Teleop, reins
 from sim.ros.session import Session
 
 LET_GO = 0.5  # s of wall time; who holds a key says so ten times a second
@@ -27,11 +27,10 @@ class Hand:
 
     def drive(self, forward: float, left: float) -> None:
         """Hold these keys, each in [-1, 1]."""
-        engine, world = self._session.engine, self._session.recording.world
+        engine, held = self._session.engine, reins(self._session.recording.world)
         self._held_at, engine.held = self._clock(), (forward, left)
         begun = engine.switches > 0  # before, nobody's Teleop is there yet
         there = self._drives or any(isinstance(node, Teleop) for node in self._session.nodes)
-        robot = any(body.name == "robot" for body in (world.bodies if world is not None else ()))
-        if (forward or left) and begun and robot and not there:
+        if (forward or left) and begun and held and not there:
             self._drives = True
-            self._session.start(Process(Teleop, parameters={"stamped": world.robot.stamped}))
+            self._session.start(Process(Teleop, parameters=held._asdict()))

@@ -12,7 +12,7 @@ from sim.ros.session import Session
 from sim.world import Scan
 
 RATES_OVER = 2.0  # s of simulated time
-STATES_EVERY = 0.25  # s of wall time
+STATES_EVERY, GRAPHS_EVERY = 0.25, 1.0  # s of wall time
 CONTACTS = 100  # the newest that are shown
 
 
@@ -20,7 +20,8 @@ class Picture(Protocol):
     """Shows a run while it goes on. All its methods are called by the player, in the kernel's main thread."""
 
     # Set by the player. May be called in any thread, with one of {"speed": 2.0}, {"pause": True or False},
-    # {"step": True}, {"stop": True}, {"topic": name} and {"drive": [forward, left]}, each in [-1, 1].
+    # {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} and {"drive": [forward, left]}, each in
+    # [-1, 1].
     on_command: Callable[[dict], None] | None
 
     def frame(self, stamp: float, poses: list[tuple[float, float, float]], scan: Scan | None) -> None:
@@ -31,8 +32,11 @@ class Picture(Protocol):
 
         Keys: stamp (s), speed (asked for; may be inf), pace (measured), paused, topics (a list of dicts of
         name, type, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason, detail]), numbers
-        and topic as `Readings.update` gives them.
+        and topic as `Readings.update` gives them. Where pens draw: drawing.
         """
+
+    def connections(self, recording: Recording) -> None:
+        """Who is connected to whom by now; once a second at most, if it has changed and somebody looks."""
 
     def finish(self, recording: Recording) -> None:
         """The run is over: show what is left of it."""
@@ -49,6 +53,7 @@ class Show:
         self._last: tuple[float, dict] | None = None  # wall time of the last state; what was urgent
         self.readings = Readings()
         self._shown: float | None = None  # the stamp of the last frame
+        self._graph: tuple[float, int, int] | None = None  # when the last was shown; its nodes and ends
         self._sent: deque[tuple[float, dict[str, int]]] = deque()  # (stamp, messages on each topic by then)
 
     def frame(self, session: Session, stamp: float) -> None:
@@ -67,7 +72,19 @@ class Show:
         self._last = now, urgent
         contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-CONTACTS:]]
         state = {"stamp": stamp, "pace": pace, "topics": self._topics(session), "contacts": contacts}
+        if session.recording.drawing is not None:
+            state["drawing"] = session.recording.drawing
         self._tell("state", state | self.readings.update(session) | urgent)
+
+    def connections(self, recording: Recording) -> None:
+        """Show the graph, as somebody asks for it."""
+        now, nodes, ends = self._clock(), len(recording.graph.nodes), len(recording.graph.endpoints)
+        if self._graph is not None:
+            shown_at, *shown = self._graph
+            if now - shown_at < GRAPHS_EVERY or shown == [nodes, ends]:  # neither ever gets fewer
+                return
+        self._graph = now, nodes, ends
+        self._tell("connections", recording)
 
     def finish(self, recording: Recording) -> None:
         """Show what is left, if there is anything, and be done."""

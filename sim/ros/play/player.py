@@ -244,5 +244,7 @@ class Player:
                 self.stop()
             case {"topic": name}:
                 self._show.readings.look(name)
+            case {"graph": True}:
+                self._show.connections(self.recording)
             case {"drive": [forward, left]}:
                 self._context.run(self._hand.drive, forward, left)

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from sim.evidence import Heard
+from sim.ros.play.teleop import reins
 from sim.ros.session import Session
 
 PLOT_OVER, POINTS = 10.0, 400  # s of simulated time, and points, of a topic's plot
@@ -43,16 +44,18 @@ class Readings:
 
     def _numbers(self, session: Session) -> Iterator[tuple[str, str]]:
         world, truth = session.recording.world, session.truth
-        names = [body.name for body in world.bodies] if world is not None else []
-        if truth is None or "robot" not in names:
+        held = reins(world)
+        names = [body.name for body in truth.scene.bodies] if truth is not None else []
+        if held is None or world.first not in names:
             return
-        x, y, yaw = truth.scene.poses[names.index("robot")]
+        x, y, yaw = truth.scene.poses[names.index(world.first)]
         yield "Pose", f"x {x:.2f} m, y {y:.2f} m, yaw {yaw:.2f} rad"
         odom = self._message("/odom", "nav_msgs/msg/Odometry")
         if odom is not None:
             yield "Speed", _twist(odom.twist.twist)
-        command = self._message("/cmd_vel", "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-        ago = f", {session.stamp - self._newest['/cmd_vel'].stamp:.1f} s ago" if command is not None else ""
+        topic = f"/{held.topic}"
+        command = self._message(topic, "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+        ago = f", {session.stamp - self._newest[topic].stamp:.1f} s ago" if command is not None else ""
         yield "Last command", _twist(command) + ago if command is not None else "none yet"
         yield from self._surroundings(truth.scene.last_scan, world)
         if world.goal is not None:
@@ -62,7 +65,7 @@ class Readings:
         if scan is not None:
             met = [(float(reach), ray) for ray, reach in enumerate(scan.ranges) if math.isfinite(reach)]
             reach, ray = min(met, default=(math.inf, 0))
-            angle = math.remainder(ray * world.lidar.angle_increment, math.tau)
+            angle = math.remainder(ray * world.lidar.angle_increment + world.lidar.yaw, math.tau)
             yield "Nearest", f"{reach:.2f} m, at {angle:.2f} rad" if met else "nothing in reach"
         bumper = self._message("/bumper", "std_msgs/msg/Bool")
         if bumper is not None:

@@ -2,22 +2,43 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.node import Node
 
 from sim.ros.fibers.scheduler import engine
 from sim.ros.robots.velocity import VelocityPublisher
+from sim.world import World
 
 RATE = 20.0  # Hz, while something is held
 SPEED, TURN = 0.4, 1.0  # m/s and rad/s of a key that is held
+TURTLE_SPEED, TURTLE_TURN = 2.0, 2.0
+
+
+class Reins(NamedTuple):
+    """How keys drive: the topic, whether TwistStamped goes there, and how fast (m/s, rad/s) a key means."""
+
+    topic: str = "cmd_vel"
+    stamped: bool = False
+    speed: float = SPEED
+    turn: float = TURN
+
+
+def reins(world: World | None) -> Reins | None:
+    """How keys drive the first robot or turtle of a world; None where there is none."""
+    if world is None or world.first is None:
+        return None
+    if world.machine is None:
+        return Reins(stamped=world.robot.stamped)
+    return Reins(f"{world.first}/cmd_vel", speed=TURTLE_SPEED, turn=TURTLE_TURN)
 
 
 class Teleop(Node):
     """Publishes /cmd_vel (geometry_msgs/Twist) at 20 Hz while the user of `play` holds a key or the pad.
 
     Once it is let go, it publishes a zero, and then nothing. Parameters: `speed` (m/s, forwards) and `turn`
-    (rad/s, counter-clockwise) of a key that is held; `stamped`, true for geometry_msgs/TwistStamped instead.
+    (rad/s, counter-clockwise) of a key that is held; `stamped`, true for geometry_msgs/TwistStamped instead;
+    `topic`, where it isn't cmd_vel.
     Remappings work as with any node.
     """
 
@@ -25,8 +46,8 @@ class Teleop(Node):
         super().__init__("teleop", **keywords)
         self.declare_parameter("speed", SPEED)
         self.declare_parameter("turn", TURN)
-        self.declare_parameter("stamped", False)
-        self._velocity = VelocityPublisher(self, self.get_parameter("stamped").value)
+        stamped = self.declare_parameter("stamped", False).value
+        self._velocity = VelocityPublisher(self, stamped, self.declare_parameter("topic", "cmd_vel").value)
         self._drove = False
         self.create_timer(1 / RATE, self._tick)
 

@@ -75,7 +75,7 @@ def whole(value: Any, what: str, low: int = 0, high: int = 2**63 - 1) -> int:
 def number(value: Any, what: str, low: float, high: float) -> float:
     """A number from `low` to `high`."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise Nonsense(f"{what} that is no number from {low:g} to {high:g}")
+        raise Nonsense(f"{what} that is not a number from {low:g} to {high:g}")
     return float(value)
 
 

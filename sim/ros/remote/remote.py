@@ -39,12 +39,12 @@ class Remote:
         self.preparation: list[str] = []
         self._open = False  # the other process is in a run, which nobody has ended
 
-    def ask(self, question: str) -> Any:
-        """Ask about the nodes themselves, with "module:function" of a function of them.
+    def ask(self, question: str, *words: Any) -> Any:
+        """Ask about the nodes themselves, with "module:function" of a function of them and of these words.
 
         The answer is plain data, and unchecked. Raises RemoteLost.
         """
-        return self._exchange(do="ask", question=question).get("answer")
+        return self._exchange(do="ask", question=question, words=words).get("answer")
 
     def end(self, **message: Any) -> None:
         """Say that all is over; `serve` returns this message. Raises RemoteLost."""

@@ -32,7 +32,7 @@ def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
         if wanted == "end":
             return message
         if wanted == "ask":
-            wire.send(answer=_function(message["question"])(nodes))
+            wire.send(answer=_function(message["question"])(nodes, *message["words"]))
         elif wanted == "run":
             _run(wire, nodes, message)
         else:

@@ -105,7 +105,7 @@ class Wire:
 
 
 def _no_number(word: str) -> NoReturn:
-    raise ValueError(f"{word} is no number")
+    raise ValueError(f"{word} is not a number")
 
 
 # Made once: `json.dumps` and `json.loads` make new ones for each message with settings.

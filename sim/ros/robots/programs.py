@@ -1,4 +1,4 @@
-"""The programs that a world brings along: its robots and machines, each an ordinary node."""
+"""The programs that a world brings along, each an ordinary node: its robots, its machine, its warehouse."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pkgutil
 from typing import Any
 
 from sim.ros.engine.program import Process
-from sim.world import MobileRobot, OtherRobot, RobotModel, Scene, World
+from sim.world import MobileRobot, OtherRobot, Scene, Simulation, World
 from sim.world.machines import kind_of
 
 # Nodes are imported when they are made: with them come message packages, which takes a while.
@@ -18,7 +18,8 @@ def programs_of(scene: Scene) -> list[Process]:
     if world.machine is not None:
         return [_machine(scene)]
     robots = [_robot(world, robot) for robot in scene.robots.values()]
-    return robots + [_driver(robot, world.robot) for robot in world.robots if robot.route]
+    drivers = [_driver(robot, world) for robot in world.robots if robot.route]
+    return robots + drivers + (_warehouse(scene) if world.warehouse is not None else [])
 
 
 def _machine(scene: Scene) -> Process:
@@ -37,10 +38,24 @@ def _robot(world: World, mobile: MobileRobot) -> Process:
     return Process(robot)
 
 
-def _driver(robot: OtherRobot, model: RobotModel) -> Process:
+def _driver(robot: OtherRobot, world: World) -> Process:
     def driver() -> Any:
         from sim.ros.robots.route_driver import RouteDriver
 
-        return RouteDriver(robot, model)
+        return RouteDriver(robot, world.robot, world.lidar)
 
     return Process(driver)
+
+
+def _warehouse(scene: Simulation) -> list[Process]:
+    def map_server() -> Any:
+        from sim.ros.robots.map_server import MapServer
+
+        return MapServer(scene.world)
+
+    def order_desk() -> Any:
+        from sim.ros.robots.order_desk import OrderDesk
+
+        return OrderDesk(scene.world, scene.robots, scene.seed)
+
+    return [Process(map_server), Process(order_desk)]

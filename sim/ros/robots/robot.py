@@ -8,6 +8,7 @@ import math
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Bool, Header
@@ -16,23 +17,26 @@ from tf2_msgs.msg import TFMessage
 from sim.nanoseconds import SECOND
 from sim.ros.messages.codec import encode
 from sim.ros.messages.template import STAMP, Template
+from sim.ros.robots.battery import BatteryTopic
 from sim.ros.robots.imu import ImuTopic
 from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
 from sim.world import CommandError, MobileRobot, World
 
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
 TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
 class Robot(Node):
-    """A differential-drive robot with a lidar, a bumper and, where the world says so, an IMU.
+    """A differential-drive robot with a lidar, a bumper and, where the world says so, an IMU and a battery.
 
     Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored), which is
     geometry_msgs/TwistStamped where the world says so; its stamp and frame are ignored.
     Publishes at 20 Hz odom, scan, joint_states, bumper (std_msgs/Bool) and /tf (odom -> base_link), and
-    imu/data at the IMU's rate; all reliable, which best-effort subscriptions can hear too. odom starts at
-    zero where the robot starts; lidar and IMU sit at base_link's origin.
+    imu/data at the IMU's rate, and battery_state at 1 Hz; all reliable, which best-effort subscriptions can
+    hear too. odom starts at zero where the robot starts; the IMU sits at base_link's origin, and the lidar in
+    base_scan: where that is, /tf_static says once (base_link -> base_scan), kept for whoever comes later.
 
     The world's first robot is in the root namespace, and publishes /clock. Any other one has its name as
     namespace, and before the names of its frames.
@@ -48,6 +52,7 @@ class Robot(Node):
         self.world, self.robot = world, robot
         frames = "" if self.first else f"{robot.name}/"
         self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
+        self.scan_frame = f"{frames}base_scan"
         self._commands = 0  # since the last sense
         self._make_templates()
         if world.robot.stamped:
@@ -60,6 +65,8 @@ class Robot(Node):
         self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
         self.scan_pub = self.create_publisher(LaserScan, "scan", 10)
         self.bumper_pub = self.create_publisher(Bool, "bumper", 10)
+        self.static_pub = self.create_publisher(TFMessage, "/tf_static", LATCHED)
+        self.static_pub.publish(self._mounting())
         self.sense()
         self.create_timer(1.0 / SENSOR_RATE, self.sense)
         imu = world.imu
@@ -67,6 +74,10 @@ class Robot(Node):
             self.imu = ImuTopic(self, robot, imu, self.base_frame)
             self.feel()
             self.create_timer(1.0 / imu.rate, self.feel)
+        if robot.battery is not None:
+            battery = BatteryTopic(self, robot.battery, self.base_frame)
+            battery.publish()
+            self.create_timer(1.0, battery.publish)
 
     def _make_templates(self) -> None:
         self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
@@ -80,7 +91,7 @@ class Robot(Node):
         self.joints = Template(joints, [*STAMP, "position", "velocity"])
         lidar = self.world.lidar
         scan = LaserScan(
-            header=Header(frame_id=self.base_frame),
+            header=Header(frame_id=self.scan_frame),
             angle_max=math.tau - lidar.angle_increment,
             angle_increment=lidar.angle_increment,
             scan_time=1 / SENSOR_RATE,
@@ -90,6 +101,15 @@ class Robot(Node):
         )
         self.scan = Template(scan, [*STAMP, "ranges"])
         self.bumper = [encode(Bool(data=pressed)) for pressed in (False, True)]
+
+    def _mounting(self) -> TFMessage:
+        """Where the lidar sits."""
+        header = Header(frame_id=self.base_frame, stamp=self.get_clock().now().to_msg())
+        transform, lidar = TransformStamped(header=header, child_frame_id=self.scan_frame), self.world.lidar
+        move = transform.transform
+        move.translation.x, move.translation.y = lidar.x, lidar.y
+        move.rotation.z, move.rotation.w = math.sin(lidar.yaw / 2), math.cos(lidar.yaw / 2)
+        return TFMessage(transforms=[transform])
 
     def on_cmd_vel(self, command: Twist) -> None:
         """Drive like this from now on."""

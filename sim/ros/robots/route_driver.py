@@ -10,7 +10,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
 from sim.ros.robots.velocity import VelocityPublisher
-from sim.world import OtherRobot, RobotModel, Route
+from sim.world import LidarModel, OtherRobot, RobotModel, Route
 from sim.world.robot import wrap
 
 AHEAD = 0.25  # m; it steers for the point of the route this far ahead
@@ -26,13 +26,13 @@ class RouteDriver(Node):
     In the robot's namespace it hears odom and scan, and answers each odom with a cmd_vel.
     """
 
-    def __init__(self, robot: OtherRobot, model: RobotModel) -> None:
+    def __init__(self, robot: OtherRobot, model: RobotModel, lidar: LidarModel) -> None:
         super().__init__("driver", namespace=robot.name, start_parameter_services=False)
         self.speed, self.start, self.width = robot.speed, robot.start, model.radius + GAP
-        self.first_look = model.radius
+        self.first_look, self.lidar = model.radius, lidar
         self.route = Route(robot.route)
         self.place = self.route.nearest(*robot.start[:2])
-        self.near: list[tuple[float, float]] = []  # bearing (rad) and distance (m) of all that is near
+        self.near: list[tuple[float, float]] = []  # bearing (rad) and distance (m), from the lidar
         self.create_subscription(Odometry, "odom", self.on_odom, 10)
         self.create_subscription(LaserScan, "scan", self.on_scan, 10)
         self.velocity = VelocityPublisher(self, model.stamped)
@@ -75,9 +75,11 @@ class RouteDriver(Node):
             return False
         steps = math.ceil((LOOKS - self.first_look) / self.width * 2)
         stretch = (LOOKS - self.first_look) / steps
+        eye_x, eye_y, turn = self.lidar.place((x, y, yaw))
         way = [self.route.point(self.place + self.first_look + step * stretch) for step in range(steps + 1)]
         for bearing, distance in self.near:
-            hit_x, hit_y = x + distance * math.cos(yaw + bearing), y + distance * math.sin(yaw + bearing)
+            angle = turn + bearing
+            hit_x, hit_y = eye_x + distance * math.cos(angle), eye_y + distance * math.sin(angle)
             if any(math.hypot(hit_x - way_x, hit_y - way_y) < self.width for way_x, way_y in way):
                 return True
         return False

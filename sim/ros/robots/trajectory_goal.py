@@ -6,11 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
 
-from sim.nanoseconds import SECOND
+from sim.nanoseconds import SECOND, in_seconds
 from sim.world.machines import JointModel, Waypoint
 
 Goal = FollowJointTrajectory.Goal
@@ -59,7 +58,7 @@ def read(goal: Goal, names: Sequence[str], joints: Sequence[JointModel], now: in
     ]
     _check_times(waypoints)
     _check_limits(waypoints, names, joints)
-    extra = _seconds(goal.goal_time_tolerance)
+    extra = in_seconds(goal.goal_time_tolerance)
     return Order(
         waypoints,
         _delay(goal, waypoints[-1].time, now),
@@ -82,7 +81,7 @@ def _waypoint(number: int, point: Any, order: Sequence[int]) -> Waypoint:
             "give none, or one finite number (rad/s) for each joint."
         )
     rates = tuple(velocities[index] for index in order) if velocities else None
-    return Waypoint(_seconds(point.time_from_start), tuple(positions[index] for index in order), rates)
+    return Waypoint(in_seconds(point.time_from_start), tuple(positions[index] for index in order), rates)
 
 
 def _check_times(waypoints: Sequence[Waypoint]) -> None:
@@ -147,10 +146,6 @@ def _tolerances(
 
 def _are_numbers(values: Sequence[float], count: int) -> bool:
     return len(values) == count and all(map(math.isfinite, values))
-
-
-def _seconds(duration: Duration) -> float:
-    return duration.sec + duration.nanosec / SECOND
 
 
 def _invalid(reason: str) -> RefusedError:

@@ -7,14 +7,14 @@ from rclpy.node import Node
 
 
 class VelocityPublisher:
-    """A node's publisher on cmd_vel, of the type that the robot takes.
+    """A node's publisher on cmd_vel or another topic, of the type that the robot takes.
 
     With `stamped` it is geometry_msgs/TwistStamped, with the time of sending and the frame base_link.
     """
 
-    def __init__(self, node: Node, stamped: bool) -> None:
+    def __init__(self, node: Node, stamped: bool, topic: str = "cmd_vel") -> None:
         self._node, self._stamped = node, stamped
-        self._publisher = node.create_publisher(TwistStamped if stamped else Twist, "cmd_vel", 10)
+        self._publisher = node.create_publisher(TwistStamped if stamped else Twist, topic, 10)
 
     def send(self, forward: float, left: float) -> None:
         """Publish a velocity: m/s ahead, rad/s counter-clockwise."""

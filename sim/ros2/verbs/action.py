@@ -11,7 +11,7 @@ from rclpy.node import Node
 
 from sim.evidence import STATUSES
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.system import POLL, System, Voice, answer, guess
+from sim.ros2.system import POLL, System, Voice, Wrong, answer, guess
 from sim.ros2.text import as_yaml, fill, read_values
 from sim.ros2.types import type_of
 
@@ -20,7 +20,7 @@ TYPES = flag("-t", "--show-types", help="Additionally show the action type")
 NAME = argument(
     "action_name",
     help="Name of the ROS action (e.g. '/fibonacci')",
-    offers=lambda system: list(actions(system)),
+    offers=lambda system, _: list(actions(system)),
 )
 
 
@@ -54,10 +54,24 @@ def info(system: System, asked: Namespace) -> None:
             system.say(f"    {end.node} [{end.type}]" if asked.show_types else f"    {end.node}")
 
 
+@action.verb("type", NAME)
+def type_(system: System, asked: Namespace) -> None:
+    """Print an action's type."""
+    known = actions(system)
+    if asked.action_name not in known:
+        raise Wrong(f"Unknown action '{asked.action_name}'{guess(asked.action_name, known)}")
+    for name in known[asked.action_name]:
+        system.say(name)
+
+
 @action.verb(
     "send_goal",
     NAME,
-    argument("action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')"),
+    argument(
+        "action_type",
+        help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')",
+        offers=lambda system, asked: actions(system).get(asked.action_name, []),
+    ),
     argument("goal", nargs="?", default="{}", help="Goal request values in YAML (e.g. '{order: 10}')"),
     flag("-f", "--feedback", help="Echo feedback messages for the goal"),
 )

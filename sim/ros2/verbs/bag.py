@@ -50,7 +50,7 @@ def record(system: System, asked: Namespace) -> None:
         raise Wrong("There is nothing to record.")
     qos = {end.name: end.qos for end in system.ends if end.kind == "publisher"}
     folder = asked.output or Path(time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
-    with BagWriter(folder) as writer:
+    with BagWriter(folder, system.epoch) as writer:
         for name in chosen:
             system.say(f"Subscribed to topic '{name}'")
         try:

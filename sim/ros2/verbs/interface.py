@@ -64,7 +64,7 @@ def packages(voice: Voice, asked: Namespace) -> None:
     argument(
         "type",
         help="The interface (e.g. 'example_interfaces/msg/String')",
-        offers=lambda _: [name for kind in KINDS for name in interfaces(kind)],
+        offers=lambda *_: [name for kind in KINDS for name in interfaces(kind)],
     ),
     flag("--all-comments", help="Show all comments, including for nested interface definitions"),
     flag("--no-comments", help="Show no comments or whitespace"),

@@ -28,6 +28,10 @@ def managed(system: System, *, hidden: bool) -> list[str]:
     )
 
 
+def _managed(system: System, _: Namespace) -> list[str]:
+    return managed(system, hidden=True)
+
+
 def _node(system: System, asked: Namespace) -> str:
     full = asked.node_name if asked.node_name.startswith("/") else f"/{asked.node_name}"
     known = system.look_for(full, lambda: managed(system, hidden=asked.include_hidden_nodes))
@@ -48,7 +52,11 @@ def nodes(system: System, asked: Namespace) -> None:
         system.say(line)
 
 
-@lifecycle.verb("get", argument("node_name", nargs="?", help="Name of the ROS node; all without"), HIDDEN)
+@lifecycle.verb(
+    "get",
+    argument("node_name", nargs="?", help="Name of the ROS node; all without", offers=_managed),
+    HIDDEN,
+)
 def get(system: System, asked: Namespace) -> None:
     """Get lifecycle state for one or more nodes."""
     found = [_node(system, asked)] if asked.node_name else managed(system, hidden=asked.include_hidden_nodes)
@@ -63,7 +71,7 @@ def get(system: System, asked: Namespace) -> None:
 
 @lifecycle.verb(
     "set",
-    argument("node_name", help="Name of the ROS node"),
+    argument("node_name", help="Name of the ROS node", offers=_managed),
     argument("transition", help="The lifecycle transition"),
     HIDDEN,
 )

@@ -14,7 +14,7 @@ from sim.ros2.qos_words import QOS, asked_profile
 from sim.ros2.system import Arrived, System, Wrong, guess
 from sim.ros2.text import Style, as_csv, as_yaml
 from sim.ros2.types import existing
-from sim.ros2.verbs.topic import NAME, topic
+from sim.ros2.verbs.topic import NAME, topic, types_of
 
 
 def positive(word: str) -> int:
@@ -45,7 +45,7 @@ def bw(system: System, asked: Namespace) -> None:
 @topic.verb("delay", NAME, window(10000))
 def delay(system: System, asked: Namespace) -> None:
     """Display delay of topic from timestamp in header."""
-    _measure(system, asked.topic_name, Delay(asked.window))
+    _measure(system, asked.topic_name, Delay(asked.window, system.epoch))
 
 
 def _measure(system: System, name: str, measure: Measure) -> None:
@@ -97,7 +97,12 @@ def _only_type(name: str, known: dict[str, list[str]]) -> str:
 @topic.verb(
     "echo",
     NAME,
-    argument("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')"),
+    argument(
+        "message_type",
+        nargs="?",
+        help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
+        offers=types_of,
+    ),
     *QOS,
     flag("--csv", help="Output all recursive fields separated by commas (e.g. for plotting)"),
     argument("--field", help="Echo a selected field of a message; '.' selects sub-fields"),

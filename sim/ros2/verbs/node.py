@@ -40,7 +40,7 @@ def list_(system: System, asked: Namespace) -> None:
 
 @node.verb(
     "info",
-    argument("node_name", help="Node name to request information", offers=lambda system: system.nodes),
+    argument("node_name", help="Node name to request information", offers=lambda system, _: system.nodes),
     flag("--include-hidden", help="Display hidden topics, services, and actions as well"),
 )
 def info(system: System, asked: Namespace) -> None:

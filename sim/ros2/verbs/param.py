@@ -18,8 +18,15 @@ from sim.ros2.parameters import names_of, values_of
 from sim.ros2.system import System, Wrong, ask, is_hidden
 
 param = Group("param", "Parameters of nodes: list, get, set, describe, dump, load")
-NODE = argument("node_name", help="Name of the ROS node", offers=lambda system: system.nodes)
-NAME = argument("parameter_name", help="Name of the parameter")
+NODE = argument("node_name", help="Name of the ROS node", offers=lambda system, _: system.nodes)
+
+
+def _names(system: System, asked: Namespace) -> list[str]:
+    """The parameters of the node that was named."""
+    return names_of(system, system.node(asked.node_name))
+
+
+NAME = argument("parameter_name", help="Name of the parameter", offers=_names)
 HIDDEN = flag("--include-hidden-nodes", help="Consider hidden nodes as well")
 LABELS = {
     "bool": "Boolean value is:",
@@ -44,7 +51,7 @@ def _type_text(number: int) -> str:
 
 @param.verb(
     "list",
-    argument("node_name", nargs="?", help="Name of the ROS node", offers=lambda system: system.nodes),
+    argument("node_name", nargs="?", help="Name of the ROS node", offers=lambda system, _: system.nodes),
     HIDDEN,
     argument("--filter", help="Only parameters whose names match this regular expression"),
     argument("--param-prefixes", nargs="+", default=[], help="Only those with these prefixes"),
@@ -113,7 +120,12 @@ def _set(system: System, node: str, parameters: list[Parameter]) -> list[tuple[P
     return list(zip(parameters, answered.results, strict=True))
 
 
-@param.verb("describe", NODE, argument("parameter_names", nargs="+", help="Names of the parameters"), HIDDEN)
+@param.verb(
+    "describe",
+    NODE,
+    argument("parameter_names", nargs="+", help="Names of the parameters", offers=_names),
+    HIDDEN,
+)
 def describe(system: System, asked: Namespace) -> None:
     """Show descriptive information about declared parameters."""
     node = system.node(asked.node_name, hidden=asked.include_hidden_nodes)

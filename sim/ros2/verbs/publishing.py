@@ -16,7 +16,7 @@ from sim.ros2.qos_words import QOS, asked_profile
 from sim.ros2.system import POLL, System, Voice, Wrong
 from sim.ros2.text import fill, read_values
 from sim.ros2.types import type_of
-from sim.ros2.verbs.topic import NAME, topic
+from sim.ros2.verbs.topic import NAME, topic, types_of
 
 ROUND_OFF = 1.0  # s more than a play should take
 
@@ -35,7 +35,7 @@ def positive_number(word: str) -> float:
 @topic.verb(
     "pub",
     NAME,
-    argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/msg/String')"),
+    argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/msg/String')", offers=types_of),
     argument("values", nargs="?", default="{}", help="Values in YAML (e.g. '{data: Hello World}')"),
     argument("-r", "--rate", type=positive_number, default=1.0, metavar="N", help="Hz (default: 1)"),
     argument("-p", "--print", type=int, default=1, metavar="N", help="Only print every N-th message"),

@@ -18,7 +18,7 @@ service = Group("service", "Services: list them, call one")
 NAME = argument(
     "service_name",
     help="Name of the ROS service (e.g. '/add_two_ints')",
-    offers=lambda system: list(services(system)),
+    offers=lambda system, _: list(services(system)),
 )
 HIDDEN = flag("--include-hidden-services", help="Consider hidden services as well")
 COUNT = flag("-c", "--count-services", help="Only display the number of services discovered")
@@ -50,6 +50,18 @@ def type_(system: System, asked: Namespace) -> None:
         system.say(name)
 
 
+@service.verb("info", NAME)
+def info(system: System, asked: Namespace) -> None:
+    """Print information about a service."""
+    name, found = asked.service_name, services(system, hidden=True)
+    if name not in found:
+        raise Wrong(f"Unknown service '{name}'{guess(name, found)}")
+    system.say(f"Type: {found[name][0] if len(found[name]) == 1 else found[name]}")
+    for words, kind in (("Clients", "client"), ("Services", "service")):
+        count = sum((end.kind, end.name) == (kind, name) for end in system.ends)
+        system.say(f"{words} count: {count}")
+
+
 @service.verb("find", argument("service_type", help="Service type to filter for"), COUNT, HIDDEN)
 def find(system: System, asked: Namespace) -> None:
     """Output a list of available services of a given type."""
@@ -62,7 +74,11 @@ def find(system: System, asked: Namespace) -> None:
 @service.verb(
     "call",
     NAME,
-    argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
+    argument(
+        "service_type",
+        help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')",
+        offers=lambda system, asked: services(system, hidden=True).get(asked.service_name, []),
+    ),
     argument("values", nargs="?", default="{}", help="Values in YAML (e.g. '{a: 1, b: 2}')"),
     argument("-r", "--rate", type=positive_number, metavar="N", help="Repeat the call at this rate in Hz"),
 )

@@ -14,8 +14,15 @@ topic = Group("topic", "Topics: list, listen, measure, publish")
 NAME = argument(
     "topic_name",
     help="Name of the ROS topic (e.g. '/chatter')",
-    offers=lambda system: list(system.topics(hidden=True)),
+    offers=lambda system, _: list(system.topics(hidden=True)),
 )
+
+
+def types_of(system: System, asked: Namespace) -> list[str]:
+    """The types of the topic that was named, as far as somebody has it."""
+    return system.topics(hidden=True).get(asked.topic_name, [])
+
+
 HIDDEN = flag("--include-hidden-topics", help="Consider hidden topics as well")
 COUNT = flag("-c", "--count-topics", help="Only display the number of topics discovered")
 SIDES = {"publisher": "Published", "subscription": "Subscribed"}

@@ -29,6 +29,28 @@ function checkWorld(world) {
     bodies: list(world.bodies, 500, (body) => ({
       name: text(body.name), kind: text(body.kind), radius: size(body.radius), outline: polygon(body.outline),
     })),
+    places: list(Object.entries(world.places ?? {}), 100, ([name, place]) => [text(name), numbers(2)(place)]),
     lidar: { start: number(world.lidar.start), step: number(world.lidar.step), far: number(world.lidar.far) },
+  };
+}
+
+const BOXES = ["node", "ours", "topic", "service", "action", "rest"];
+
+/** A graph as ../graph_data.py describes it; throws a TypeError where it is anything else. */
+function checkGraph(graph) {
+  const reasons = list(graph.reasons, 50, (reason) => text(reason));
+  const points = (values) => {
+    const all = list(values, 1000, (value) => number(value));
+    return all.length >= 8 && all.length % 6 === 2 ? all : refuse("a beginning and curves");
+  };
+  return {
+    width: size(graph.width), height: size(graph.height), reasons, more: text(graph.more), words: text(graph.words, 20000),
+    boxes: list(graph.boxes, 500, (box) => ({
+      kind: BOXES.includes(box.kind) ? box.kind : refuse("a kind of box"), name: text(box.name),
+      lines: list(box.lines, 50, (line) => text(line)), place: numbers(4)(box.place),
+    })),
+    arrows: list(graph.arrows, 2000, (arrow) => ({
+      gap: size(arrow.gap), rest: Boolean(arrow.rest), points: points(arrow.points), middle: numbers(2)(arrow.middle),
+    })),
   };
 }

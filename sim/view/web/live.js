@@ -51,7 +51,7 @@ class Pad {
 
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) { this.release(); return; }
-    if (event.target.tagName === "SELECT") return;
+    if (event.target.tagName === "SELECT" || event.target.closest(".graph")) return;
     if (KEYS[event.code]) this.hold(KEYS[event.code], event);
     else if (event.code === "Space" && event.target.tagName !== "BUTTON") {
       event.preventDefault();
@@ -101,11 +101,13 @@ class View {
     this.rows = new Map(); // a topic's name to its row; rows stay, so that a click and the focus do
     this.numbers = make("dl", { className: "numbers" });
     this.topic = new Topic();
+    this.graph = new Graph(() => this.askForGraph());
     this.head = make("div", { className: "head" });
     const rows = [this.numbers, make("div", {}, this.head, this.topics), this.topic.root];
     this.root = make("div", { className: "ros2-view live" }, make("style", {}, STYLE));
     this.root.dataset.lmSuppressShortcuts = "true"; // keys are for the robot, not for the notebook
-    this.drives = this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
+    this.turtles = this.world?.bodies[0].kind === "turtle"; // any number of them: a frame is as long as they need
+    this.drives = this.turtles || this.world?.bodies.some((body) => body.kind === "robot"); // else there is a machine
     if (this.drives) {
       this.pad = new Pad(this.root, (command) => this.send(command));
       // Above the topics: driving adds one, and the pad must not move away from under the pointer.
@@ -114,12 +116,14 @@ class View {
     const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
     const row = make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
       make("div", { className: "side" }, ...rows));
-    this.root.append(make("div", { className: "how" }, how), this.controls(), row);
-    this.tick = setInterval(() => this.showSilence(), SILENCE / 3);
+    this.root.append(make("div", { className: "how" }, how), this.controls(), row, this.graph.root);
+    this.tick = setInterval(() => { this.showSilence(); this.askForGraph(); }, SILENCE / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
     this.onStatus = () => this.showStatus();
+    this.onGraph = () => this.showGraph();
     model.on("msg:custom", this.onFrame);
     model.on("change:status", this.onStatus);
+    model.on("change:graph", this.onGraph);
     this.news = performance.now();
   }
 
@@ -133,6 +137,7 @@ class View {
         this.scene.canvas.setAttribute("aria-label", `The robot in the world ${this.world.name}. ${HOW}`);
       }
     }
+    this.showGraph();
     this.showStatus();
   }
 
@@ -140,6 +145,7 @@ class View {
     clearInterval(this.tick);
     this.model.off("msg:custom", this.onFrame);
     this.model.off("change:status", this.onStatus);
+    this.model.off("change:graph", this.onGraph);
     this.pad?.close();
     this.scene?.close();
   }
@@ -173,11 +179,13 @@ class View {
     if (!this.scene) return;
     const { bodies, lidar } = this.world;
     const pose = (at) => [floats[at], floats[at + 1], floats[at + 2]];
-    const poses = bodies.map((_, index) => pose(1 + 3 * index));
-    const behind = 1 + 3 * bodies.length;
+    const count = this.turtles ? (floats.length - 1) / 3 : bodies.length;
+    const poses = Array.from({ length: count }, (_, index) => pose(1 + 3 * index));
+    const behind = 1 + 3 * count;
     const scan = floats.length > behind
       ? { pose: pose(behind), ranges: floats.subarray(behind + 3), ...lidar } : null;
-    bodies.forEach((body, index) => {
+    poses.forEach((_, index) => {
+      const body = this.scene.bodyOf(index);
       this.scene.include(body, poses[index]);
       if (body.kind === "robot") this.extend(this.trails[index] ||= [], poses[index]);
     });
@@ -212,7 +220,8 @@ class View {
       row.setAttribute("aria-expanded", String(name === topic?.name));
     }
     if (!this.scene) return;
-    this.scene.frame = { ...this.scene.frame, contacts };
+    const drawn = this.status.drawn && checkDrawn(this.status.drawn);
+    this.scene.frame = { ...this.scene.frame, contacts, drawn };
     this.scene.ask();
   }
 
@@ -228,6 +237,18 @@ class View {
       this.topics.append(row);
     }
     row.lastChild.textContent = rate ? `${Number(rate.toPrecision(3))} Hz` : "-";
+    this.graph.tell(name, row.lastChild.textContent);
+  }
+
+  /** Once a second, while somebody looks: the kernel draws none for nobody, and tells of changes only. */
+  askForGraph() {
+    if (this.graph.seen) this.send({ graph: true });
+  }
+
+  showGraph() {
+    const graph = this.model.get("graph");
+    this.graph.root.hidden = !graph;
+    if (graph?.boxes) this.graph.show(graph);
   }
 
   showSilence() {

@@ -55,3 +55,16 @@ function speeds(choices, act) {
   select.addEventListener("change", () => act(Number(select.value)));
   return select;
 }
+
+/** The index of the last item that is not later than `stamp`; -1 before the first. */
+function before(items, stamp, of = (item) => item) {
+  let low = 0, high = items.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (of(items[middle]) <= stamp + 1e-6) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+const stampOf = (item) => item.stamp;

@@ -3,6 +3,7 @@
 
 const MOST_CHARACTERS = 4e6, MOST_BYTES = 16e6; // of packed and unpacked data
 const STRIP = 240; // columns of a topic's timeline
+const STAYS = 0.06; // s after its last pose, for which a body is still shown
 const LINES = 6; // log lines that show at once
 const KINDS = ["contact", "error", "end", "DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 
@@ -37,12 +38,16 @@ function checkRun(run) {
   };
   const tracks = list(run.tracks, 500, track);
   if (tracks.length !== (world ? world.bodies.length : 0)) refuse("a track for each body");
+  const times = (pair) => numbers(2)(pair.map((stamp) => number(stamp, 1e9) * 1e-3));
+  const there = run.there && list(run.there, 500, (stays) => list(stays, 10000, times));
+  if (there && there.length !== tracks.length) refuse("when each body was there");
   const event = ([stamp, kind, said, place]) => ({
     stamp: number(stamp, 1e9) * 1e-3, kind: KINDS.includes(kind) ? kind : refuse("a kind of event"), words: text(said),
     place: place === null ? null : numbers(2)(place),
   });
   return {
-    world, stamps: ordered(stamps), tracks, end: size(run.end) || 0.001, speed: size(run.speed),
+    graph: run.graph ? checkGraph(run.graph) : null, // those of older pages have none
+    world, stamps: ordered(stamps), tracks, there, drawing: run.drawing && checkDrawing(run.drawing), end: size(run.end) || 0.001, speed: size(run.speed),
     scans: list(run.scans, 20000, (scan) => ({
       stamp: number(scan.stamp, 1e9) * 1e-3, pose: numbers(3)(scan.pose), start: number(scan.start),
       step: number(scan.step), far: number(scan.far),
@@ -57,19 +62,6 @@ function checkRun(run) {
   };
 }
 
-/** The index of the last item that is not later than `stamp`; -1 before the first. */
-function before(items, stamp, of = (item) => item) {
-  let low = 0, high = items.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (of(items[middle]) <= stamp + 1e-6) low = middle + 1;
-    else high = middle;
-  }
-  return low - 1;
-}
-
-const stampOf = (item) => item.stamp;
-
 class Player {
   constructor(run) {
     this.run = run;
@@ -81,7 +73,8 @@ class Player {
     this.stage = make("div", { className: "stage" });
     this.side = make("div", { className: "side" });
     const row = make("div", { className: "row" }, ...(run.world ? [this.stage] : []), this.side);
-    this.root.append(make("style", {}, STYLE), row, this.controls());
+    this.graph = new Graph();
+    this.root.append(make("style", {}, STYLE), row, this.controls(), this.graph.root);
     this.strips = this.timeline();
     this.lines = make("div", { className: "logs" });
     if (run.logs.length) this.side.append(make("div", {}, make("div", { className: "head" }, "LOG"), this.lines));
@@ -95,6 +88,7 @@ class Player {
       this.scene = new Scene(this.stage, world);
       tracks.forEach((track, index) => track.forEach((pose) => this.scene.include(world.bodies[index], pose)));
     }
+    if (this.run.graph) this.graph.show(this.run.graph);
     this.paintStrips();
     onTheme(this.root, () => this.paintStrips());
     this.show();
@@ -202,12 +196,14 @@ class Player {
   showScene() {
     const { run, time } = this;
     const at = before(run.stamps, time), next = Math.min(at + 1, run.stamps.length - 1);
-    const poses = run.tracks.map((track) => at < 0 ? track[0] : between(track[at], track[next],
+    const away = (index) => run.there && !run.there[index].some(([from, to]) => from <= time + 1e-6 && time <= to + STAYS);
+    const poses = run.tracks.map((track, index) => away(index) ? null : at < 0 ? track[0] : between(track[at], track[next],
       (time - run.stamps[at]) / (run.stamps[next] - run.stamps[at] || 1)));
     const scan = run.scans[before(run.scans, time, stampOf)];
     this.scene.frame = {
       poses, scan: scan || null,
-      trails: run.tracks.map((track, body) => [...track.slice(0, at + 1), poses[body]]), ahead: run.tracks,
+      trails: run.tracks.map((track, body) => (run.there ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
+      drawn: run.drawing && shownAt(run.drawing, time),
       contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
     };
     this.scene.ask();

@@ -8,7 +8,8 @@ const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 
  * A canvas that shows the world and follows the size of its stage.
  *
  * `frame` is what to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
- * of points or null for each body; ahead, the same, where they will go; contacts, points.
+ * of points or null for each body; ahead, the same, where they will go; contacts, points. Where pens draw: drawn,
+ * as ./drawing.js gives it. Of turtles there may be more than the world began with.
  */
 class Scene {
   constructor(stage, world) {
@@ -82,10 +83,13 @@ class Scene {
     this.floor();
     const hits = this.rays();
     this.things();
+    for (const { colour, width, points } of this.frame.drawn?.strokes ?? []) {
+      this.line(points, colour, Math.max(width * this.scale, 1));
+    }
     this.context.fillStyle = this.look.hit;
     for (const [px, py] of hits) this.context.fillRect(px - 1.5, py - 1.5, 3, 3);
     this.ways();
-    this.world.bodies.forEach((body, index) => this.body(body, this.frame.poses[index]));
+    this.frame.poses.forEach((pose, index) => this.body(this.bodyOf(index), pose, index));
     this.touches();
     this.ruler();
   }
@@ -122,7 +126,7 @@ class Scene {
     const [left, bottom, right, top] = this.world.bounds;
     c.fillStyle = this.look.ground;
     c.fillRect(0, 0, this.width, this.height);
-    c.fillStyle = this.look.floor;
+    c.fillStyle = this.frame.drawn?.ground ?? this.look.floor;
     c.fillRect(...this.at(left, top), this.scale * (right - left), this.scale * (top - bottom));
     this.unit = STEPS.find((step) => step * this.scale > 44) || STEPS.at(-1);
     c.beginPath();
@@ -187,6 +191,24 @@ class Scene {
     c.lineWidth = 3;
     c.stroke();
     if (world.goal) this.star(...world.goal);
+    for (const [name, place] of world.places) this.place(name, ...this.at(...place));
+  }
+
+  /** A place to drive to: a small cross, and its name. */
+  place(name, px, py) {
+    const c = this.context;
+    c.beginPath();
+    c.moveTo(px - 4, py);
+    c.lineTo(px + 4, py);
+    c.moveTo(px, py - 4);
+    c.lineTo(px, py + 4);
+    c.strokeStyle = this.look.rim;
+    c.lineWidth = 1.5;
+    c.stroke();
+    c.font = "10px system-ui, sans-serif";
+    c.textAlign = "left";
+    c.fillStyle = this.look.ink;
+    c.fillText(name, px + 6, py - 4);
   }
 
   star(x, y) {
@@ -219,13 +241,19 @@ class Scene {
     return this.look.robots[robots.indexOf(this.world.bodies[index]) % this.look.robots.length];
   }
 
-  body(body, pose) {
+  /** What moves, by its number; more turtles look like the first. */
+  bodyOf(index) {
+    return this.world.bodies[index] ?? this.world.bodies[0];
+  }
+
+  body(body, pose, index) {
     if (!pose) return;
     const [x, y, yaw] = pose;
     const cos = Math.cos(yaw), sin = Math.sin(yaw);
     const placed = (u, v) => [x + cos * u - sin * v, y + sin * u + cos * v];
     const robot = body.kind === "robot";
-    const fill = robot ? this.robot(this.world.bodies.indexOf(body)) : this.look[body.kind] || this.look.solid;
+    const fill = robot ? this.robot(index) : body.kind === "turtle" ? this.look.turtles[index % this.look.turtles.length]
+      : this.look[body.kind] || this.look.solid;
     if (body.radius) this.disc(x, y, body.radius, fill, robot ? this.look.floor : this.look.edge);
     else this.area(body.outline.map(([u, v]) => placed(u, v)), fill, robot ? this.look.floor : this.look.wall);
     if (robot) {

@@ -1,4 +1,6 @@
-"""Worlds from a seed: each leaves a way from start to goal, for a robot of the usual size with room to spare.
+"""Worlds from a seed: each leaves a way from start to goal, or to all places of a warehouse.
+
+The way is for a robot of the usual size, with room to spare.
 
 Only `Random.random`, whose numbers Python promises to keep, and arithmetic that rounds alike everywhere: so
 equal seeds give equal worlds on all machines.
@@ -15,9 +17,15 @@ from typing import Any
 from sim.nearest import nearest
 from sim.world.generate.floor import Clutter, FullError, Room
 from sim.world.generate.maze import Maze
+from sim.world.generate.warehouse import Warehouse
 from sim.world.model import ModelError, WorldError, shown
 
-KINDS: dict[str, type[Maze | Room | Clutter]] = {"room": Room, "maze": Maze, "clutter": Clutter}
+KINDS: dict[str, type[Maze | Room | Clutter | Warehouse]] = {
+    "room": Room,
+    "maze": Maze,
+    "clutter": Clutter,
+    "warehouse": Warehouse,
+}
 _TRIES = 20  # whole worlds drawn before one is called too full
 
 

@@ -2,19 +2,19 @@
 
 from sim.world.obstacles import Point
 
-_TOPICS = "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /tf and /clock."
+_TOPICS = "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /tf, /tf_static and /clock."
 _FRAMES = (
     "Metres, radians, seconds. map: the world, x to the right of the picture, y up. "
-    "odom: where the robot started. base_link: the robot, x forward, y left."
+    "odom: where the robot started. base_link: the robot, x forward, y left. base_scan: its lidar."
 )
 
 
-def card(picture: str, start: str) -> str:
+def card(picture: str, start: str, topics: str = _TOPICS) -> str:
     """The text of a card, from what is different in each."""
     return "\n".join(
         (
             f"Picture: {picture}",
-            f"Topics: {_TOPICS}",
+            f"Topics: {topics}",
             f"Frames and units: {_FRAMES}",
             f"Start: {start}",
             "Ends when: The time of the run is over.",

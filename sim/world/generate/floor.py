@@ -71,7 +71,7 @@ class Room(Model):
     def _place(self, chance: Random, side: int) -> Point:
         """Somewhere in the quarter of the room's sides that is next to one corner."""
         return tuple(
-            _between(chance, 0.3 + (size - 0.6) * 0.75 * side, 0.3 + (size - 0.6) * (0.25 + 0.75 * side))
+            between(chance, 0.3 + (size - 0.6) * 0.75 * side, 0.3 + (size - 0.6) * (0.25 + 0.75 * side))
             for size in (self.width, self.height)
         )
 
@@ -86,8 +86,8 @@ class Clutter(Model):
 
     def draw(self, chance: Random) -> dict[str, Any]:
         """The fields of a world, but its name. The way: as in a room."""
-        start = 0.4, _between(chance, 0.3, self.height - 0.3)
-        goal = round(self.width - 0.4, 2), _between(chance, 0.3, self.height - 0.3)
+        start = 0.4, between(chance, 0.3, self.height - 0.3)
+        goal = round(self.width - 0.4, 2), between(chance, 0.3, self.height - 0.3)
         floor = _Floor(self.width, self.height, chance, [_Disc(*start, 0.2), _Disc(*goal, 0.2)])
         boxes, circles, covered = [], [], 0.0
         while covered < self.density * self.width * self.height:
@@ -122,7 +122,7 @@ class _Floor:
         for _ in range(_THROWS):
             if edge >= min(self._size) / 2:
                 break
-            x, y = (_between(self._chance, edge, size - edge) for size in self._size)
+            x, y = (between(self._chance, edge, size - edge) for size in self._size)
             place = _Disc(x, y, radius)
             if all(_apart(place, other, gap) for other in self._taken):
                 self._taken.append(place)
@@ -136,13 +136,13 @@ def _apart(a: _Disc, b: _Disc, gap: float) -> bool:
 
 
 def _box(floor: _Floor, chance: Random, least: float, most: float) -> tuple[float, ...]:
-    width, height = _between(chance, least, most), _between(chance, least, most)
+    width, height = between(chance, least, most), between(chance, least, most)
     place = floor.find(math.sqrt(width * width + height * height) / 2)
-    return *place, _between(chance, 0, 3), width, height
+    return *place, between(chance, 0, 3), width, height
 
 
 def _circle(floor: _Floor, chance: Random, least: float, most: float) -> tuple[float, ...]:
-    radius = _between(chance, least, most)
+    radius = between(chance, least, most)
     return *floor.find(radius), radius
 
 
@@ -150,12 +150,12 @@ def _floor_fields(width: float, height: float, start: Point, goal: Point, chance
     corners = (0.0, 0.0), (width, 0.0), (width, height), (0.0, height)
     return {
         "bounds": (0.0, 0.0, width, height),
-        "start": (*start, _between(chance, -3, 3)),
+        "start": (*start, between(chance, -3, 3)),
         "goal": goal,
         "walls": ring(corners),
     }
 
 
-def _between(chance: Random, low: float, high: float) -> float:
+def between(chance: Random, low: float, high: float) -> float:
     """A number between two others, in hundredths: short to read, and equal wherever it is worked out."""
     return round(low + (high - low) * chance.random(), 2)

@@ -1,4 +1,4 @@
-"""Machines that are bolted down and move their links: a joint, an arm, a cart with a pole. libm only."""
+"""What a world holds in place of robots: a joint, an arm, a cart with a pole, a pond with turtles."""
 
 from typing import NamedTuple
 
@@ -6,8 +6,10 @@ from sim.world.machines.arm import Arm, ArmModel, ReachError
 from sim.world.machines.cart_pole import CartPole, CartPoleModel, Push, State
 from sim.world.machines.joint import Joint
 from sim.world.machines.machine import Machine
+from sim.world.machines.pond import Pond, PondModel
 from sim.world.machines.servo import JointModel
 from sim.world.machines.trajectory import Trajectory, Waypoint
+from sim.world.machines.turtle import Pen, Rotation, Turtle
 from sim.world.machines.urdf import urdf
 from sim.world.model import Model
 
@@ -25,6 +27,7 @@ KINDS = (
     Kind("joint", JointModel, Joint, "sim.ros.robots.joint:JointNode"),
     Kind("arm", ArmModel, Arm, "sim.ros.robots.arm:ArmNode"),
     Kind("cart_pole", CartPoleModel, CartPole, "sim.ros.robots.cart_pole:CartPoleNode"),
+    Kind("pond", PondModel, Pond, "sim.ros.robots.turtlesim:Turtlesim"),
 )
 
 
@@ -42,10 +45,15 @@ __all__ = [
     "Joint",
     "JointModel",
     "Kind",
+    "Pen",
+    "Pond",
+    "PondModel",
     "Push",
     "ReachError",
+    "Rotation",
     "State",
     "Trajectory",
+    "Turtle",
     "Waypoint",
     "kind_of",
     "urdf",

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any, Protocol
 
+from sim.world.bodies import Body
 from sim.world.contacts import Contact
+from sim.world.drawing import Drawing
 from sim.world.obstacles import Point
 from sim.world.robot import RATE, Pose, wrap
 
@@ -29,6 +31,8 @@ class Machine:
     """
 
     last_scan: None = None  # it has no lidar
+    drawing: Drawing | None = None  # it has no pen
+    rate: float = RATE  # steps in a second
 
     def __init__(self, world: Site) -> None:
         self.world = world
@@ -38,7 +42,12 @@ class Machine:
     @property
     def time(self) -> float:
         """Simulated time of the last step, s."""
-        return self._steps / RATE
+        return self._steps / self.rate
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """All that moves."""
+        return self.world.machine.bodies
 
     @property
     def contacts(self) -> list[Contact]:
@@ -50,7 +59,7 @@ class Machine:
 
     def advance(self, until: float) -> None:
         """Do the steps, if any are due, that end at or before `until` (s)."""
-        last = math.floor(until * RATE + 1e-6)
+        last = math.floor(until * self.rate + 1e-6)
         while self._steps < last:
             self._step()
             self._steps += 1

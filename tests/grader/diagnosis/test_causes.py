@@ -133,6 +133,15 @@ def test_nodes_that_do_well_are_left_alone_and_so_is_the_robot(students, world):
     assert explain(run(*students, world=world, seconds=10, quiet=True)) == ""
 
 
+def test_the_name_that_isnt_ours_is_the_misspelt_one():
+    misspelt = run(misfits.MisspeltTopic, companions=[misfits.Listener], quiet=True)
+    assert explain(misspelt).endswith("Is /chater a typing slip? Did you mean /chatter?")
+    misheard = run(misfits.Listener, companions=[misfits.MisspeltTopic], quiet=True)
+    assert explain(misheard).endswith("Is /chatter a typing slip? Did you mean /chater?")
+    called = run(services.done_callback, companions=[service_misfits.MisspeltService], quiet=True)
+    assert explain(called).endswith("Did you mean /ad?")
+
+
 def namesakes():
     return run(misfits.Listener, companions=[misfits.Talker, misfits.Listener], seconds=10, quiet=True)
 

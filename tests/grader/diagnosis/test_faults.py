@@ -5,9 +5,11 @@ from std_srvs.srv import Trigger
 
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
+from grader.diagnosis.faults import where
 from sim import run
 from sim.evidence import CallbackError, Ended, Recording
 from tests.students import misfits, mistakes
+from tests.students.engine import own_clocks, waitables
 
 
 class Flooding(misfits.Talker):
@@ -94,6 +96,13 @@ def test_work_not_started_in_a_callback_counts_as_not_started_too():
     )
 
 
+@pytest.mark.parametrize("program", [own_clocks.Publishes, own_clocks.Overrides, waitables.Ticking])
+def test_what_a_run_refuses_is_not_taken_for_work_that_is_not_started(program):
+    fault = fault_of(program)
+    assert fault.saw.startswith("NotImplementedError: ")
+    assert fault.sentence != "There is code of yours to run."
+
+
 def test_an_error_without_words_and_frames_still_makes_a_sentence():
     recording = Recording(errors=[CallbackError(0.5, "/talker", "Talker.tick", "KeyError", "", "")])
     assert find_fault(recording).saw == "KeyError: no message (in Talker.tick, at 0.5 s)"
@@ -112,4 +121,12 @@ def test_an_error_that_left_nothing_but_its_end_is_told():
         "a run to the end",
         "A thread died.",
         "Read the last line of the error first: it says what Python did not like.",
+    )
+
+
+def test_an_error_in_a_package_that_was_installed_names_the_line_there():
+    file = "/home/ada/ws/install/my_pkg/lib/python3.12/site-packages/my_pkg/talker.py"
+    trace = f'  File "{file}", line 12, in tick\n    1 / 0\nZeroDivisionError: division by zero\n'
+    assert where(CallbackError(0.5, "/talker", "Talker.tick", "ZeroDivisionError", "division by zero", trace)) == (
+        "in Talker.tick, line 12, at 0.5 s"
     )

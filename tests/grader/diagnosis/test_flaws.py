@@ -18,7 +18,7 @@ SENTENCES = {
     "by itself 0.5 s after each: repeat the command at 10 Hz, from a timer.",
     (flaws.FallsSilent,): f"The last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s. {STOP}",
     (flaws.DividesByTheDistance,): "/driver sent inf m/s and 0 rad/s on /cmd_vel at 0.1 s, and the robot refuses what "
-    "is no finite number. In the scan of 0.1 s ray 0 says inf (nothing is there).",
+    "is not a finite number. In the scan of 0.1 s ray 0 says inf (nothing is there).",
     (flaws.Chatter, flaws.SleepsOverMessages): "/sleeper took 9 of 50 messages: SleepsOverMessages.hear held it for "
     "up to 0.5 s each time, and the next ones came meanwhile. A callback should keep what it hears, and return.",
     (flaws.TalksWithoutAPause,): "A loop without a pause keeps a whole core of the processor busy from 0 s on: thread "

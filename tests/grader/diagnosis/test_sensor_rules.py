@@ -18,7 +18,7 @@ ADVICE = {
     "LeastOfNothing": "min() of nothing: no value was left. Say what it is then: `min(values, default=math.inf)`.",
     "LeastOfAnEmptyArray": "min() of nothing: no value was left. Say what it is then: `values.min(initial=np.inf)`.",
     "TakesAStampFromATime": "You can't calculate with the stamp of a message as it is: `Time.from_msg(msg.header.stamp)` makes a time of it.",
-    "LooksBackBeforeTheStart": 'Here time begins at 0 when a run starts, as in most simulators, and there is nothing before it. For "long ago" keep None, and ask for that first.',
+    "LooksBackFromTimeZero": 'A bare Time() is time 0, and there is nothing before it. The time now is `self.get_clock().now()`; for "not yet" keep None, and ask for that first.',
     "ComparesWithTheSystemsTime": "A node's clock has ROS's time, and a bare Time() the system's. Name the clock: `Time(seconds=3, clock_type=self.get_clock().clock_type)`; `Time.from_msg(stamp)` needs nothing.",
     "DurationForAMessage": "`estimated_time_remaining` is a message, too: `.to_msg()` makes one of a Duration, as in `Duration(seconds=1.5).to_msg()`.",
     "TooShallow": "In an Odometry it lies two steps deep: `msg.pose.pose.orientation`.",

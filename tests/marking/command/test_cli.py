@@ -130,7 +130,11 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 
 
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
-    usage = "usage: python -m grader mark ASSIGNMENT [--help]\n"
+    usage = (
+        "usage: python -m grader mark ASSIGNMENT [--help]\n"
+        "       python -m grader certificate --issuer WORDS [--help]\n"
+        "       python -m grader confirm PAGE [--help]\n"
+    )
     assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))
     command = [sys.executable, "-m", "grader", "grade"]
     wrong = subprocess.run(command, cwd=ROOT, text=True, capture_output=True)

@@ -106,11 +106,11 @@ REFUSED = {
     ),
     "Python": (
         b"import rclpy\n\n\nclass Hello:\n    pass\n",
-        f"`nodes.ipynb` is no notebook: expected JSON, which begins with `{{`, saw something else. {AGAIN}",
+        f"`nodes.ipynb` is not a notebook: expected JSON, beginning with `{{`, saw something else. {AGAIN}",
     ),
     "a picture": (
         b"\x89PNG\r\n\x1a\n\xff\xd8",
-        f"`nodes.ipynb` is no notebook: expected JSON, which begins with `{{`, saw something else. {AGAIN}",
+        f"`nodes.ipynb` is not a notebook: expected JSON, beginning with `{{`, saw something else. {AGAIN}",
     ),
     "web page": (
         b"<!DOCTYPE html>\n<html><title>Please log in</title></html>",

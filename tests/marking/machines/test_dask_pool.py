@@ -169,7 +169,7 @@ def test_workers_that_cant_mark_are_named_and_left_out(cluster, tasks, another, 
 @pytest.mark.parametrize(
     ("answer", "why"),
     [
-        (liars.nonsense, "ResultError: this is no result of marking: 'notebooks'"),
+        (liars.nonsense, "ResultError: this is not a result of marking: 'notebooks'"),
         (liars.number, "ResultError: expected text, saw int"),
         (liars.other, "ResultError: this is the result of another submission"),
         (liars.crash, "ValueError: a worker's own mistake"),

@@ -7,25 +7,33 @@ from nbgrader.apps import NbGrader
 from nbgrader.validator import Validator
 from traitlets.config import Config
 
+from grader.marking.errors import CommandFailed
 from grader.marking.release.demo import Marked, main, mark_samples, table
 from grader.marking.release.make_exercises import copy_of_course
-from grader.marking.release.nbgrader_command import assignments
+from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES
 from tests.marking.tiny import ROOT, course, grade, tiny
 
 STEPS: list[str] = []
 TABLE = "<table><caption>a table</caption></table>"
+SECRET = "import os\nprint('A secret of', len(os.environ.get('COURSE_SECRET', '')))"
 SHOW = f"from IPython.display import HTML, display\ndisplay(HTML('{TABLE}<script>steal()</script>'))"
 
 
 @pytest.fixture(scope="module")
 def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
-    """The samples of a tiny course, marked by nbgrader; its notebook shows a table and has scripts in it."""
+    """The samples of a tiny course, marked by nbgrader with a secret.
+
+    Its notebook says how long that is, shows a table and has scripts in it.
+    """
     folder = tiny(
         tmp_path_factory.mktemp("class"),
+        nbformat.v4.new_code_cell(SECRET, id="secret"),
         nbformat.v4.new_code_cell(SHOW, id="show"),
         nbformat.v4.new_markdown_cell("A *word* <script>steal()</script>", id="words"),
     )
+    (folder / ".secret").touch(mode=0o600)
+    (folder / ".secret").write_text("d1ce")
     return folder, {marked.student: marked for marked in mark_samples(folder, "01_tiny", STEPS.append)}
 
 
@@ -79,9 +87,23 @@ def test_feedback_shows_a_score_table_and_runs_no_script(marked_course):
 
 def test_everything_about_a_class_lies_in_the_ignored_folder(marked_course):
     folder, _ = marked_course
-    assert names(folder) == {"class", "exercises", "nbgrader_config.py", "solutions"}
+    assert names(folder) == {".secret", "class", "exercises", "nbgrader_config.py", "solutions"}
     assert names(folder / "class") == {"autograded", "exchange", "feedback", "gradebook.db", "submitted"}
     assert "/class/\n" in (ROOT / ".gitignore").read_text()
+
+
+def test_the_kernels_that_mark_get_the_secret_and_no_file_of_students_does(marked_course):
+    folder, marks = marked_course
+    assert {"A secret of 64\n" in text(marked.feedback) for marked in marks.values()} == {True}
+    assert "d1ce" not in "".join(path.read_text() for path in (folder / "exercises").rglob("*.*"))
+
+
+def test_the_command_stops_on_a_secret_that_others_may_read(marked_course):
+    folder, _ = marked_course
+    (folder / ".secret").chmod(0o640)
+    with pytest.raises(CommandFailed, match=r"run `chmod 600 \.secret`, then mark again\.$"):
+        nbgrader(folder, "autograde", "01_tiny", "--force")
+    (folder / ".secret").chmod(0o600)
 
 
 @pytest.mark.parametrize(("student", "failing"), [("right", 0), ("half_right", 1), ("wrong", 3)])

@@ -127,6 +127,16 @@ def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
     assert opened.LabApp.default_url.removeprefix("/lab/tree/") in there
 
 
+def test_a_terminal_of_jupyterlab_there_finds_the_commands_of_the_course(folder, tmp_path, monkeypatch):
+    for name, value in {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "PYTHONSTARTUP": ""}.items():
+        monkeypatch.setenv(name, value)
+    opened = PyFileConfigLoader("jupyter_server_config.py", path=str(folder / "jupyter")).load_config()
+    shell = opened.ServerApp.terminado_settings["shell_command"]
+    asked = [*shell, "-ic", "type -p colcon ros2 python"]
+    found = subprocess.run(asked, cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert found.stdout.splitlines() == [f"{sys.prefix}/bin/{name}" for name in ("colcon", "ros2", "python")]
+
+
 def test_make_there_lists_what_students_can_do(folder):
     outside = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
     done = subprocess.run(["make"], cwd=folder, env=outside, check=True, capture_output=True, text=True)

@@ -12,7 +12,7 @@ from grader.marking.release.run_notebooks import Marks, NotebookRun, missed_line
 from grader.marking.release.run_solutions import junit, main
 from grader.score import Score
 from sim.evidence import Recording
-from tests.marking.tiny import grade
+from tests.marking.tiny import ROOT, grade
 
 HALF = """
 from grader import Exercise, Missed
@@ -141,3 +141,7 @@ def test_junit_counts_what_is_right():
 
 def test_everything_is_run_when_nothing_is_named():
     assert [str(folder) for folder in run_solutions.FOLDERS] == ["course", "solutions"]
+
+
+def test_the_start_page_finds_what_it_maps():
+    assert run_notebooks.run_notebook(ROOT / "course" / "start.ipynb").problems == ()

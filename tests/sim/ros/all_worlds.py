@@ -6,17 +6,18 @@ import math
 import random
 import zlib
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, LaserScan
 from std_msgs.msg import Bool, Float64, Float64MultiArray
 from tf2_msgs.msg import TFMessage
+from turtlesim.msg import Pose
 
 from sim import Recording, World, run
 from sim.world.generate import KINDS
-from sim.world.machines import ArmModel, CartPoleModel, JointModel
+from sim.world.machines import ArmModel, CartPoleModel, JointModel, PondModel
 
 SENSORS = {"odom": Odometry, "scan": LaserScan, "joint_states": JointState, "bumper": Bool, "imu/data": Imu}
 
@@ -62,16 +63,19 @@ class Operator(Listener):
         JointModel: ("joint_commands", lambda wave: Float64(data=wave)),
         ArmModel: ("joint_commands", lambda wave: Float64MultiArray(data=[wave, -wave])),
         CartPoleModel: ("cart_effort", lambda wave: Float64(data=wave)),
+        PondModel: ("turtle1/cmd_vel", lambda wave: Twist(linear=Vector3(x=wave), angular=Vector3(z=1.0))),
     }
 
     def __init__(self, machine):
-        super().__init__("operator", {"joint_states": JointState, "/tf": TFMessage, "/clock": Clock})
+        heard = {"joint_states": JointState, "/tf": TFMessage, "/clock": Clock, "turtle1/pose": Pose}
+        super().__init__("operator", heard)
         topic, self.command = self.kinds[type(machine)]
         self.publisher = self.create_publisher(type(self.command(0.0)), topic, 10)
+        self.begin = self.get_clock().now()
         self.create_timer(0.02, self.move)
 
     def move(self):
-        time = self.get_clock().now().nanoseconds / 1e9
+        time = (self.get_clock().now() - self.begin).nanoseconds / 1e9
         self.publisher.publish(self.command(math.sin(3 * time)))
 
 

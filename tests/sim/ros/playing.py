@@ -25,13 +25,16 @@ class Watcher:
 
     def __init__(self):
         self.on_command = None
-        self.frames, self.states, self.finished, self.closed = [], [], [], 0
+        self.frames, self.states, self.graphs, self.finished, self.closed = [], [], [], [], 0
 
     def frame(self, stamp, poses, scan):
         self.frames.append((stamp, poses, scan))
 
     def state(self, state):
         self.states.append(state)
+
+    def connections(self, recording):
+        self.graphs.append(len(recording.graph.endpoints))
 
     def finish(self, recording):
         self.finished.append(recording)

@@ -1,9 +1,11 @@
 """Names, parameters, QoS, lifecycle and the graph, as a launch file or the code itself sets them."""
 
+import inspect
 import math
 
 import numpy as np
 import pytest
+from rclpy.impl.rcutils_logger import CallerId
 from rclpy.node import Node
 
 from sim import Process, run
@@ -158,3 +160,21 @@ def test_a_program_may_keep_its_log_lines_from_rosout():
     recording = run(names.HearsLogs, silent, names.Logs, seconds=1, quiet=True)
     heard = [(stamp, text) for stamp, text in recording.prints if text.strip()]
     assert heard == [(1.0, "logs: info"), (1.0, "logs: warning")]
+
+
+def test_the_place_of_a_log_line_is_known_without_reading_sources(monkeypatch):
+    lines, first = inspect.getsourcelines(names.Logs.tick)
+    rows = [first + row for row, line in enumerate(lines) if "info" in line or "warning" in line]
+    asked = []
+    monkeypatch.setattr(inspect, "getmodule", asked.append)  # it looks at all modules, for a cell's code
+    recording = run(names.HearsPlaces, names.Logs, seconds=1, quiet=True)
+    places = [text.strip() for _, text in recording.prints if text.strip()]
+    assert places == [f"{names.__file__} tick {row}" for row in rows]
+    assert asked == []
+
+
+def test_outside_a_run_a_log_line_is_placed_as_rclpy_does():
+    run(names.Logs, seconds=1, quiet=True)
+    place = CallerId()
+    assert (place.function_name, place.file_path) == (inspect.currentframe().f_code.co_name, __file__)
+    assert CallerId(inspect.currentframe()).line_number == place.line_number + 2

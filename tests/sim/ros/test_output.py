@@ -1,5 +1,7 @@
 """What nodes write: kept by who wrote it, shown on stdout, never on stderr, and nothing is changed after."""
 
+import contextlib
+import io
 import logging
 import os
 import subprocess
@@ -85,6 +87,15 @@ def test_afterwards_stdout_and_stderr_are_as_before(capfd):
     os.write(2, b"mine\n")
     print("mine", file=sys.stderr)
     assert capfd.readouterr().err == "mine\nmine\n"
+
+
+def test_stdout_and_stderr_may_be_led_to_one_place():
+    place = io.StringIO()
+    with contextlib.redirect_stdout(place), contextlib.redirect_stderr(place):
+        recording = run(lambda: print("said"), seconds=1, quiet=True)
+        print("afterwards")
+    assert "".join(text for _, text in recording.prints) == "said\n"
+    assert place.getvalue() == "afterwards\n"
 
 
 def test_a_whole_process_writes_nothing_to_stderr():

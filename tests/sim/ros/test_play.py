@@ -53,13 +53,17 @@ PROGRAMS = [
     for name, thing in vars(module).items()
     if name not in SLOW and runnable(thing, module)
 ]
+PARTS = [  # every day a third of them: in each module are some
+    pytest.param(thing, id=thing.__qualname__, marks=[pytest.mark.soak] if number % 3 else [])
+    for number, thing in enumerate(PROGRAMS)
+]
 
 
 def test_there_are_many_kinds_of_programs():
     assert len(PROGRAMS) > 100
 
 
-@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.__qualname__)
+@pytest.mark.parametrize("program", PARTS)
 def test_it_is_equal_to_run_in_slices_of_odd_lengths(program):
     usual = run(program, seconds=3, quiet=True)
     played = playing.to_the_end(playing.player(program, seconds=3))

@@ -128,7 +128,8 @@ def test_a_busy_cell_makes_no_jump(kernel):
     assert 0 <= float(printed) < 2
 
 
-def test_fifty_cells_that_play_leave_nothing(kernel):
+@pytest.mark.parametrize("number", [10, pytest.param(50, marks=pytest.mark.soak)])
+def test_many_cells_that_play_leave_nothing(kernel, number):
     kernel(SNAPSHOT)
     cell = "player = play(Teleop, mains.classic, world='room', seconds=600, quiet=True)"
     for _ in range(3):
@@ -136,7 +137,7 @@ def test_fifty_cells_that_play_leave_nothing(kernel):
     kernel("player.stop()")
     kernel.eventually("left()[3] == 0")
     before = kernel("print(left())")
-    for _ in range(50):
+    for _ in range(number):
         kernel(cell)
     kernel("player.stop()")
     kernel.eventually("left()[3] == 0")

@@ -67,6 +67,26 @@ def test_a_pause_stops_time_and_a_step_is_one_scan(robot):
     assert robot.recording.stamp > stamp + 0.2
 
 
+def test_the_graph_is_shown_when_somebody_asks_and_it_has_changed_once_a_second_at_most(robot):
+    def ask(count):
+        for _ in range(count):
+            robot.watcher.on_command({"graph": True})
+            robot.turn()
+
+    frames(robot, 20)
+    assert robot.watcher.graphs == []
+    ask(60)
+    ends = len(robot.recording.graph.endpoints)
+    assert robot.watcher.graphs == [ends]
+    for _ in range(2):
+        robot.add(Process(Teleop))
+        frames(robot, 2)
+        ask(1)
+        assert robot.watcher.graphs[1:] == [ends + 1]
+    ask(60)
+    assert robot.watcher.graphs[1:] == [ends + 1, ends + 2]
+
+
 def test_a_step_pauses(robot):
     robot.step()
     assert robot.paused
@@ -396,6 +416,20 @@ def test_who_drives_by_hand_sends_what_the_robot_takes(clock):
     made.stop()
     commands = [heard.message.twist for heard in made.recording.messages("/cmd_vel")]
     assert {(command.linear.x, command.angular.z) for command in commands} == {(0.4, 0.5)}
+
+
+def test_keys_drive_the_first_turtle_and_the_picture_gets_its_line(clock):
+    made = playing.player(world="turtlesim", seconds=600, clock=clock)
+    made.watcher = playing.watched(made)
+    for _ in range(40):
+        drive(made, 1.0, 0.5)
+        made.turn()
+    state = made.watcher.states[-1]
+    made.stop()
+    assert set(sent(made, "/turtle1/cmd_vel")) == {(2.0, 1.0)}
+    assert list(dict(state["numbers"])) == ["Pose", "Last command"]
+    assert dict(state["numbers"])["Last command"].startswith("2.00 m/s, turning 1.00 rad/s")
+    assert state["drawing"].strokes == made.recording.drawing.strokes
 
 
 def test_a_page_that_is_gone_lets_go(robot, clock):

@@ -1,10 +1,14 @@
 """What a player tells in numbers: the robot's, and of one topic that somebody looks at."""
 
+from dataclasses import replace
+
 import pytest
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_msgs.msg import String
 
+from sim import World
+from sim.world import LidarModel
 from tests.sim.ros.playing import player, to_the_end, watched
 
 
@@ -34,6 +38,17 @@ def told():
         running = [state for state in picture.states if state["ended"] is None]
         states[topic] = running[-1]
     return states
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0])
+def test_the_nearest_is_told_as_the_robot_sees_it_wherever_its_lidar_looks(yaw):
+    room = World.load("room")
+    still = replace(room, lidar=LidarModel(yaw=yaw, noise=0))
+    made = player(lambda: Node("still"), world=still, seconds=2.0, speed=10.0)
+    picture = watched(made)
+    to_the_end(made)
+    told = [dict(state["numbers"]).get("Nearest") for state in picture.states]
+    assert [words for words in told if words][-1] == "1.37 m, at 0.44 rad"
 
 
 def test_the_robots_numbers_are_told(told):

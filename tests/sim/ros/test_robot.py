@@ -4,9 +4,9 @@ import math
 from dataclasses import replace
 
 import pytest
-from rclpy.time import Time
 
 from sim import Process, World, run
+from sim.evidence import since_start
 from sim.world import DT, RobotModel
 from tests.sim.ros.evidence import said, values
 from tests.students.engine import drivers
@@ -69,24 +69,37 @@ def test_stamps_in_messages_are_the_times_they_were_sent(straight):
     headers = {"/odom": lambda m: m.header, "/scan": lambda m: m.header, "/joint_states": lambda m: m.header,
                "/tf": lambda m: m.transforms[0].header}  # fmt: skip
     for topic, header in headers.items():
-        inside = [Time.from_msg(header(m).stamp).nanoseconds / 1e9 for _, m in heard(straight, topic)]
+        inside = [since_start(header(m).stamp) for _, m in heard(straight, topic)]
         assert inside == TICKS
-    assert [Time.from_msg(m.clock).nanoseconds / 1e9 for _, m in heard(straight, "/clock")] == TICKS
+    assert [since_start(m.clock) for _, m in heard(straight, "/clock")] == TICKS
 
 
 def test_messages_reach_reliable_and_best_effort_listeners_at_once(still):
     assert said(still)[:4] == [
-        (0.05, "odom 50000000 0"), (0.05, "scan 50000000 0"),
-        (0.1, "odom 100000000 0"), (0.1, "scan 100000000 0"),
+        (0.05, "odom 1735689600050000000 0"), (0.05, "scan 1735689600050000000 0"),
+        (0.1, "odom 1735689600100000000 0"), (0.1, "scan 1735689600100000000 0"),
     ]  # fmt: skip
 
 
 def test_frames_are_those_of_rep_105(straight):
     (_, odom), (_, scan), (_, tf) = (heard(straight, topic)[-1] for topic in ("/odom", "/scan", "/tf"))
     assert (odom.header.frame_id, odom.child_frame_id) == ("odom", "base_link")
-    assert scan.header.frame_id == "base_link"
+    assert scan.header.frame_id == "base_scan"
     (transform,) = tf.transforms
     assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_link")
+
+
+def test_where_the_lidar_sits_is_said_once_and_kept():
+    world = World.load("yard")
+    turned = replace(world, lidar=replace(world.lidar, x=0.06, y=-0.02, yaw=2.0))
+    recording = run(world=turned, seconds=1, quiet=True)
+    (end,) = recording.graph.publishers("/tf_static")
+    assert (end.node, end.qos["durability"]) == ("/robot", "transient_local")
+    ((stamp, message),) = heard(recording, "/tf_static")
+    (transform,) = message.transforms
+    assert (stamp, transform.header.frame_id, transform.child_frame_id) == (0.0, "base_link", "base_scan")
+    place = transform.transform.translation
+    assert (place.x, place.y, yaw_of(transform.transform.rotation)) == pytest.approx((0.06, -0.02, 2.0))
 
 
 def test_odometry_follows_the_ramp_and_its_sum(straight):

@@ -8,6 +8,7 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
+from turtlesim.msg import Color, Pose
 
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
@@ -61,3 +62,13 @@ def test_a_value_too_many_or_too_few_is_refused():
     for values in ((), (1.0, 2.0)):
         with pytest.raises(ValueError, match="zip"):
             template.fill(*values)
+
+
+def test_float32_and_single_bytes_are_patched():
+    pose, colour = Pose(), Color()
+    template = Template(pose, ["x", "theta"])
+    pose.x, pose.theta = 5.5, -0.25
+    assert bytes(template.fill(5.5, -0.25)) == expected(pose)
+    template = Template(colour, ["r", "g", "b"])
+    colour.r, colour.g, colour.b = 179, 17, 255
+    assert bytes(template.fill(179, 17, 255)) == expected(colour)

@@ -58,6 +58,25 @@ def test_all_clocks_show_simulated_time():
     assert stamps(timing.all_clocks) == [(2.5, f"{name} 2.5") for name in names]
 
 
+def test_a_second_before_the_start_there_was_time_too():
+    """All clocks that show what time it is agree, from the first moment on."""
+    expected = []
+    for stamp, nanoseconds, seconds in [
+        (0.0, 1_735_689_599_000_000_000, 1735689599.0),
+        (0.25, 1_735_689_599_250_000_000, 1735689599.25),
+    ]:
+        expected += [(stamp, f"{clock} {nanoseconds}") for clock in ("node", "ros", "system")]
+        expected.append((stamp, f"time {nanoseconds} {seconds}"))
+    assert stamps(timing.looks_back, 0.25) == expected
+
+
+def test_a_message_comes_with_the_time_of_the_same_clock():
+    assert stamps(timing.knows_when_a_message_came, 1) == [
+        (0.5, "1735689600 500000000 1735689600500000000 1735689600500000000"),
+        (1.0, "1735689601 0 1735689601000000000 1735689601000000000"),
+    ]
+
+
 def test_the_calendar_begins_with_2025():
     assert stamps(timing.calendar, 4000) == [(3661.0, "2025-01-01 01:01:01")]
 
@@ -88,4 +107,8 @@ def test_once_means_once_in_each_run():
 
 
 def test_time_passes_and_never_jumps_for_clocks_that_are_gone_or_kept():
-    assert stamps(timing.JumpCallbacks, 1.5) == [(0.5, "tick 0.5"), (1.0, "tick 1.0"), (1.5, "tick 1.5")]
+    assert stamps(timing.JumpCallbacks, 1.5) == [
+        (0.5, "tick 1735689600500000000"),
+        (1.0, "tick 1735689601000000000"),
+        (1.5, "tick 1735689601500000000"),
+    ]

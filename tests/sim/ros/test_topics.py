@@ -30,7 +30,12 @@ def late(lines: list[str], topic: str) -> list[str]:
     return [line.removeprefix(begin).split(",")[0] for line in lines if line.startswith(begin)]
 
 
-@pytest.mark.parametrize("programs", PROGRAMS, ids=lambda them: "+".join(one.__name__ for one in them))
+def names(programs: list) -> str:
+    """Of programs; a launch file's is that of its file."""
+    return "+".join(getattr(one, "__name__", None) or one.name for one in programs)
+
+
+@pytest.mark.parametrize("programs", PROGRAMS, ids=names)
 def test_a_run_is_the_same_with_the_middleware_in_between(monkeypatch, programs):
     inside = run(*programs, seconds=6, quiet=True)
     monkeypatch.setenv(MIDDLEWARE, "1")

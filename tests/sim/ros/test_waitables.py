@@ -30,6 +30,10 @@ def test_a_service_in_a_waitable_answers():
     ]  # fmt: skip
 
 
+def test_a_client_in_a_waitable_gets_its_answers():
+    assert heard(waitables.Calling) == [(0.5, "asked"), (1.0, "asked"), (1.5, "asked"), (2.0, "asked")]
+
+
 def test_a_timer_in_a_waitable_is_refused():
     assert raised(run(waitables.Ticking, seconds=2, quiet=True)) == [
         (

@@ -33,7 +33,10 @@ def test_the_domain_where_somebody_is_gets_named(sockets):
         " ROS_DOMAIN_ID=0 (runs in notebooks are there, too, and hear nobody)"
     )
     sockets()
-    assert domains.note(42) == ""
+    assert domains.note(42) == (
+        "Nobody is on ROS domain 42 of this machine: start a node in another terminal, with"
+        " ROS_DOMAIN_ID=42"
+    )
 
 
 def test_a_machine_that_does_not_tell_its_sockets_has_none(tmp_path, monkeypatch):

@@ -1,12 +1,15 @@
 """%ros2 about a play that is going on, in its time."""
 
 import math
+from pathlib import Path
 from time import perf_counter
 
 import pytest
 from rclpy.node import Node
 
 from sim.ros.latest import latest
+from sim.ros.messages.decoder import decode
+from sim.ros2.bags import Bag
 from sim.ros2.notebook import ros2
 from tests.sim.ros.playing import player
 from tests.sim.ros2.nodes import NODES
@@ -195,6 +198,10 @@ def test_a_bag_is_recorded_looked_at_and_played_again(playing):
         "Service:           0",
         "Service information: ",
     ]
+    for schema, channel, message in Bag(Path("kept")).messages():
+        if channel.topic == "/place":  # stamped as it is sent
+            stamp = decode(schema.name, message.data).header.stamp
+            assert message.log_time == stamp.sec * 1_000_000_000 + stamp.nanosec > 1_735_689_600_000_000_000
     assert playing("bag info -t kept") == "/greeting\n/place\n"
     before = len(playing.player.recording.messages("/place"))
     assert playing("bag play -r 5 kept --topics /place") == "Played 50 messages from kept\n"

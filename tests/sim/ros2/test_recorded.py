@@ -20,6 +20,7 @@ OVER = (
 OURS = {
     "topic type /nothing": "Unknown topic '/nothing'\n",
     "service type /nothing": "Unknown service '/nothing'\n",
+    "action type /nothing": "Unknown action '/nothing'\n",
     "interface package std_srvs": "std_srvs/srv/Empty\nstd_srvs/srv/SetBool\nstd_srvs/srv/Trigger\n",
     "interface package nothing_msgs": "Unknown package 'nothing_msgs'. Did you mean action_msgs?\n",
     "interface show std_msgs/msg/Nothing": (
@@ -134,7 +135,7 @@ def test_the_words_for_what_is_not_there_and_for_options(said, command, words):
         (
             "tpic list",
             "ros2: error: argument COMMAND: there is no 'tpic', only action, bag, doctor, interface,"
-            " lifecycle, node, param, service, topic. Did you mean topic?\n",
+            " launch, lifecycle, node, param, pkg, run, service, topic. Did you mean topic?\n",
         ),
         ("node list -x", "ros2: error: unrecognized arguments: -x\n"),
         ("topic hz", "ros2 topic hz: error: the following arguments are required: topic_name\n"),

@@ -39,5 +39,5 @@ def test_a_function_gives_the_command_when_the_program_starts():
 
 
 def test_what_is_no_command_is_named():
-    says = "None is no command: expected a text such as 'ros2 topic list'."
+    says = "None is not a command: expected a text such as 'ros2 topic list'."
     assert typed(lambda: None).prints[0][1] == says

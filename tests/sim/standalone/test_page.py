@@ -11,10 +11,13 @@ import struct
 import pytest
 from playwright.sync_api import expect
 
-from sim.standalone import server
+from sim.standalone import live_page, server
 from tests.browser.conftest import browser  # noqa: F401  (a fixture)
+from tests.browser.lab import ARTIFACTS
+from tests.browser.pictures import COLOURS
 from tests.sim.standalone.programs import ended, robot
 
+GRAPH = {"words": "nobody"}
 FACTS = {"world": {"name": "nowhere"}, "status": {}}
 DRIVE = json.dumps({"drive": [1, -0.5]})
 FORBIDDEN = (403, b"Forbidden\n")
@@ -24,7 +27,8 @@ BAD = (400, b"Bad Request\n")
 @pytest.fixture
 def page():
     driven = []
-    with contextlib.closing(server.PageServer(0, FACTS, lambda *way: driven.append(way))) as running:
+    made = server.PageServer(0, FACTS, lambda *way: driven.append(way), lambda: GRAPH)
+    with contextlib.closing(made) as running:
         running.driven = driven
         yield running
 
@@ -49,6 +53,7 @@ def test_the_page_has_all_its_parts(page):
     assert b'from "/live.js"' in ask(page, "GET", "/page.js")[1]
     assert b"export default" in ask(page, "GET", "/live.js")[1]
     assert json.loads(ask(page, "GET", "/world")[1]) == FACTS
+    assert json.loads(ask(page, "GET", "/graph")[1]) == GRAPH
     assert ask(page, "GET", "/../server.py") == (404, b"Not Found\n")
 
 
@@ -78,7 +83,7 @@ def test_what_is_no_command_is_refused(page, body):
 def test_other_sites_see_nothing(page):
     for path in ("/", "/world", "/frames"):
         assert ask(page, "GET", path, Host="evil.example") == FORBIDDEN
-    for path in ("/world", "/frames", "/live.js"):
+    for path in ("/world", "/frames", "/live.js", "/graph"):
         assert ask(page, "GET", path, Sec_Fetch_Site="cross-site") == FORBIDDEN
 
 
@@ -96,6 +101,15 @@ def test_frames_come_as_they_are_shown_and_end_with_the_robot(page):
     assert frames.read() == b"\n"
 
 
+def test_facts_that_change_come_with_the_next_frame_and_to_who_looks_later_too(page):
+    for _ in range(2):
+        page.tell({"drawn": 3})
+        with contextlib.closing(stream(page)) as frames:
+            page.show(b"")
+            lines = [frames.readline() for _ in range(4)]
+        assert lines == [b"event: status\n", b'data: {"drawn": 3}\n', b"\n", b"data: \n"]
+
+
 def test_so_many_may_look_and_no_more(page):
     page.show(b"frame")
     streams = [stream(page) for _ in range(server.MOST_VIEWERS)]
@@ -108,6 +122,15 @@ def test_a_port_that_is_taken_is_told_in_a_sentence():
         port = taken.getsockname()[1]
         sentence = f"Port {port} can't be used (Address already in use); choose another with --port.\n"
         assert ended("--port", str(port)) == (2, "", sentence)
+
+
+def test_of_some_ports_the_first_that_is_free_is_taken():
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        ports = [taken.getsockname()[1], 0]
+        with contextlib.closing(live_page.served(ports, FACTS, print, lambda: GRAPH)) as page:
+            assert json.loads(ask(page, "GET", "/graph")[1]) == GRAPH
+        with pytest.raises(OSError, match="Address already in use"):
+            live_page.served(ports[:1], FACTS, print, lambda: GRAPH)
 
 
 @pytest.mark.browser
@@ -125,6 +148,14 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
         running.hear_until(lambda heard: heard["x"] > 0.2 and heard["v"] > 0.0)
         page.keyboard.up("ArrowUp")
         running.hear_until(lambda heard: heard["v"] == 0.0)
+        page.locator(".graph summary").press("Enter")
+        page.locator(".graph svg .ours text", has_text="/robot").wait_for()
+        page.locator(".graph svg .ours text", has_text="/teleop").wait_for()
+        listener = running.client("listen", 300)
+        page.locator(".graph svg .node text").first.wait_for()
+        listener.kill()
+        listener.communicate()
+        page.screenshot(path=ARTIFACTS / "standalone-graph.png", full_page=True)
         assert faults == []
         assert running.stop() == (0, "")
         words = "The robot's program has ended. Start it again, then reload this page."
@@ -141,6 +172,26 @@ def test_a_machine_is_shown_without_a_pad(browser):  # noqa: F811
         assert page.get_by_text("/joint_commands").count() == 1
         assert page.get_by_text("DRIVE").count() == page.get_by_text("drive with the arrow keys").count() == 0
         page.close()
+
+
+@pytest.mark.browser
+def test_turtles_and_their_lines_are_shown(browser):  # noqa: F811
+    with robot("--world", "turtlesim", "--port", "0") as running:
+        tab = browser.new_page()
+        tab.faults = []
+        tab.on("pageerror", lambda error: tab.faults.append(str(error)))
+        tab.goto(re.search(r"http://\S+", running.offer)[0])
+        tab.get_by_role("application").focus()
+        tab.keyboard.down("ArrowUp")
+        tab.wait_for_function(f"() => ({COLOURS})(document.querySelector('canvas')).includes('b3b8ff')")
+        tab.keyboard.up("ArrowUp")
+        assert tab.locator(".topic").all_inner_texts() == [
+            "/turtle1/cmd_vel",
+            "/turtle1/color_sensor",
+            "/turtle1/pose",
+        ]
+        assert tab.faults == []
+        tab.close()
 
 
 def test_a_frame_holds_stamp_poses_and_scan():

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from nav_msgs.msg import Odometry
 from PIL import Image
 from sensor_msgs.msg import Imu, JointState, LaserScan, Temperature
-from std_msgs.msg import String
+from std_msgs.msg import Float64, String
 
 from sim import Recording, World, run
 from sim.evidence import CallbackError, Pose
@@ -154,6 +154,13 @@ def test_signals_are_drawn_over_time_with_their_unit():
     assert [line.get_label() for line in axes.lines] == ["linear.x", "angular.z"]
 
 
+def test_the_line_of_a_signal_is_broken_where_the_topic_is_silent():
+    moments = [0.0, 0.1, 0.2, 0.3, 0.9, 1.0]
+    figure = plot_signal(published("/n", [(moment, Float64(data=moment)) for moment in moments]), "/n")
+    drawn = figure.axes[0].lines[0].get_ydata()
+    assert [str(value) for value in drawn] == ["0.0", "0.1", "0.2", "0.3", "nan", "0.9", "1.0"]
+
+
 @pytest.mark.parametrize(
     "topic, kind, fields, unit",
     [
@@ -188,7 +195,7 @@ def test_an_item_that_is_not_there_is_refused():
     [
         ("/odom", (), "there are no messages on /odom to draw; this run has /cmd_vel"),
         ("/cmd_vel", ("speed",), "the messages on /cmd_vel have no field speed; they have linear, angular"),
-        ("/cmd_vel", ("linear",), "linear on /cmd_vel is no number, but Vector3"),
+        ("/cmd_vel", ("linear",), "linear on /cmd_vel is not a number, but Vector3"),
         ("/cmd_vel", (), "the messages on /cmd_vel have no field data; they have linear, angular"),
     ],
 )
@@ -199,7 +206,7 @@ def test_what_is_no_signal_is_refused(topic, fields, sentence):
 
 
 def test_text_is_no_signal():
-    with pytest.raises(ValueError, match=r"^data on /chatter is no number, but str$"):
+    with pytest.raises(ValueError, match=r"^data on /chatter is not a number, but str$"):
         plot_signal(published("/chatter", [(1.0, String())]), "/chatter")
 
 

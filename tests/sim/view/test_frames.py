@@ -37,13 +37,14 @@ def told(*nodes, **options):
 
 
 def test_it_shows_each_frame_in_its_parent_and_who_says_so():
-    figure = told(telling(("base_link", "base_scan"), moving=[("map", "odom")]), world="yard")
+    figure = told(telling(("base_link", "camera"), moving=[("map", "odom")]), world="yard")
     assert figure.words == (
-        "base_scan in base_link: static, /telling\n"
+        "base_scan in base_link: static, /robot\n"
+        "camera in base_link: static, /telling\n"
         "base_link in odom: 20 Hz, /robot\n"
         "odom in map: 10 Hz, /telling"
     )
-    assert {"map", "odom", "10 Hz, /telling", "base_scan", "static, /telling"} <= set(texts(figure))
+    assert {"map", "odom", "10 Hz, /telling", "camera", "static, /telling"} <= set(texts(figure))
     assert red(figure) == []
     assert figure._repr_png_() == (png(figure), {"alt": figure.words})
 

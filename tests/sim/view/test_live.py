@@ -90,6 +90,16 @@ def test_a_state_is_kept_for_pages_that_come_later_and_has_no_infinity(view):
     assert view.status == STATE | {"speed": None}
 
 
+def test_a_graph_is_kept_for_pages_that_come_later(view):
+    assert view.graph == {}
+    recording = Recording()
+    view.connections(recording)
+    assert view.graph == {}
+    recording.graph.nodes.append("/alone")
+    view.connections(recording)
+    assert [box["lines"] for box in view.graph["boxes"]] == [["/alone"]]
+
+
 @pytest.mark.parametrize(
     "command",
     [
@@ -98,6 +108,7 @@ def test_a_state_is_kept_for_pages_that_come_later_and_has_no_infinity(view):
         {"pause": False},
         {"step": True},
         {"stop": True},
+        {"graph": True},
         {"drive": [1.0, -0.5]},
     ],
 )
@@ -129,6 +140,8 @@ def test_a_command_of_the_page_is_passed_on(view, command):
         {"step": False},
         {"stop": 1},
         {"stop": {}},
+        {"graph": 1},
+        {"graph": False},
         {"drive": [1.0]},
         {"drive": [0.0, 0.0, 0.0]},
         {"drive": [1.5, 0.0]},

@@ -14,7 +14,7 @@ from sensor_msgs.msg import LaserScan
 from sim import Recording, World, run
 from sim.evidence import CallbackError, Ended, Heard, LogLine, Pose
 from sim.ros.messages.codec import encode
-from sim.view import packing, replay
+from sim.view import packing, plot_graph, replay
 from sim.view.replay import PLAYER_SCRIPT
 from sim.world import Contact
 from tests.bench.avoider import Avoider
@@ -122,6 +122,14 @@ def test_a_ray_that_measured_nothing_is_told_from_one_that_met_nothing():
     assert list(summed(scan["ranges"])) == [-1, -2, -2, 25]
 
 
+def test_rays_are_drawn_from_where_the_lidar_sits():
+    room = World.load("room")
+    world = dataclasses.replace(room, lidar=dataclasses.replace(room.lidar, x=0.05, yaw=math.pi / 2))
+    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=[1.0])))
+    (scan,) = unpacked(dataclasses.replace(driven([(0, 0), (1, 0)], heard=[heard]), world=world))["scans"]
+    assert scan["pose"] == [0.05, 0.0, 1.571]
+
+
 def test_scans_of_a_students_node_are_not_the_robots():
     heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
     assert unpacked(driven([(0, 0), (1, 0)], heard=[heard]))["scans"] == []
@@ -171,6 +179,12 @@ def test_marks_say_what_happened_when_in_words():
         [4500, "error", "t = 4.5 s: NotImplementedError in Driver.tick", None],
         [5000, "end", "t = 5 s: the run ended. All of it was run.", None],
     ]
+
+
+def test_the_graph_at_the_end_is_there(drive):
+    graph = unpacked(drive)["graph"]
+    assert graph["words"] == plot_graph(drive).words
+    assert unpacked(Recording(stamp=1.0))["graph"] is None
 
 
 def test_log_lines_and_topics_are_there():

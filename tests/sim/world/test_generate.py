@@ -132,7 +132,7 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
     ("kind", "figures", "sentence"),
     [
         ("rom", {}, "There is no kind of world 'rom' to generate. Did you mean 'room'?"),
-        ("sea", {}, "There is no kind of world 'sea' to generate. There are room, maze, clutter."),
+        ("sea", {}, "There is no kind of world 'sea' to generate. There are room, maze, clutter, warehouse."),
         ("maze", {"colums": 3}, "A generated maze has no 'colums'. Did you mean 'columns'?"),
         ("maze", {"xyz": 3}, "A generated maze has no 'xyz'. There are columns, rows, cell, loops."),
         (

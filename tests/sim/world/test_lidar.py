@@ -78,6 +78,14 @@ def test_ray_0_is_forward_and_the_rays_turn_counter_clockwise():
     assert (forward, left, back, right) == pytest.approx((0.8, 1.5, 1.2, 0.5))
 
 
+def test_rays_begin_where_the_lidar_sits_and_turn_with_it():
+    model = LidarModel(noise=0, x=0.08, y=0.04, yaw=math.pi / 2)
+    simulation = Simulation(replace(room((0.5, 0.2, math.pi / 2), walls=square(1)), lidar=model))
+    scan = simulation.robot.scan()
+    assert scan[[0, 90, 180, 270]] == pytest.approx((1.46, 1.28, 0.54, 0.72))
+    assert simulation.last_scan.pose == pytest.approx((0.46, 0.28, math.pi))
+
+
 def test_rays_through_the_corners_of_a_room_do_not_leak():
     scan = Simulation(replace(room(walls=square(1)), lidar=LidarModel(noise=0))).robot.scan()
     assert scan[[45, 135, 225, 315]] == pytest.approx([math.sqrt(2)] * 4)

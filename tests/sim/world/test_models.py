@@ -50,6 +50,8 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (LidarModel, {"noise": -1}, "noise is -1; write a number from 0 to 1000000 (metres)."),
     (RobotModel, {"mass": 1e300}, "mass is 1e+300; write a number from 0.0001 to 1000000 (kg)."),
     (ImuModel, {"gyro_noise": 1e300}, "gyro_noise is 1e+300; write a number from 0 to 1000000 (rad/s)."),
+    (LidarModel, {"x": 2}, "x is 2; write a number from -1 to 1 (metres)."),
+    (LidarModel, {"yaw": math.inf}, "yaw is inf; write a finite number (radians)."),
     (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
     (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
     (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a number from 0 to 1000000 (rad/s)."),
@@ -86,6 +88,11 @@ def test_figures_that_cannot_be(model, figures, sentence):
         ),
         ({"goal": (9, 9)}, "goal is [9.0, 9.0]; write [x, y] (metres) inside the bounds."),
         ({"lidar": 3}, "lidar is 3; write a LidarModel."),
+        (
+            {"lidar": LidarModel(x=0.08, y=-0.08)},
+            "lidar is LidarModel(rays=360, range_min=0.12, range_max=3.5, noise=0.01, dropouts=0.0,...; "
+            "write a lidar on the robot, whose radius is 0.1 m.",
+        ),
         ({"robots": (3,)}, "robots is [3]; write a list of OtherRobot."),
         ({"name": 3}, "name is 3; write a text."),
         (

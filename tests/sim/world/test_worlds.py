@@ -26,7 +26,7 @@ from tests.sim.world.mobile import MOBILE
 from tests.sim.world.ways import has_a_way
 
 IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
-LIDAR = "rays, range_min, range_max, noise, dropouts"
+LIDAR = "rays, range_min, range_max, noise, dropouts, x, y, yaw"
 GOOD = "bounds = [-3, -3, 3, 3]\nstart = [0, 0, 0]\n" + CARD
 
 
@@ -249,7 +249,8 @@ def test_a_file_with_a_wrong_line(tmp_path, good, bad, sentence):
      "write nothing there, for this world holds a machine instead of a mobile robot."),
     ("lava = 1",
      "lava is not a known key; the keys are bounds, start, goal, walls, boxes, circles, movable, "
-     f"robots, robot, lidar, imu, {''.join(f'{key}, ' for key in MACHINES)}card."),
+     "robots, people, robot, lidar, imu, battery, warehouse, "
+     f"{''.join(f'{key}, ' for key in MACHINES)}card."),
     ("wals = []", "wals is not a known key; did you mean walls?"),
 ])  # fmt: skip
 def test_a_file_with_a_faulty_addition(tmp_path, more, sentence):

@@ -111,6 +111,30 @@ class SlowLoop(Robot):
             super().balance(msg)
 
 
+class Rests(Robot):
+    """While it looks for a picture's place, the pole has to see how it gets on for a fifth of a second."""
+
+    until = 0.0
+
+    def now(self):
+        return self.get_clock().now().nanoseconds / 1e9
+
+    def on_picture(self, msg):
+        self.until = self.now() + 0.21
+        super().on_picture(msg)
+
+    def balance(self, msg):
+        if self.now() >= self.until:
+            super().balance(msg)
+
+
+class SaysAnything(Default):
+    """Doesn't look, and so nothing holds the loop up."""
+
+    def on_picture(self, msg):
+        self.answer(0)
+
+
 class NeverLooks(Robot):
     def on_picture(self, msg):
         pass
@@ -144,6 +168,8 @@ darkest = spun(Darkest, threads)
 every_second = spun(EverySecond, threads)
 says_it_twice = spun(SaysItTwice, threads)
 slow_loop = spun(SlowLoop, threads)
+rests = spun(Rests, threads)
+says_anything = spun(SaysAnything, SingleThreadedExecutor)
 never_looks = spun(NeverLooks, threads)
 
 PARTS = (
@@ -157,6 +183,8 @@ PARTS = (
     "EverySecond",
     "SaysItTwice",
     "SlowLoop",
+    "Rests",
+    "SaysAnything",
     "NeverLooks",
     "look",
     "spun",

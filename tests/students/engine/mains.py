@@ -2,6 +2,7 @@
 
 import rclpy
 from rclpy import init, shutdown, spin
+from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
@@ -102,7 +103,8 @@ def spin_once_polling():
 def busy_ok_loop():
     rclpy.init()
     node = Counter()
-    while rclpy.ok() and node.get_clock().now().nanoseconds < 2e9:
+    end = node.get_clock().now() + Duration(seconds=2.0)
+    while rclpy.ok() and node.get_clock().now() < end:
         pass
     node.get_logger().info("two seconds are over")
 

@@ -206,3 +206,10 @@ class HearsLogs(Node):
     def hear(self, msg):
         if msg.name != self.get_name():
             print(f"{msg.name}: {msg.msg}")
+
+
+class HearsPlaces(HearsLogs):
+    """Hears from where they do."""
+
+    def hear(self, msg):
+        print(f"{msg.file} {msg.function} {msg.line}")

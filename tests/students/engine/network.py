@@ -146,5 +146,6 @@ def listens_for_a_moment():
     """Listens until 0.15 s."""
     rclpy.init()
     node = Hearer()
-    while node.get_clock().now().nanoseconds < 0.15e9:
+    end = node.get_clock().now() + Duration(seconds=0.15)
+    while node.get_clock().now() < end:
         rclpy.spin_once(node, timeout_sec=0.05)

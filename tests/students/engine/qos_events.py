@@ -179,7 +179,8 @@ def steady_for_a_while():
     """The same, and ends at 1.5 s."""
     rclpy.init()
     node = Steady()
-    while node.get_clock().now().nanoseconds < 1.5e9:
+    end = node.get_clock().now() + Duration(seconds=1.5)
+    while node.get_clock().now() < end:
         rclpy.spin_once(node, timeout_sec=0.1)
 
 
@@ -202,12 +203,13 @@ class Joystick(Node):
         profile = QoSProfile(depth=1, deadline=Duration(seconds=0.25))
         self.publisher = self.create_publisher(Twist, "joystick", profile)
         self.timer = self.create_timer(0.2, self.tick)
+        self.end = self.get_clock().now() + Duration(seconds=1.0)
 
     def tick(self):
         command = Twist()
         command.linear.x = 0.3
         self.publisher.publish(command)
-        if self.get_clock().now().nanoseconds >= 1e9:
+        if self.get_clock().now() >= self.end:
             self.timer.cancel()
 
 

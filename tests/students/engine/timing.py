@@ -10,7 +10,7 @@ from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
-from rclpy.time import Time
+from std_msgs.msg import Header
 
 
 class Timers(Node):
@@ -121,9 +121,10 @@ def clock_sleeps():
     rclpy.init()
     node = Node("clocked")
     clock = node.get_clock()
+    begin = clock.now()
     clock.sleep_for(Duration(seconds=1.5))
     node.get_logger().info("for")
-    clock.sleep_until(Time(seconds=4, clock_type=ClockType.ROS_TIME))
+    clock.sleep_until(begin + Duration(seconds=4))
     node.get_logger().info("until")
     Clock().sleep_for(Duration(seconds=0.5))
     node.get_logger().info("system")
@@ -158,12 +159,43 @@ def all_clocks():
         "time_ns": time.time_ns() / 1e9 - 1_735_689_600,
         "monotonic": time.monotonic(),
         "perf_counter": time.perf_counter(),
-        "node": node.get_clock().now().nanoseconds / 1e9,
+        "node": node.get_clock().now().nanoseconds / 1e9 - 1_735_689_600,
         "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9,
         "system": Clock().now().nanoseconds / 1e9 - 1_735_689_600,
     }
     for name, value in seconds.items():
         node.get_logger().info(f"{name} {value:g}")
+
+
+def looks_back():
+    """A second before the start there was time, too: ROS's, the system's and Python's, all the same."""
+    rclpy.init()
+    node = Node("historian")
+    clocks = {"node": node.get_clock(), "ros": ROSClock(), "system": Clock()}
+
+    def tell():
+        for name, clock in clocks.items():
+            node.get_logger().info(f"{name} {(clock.now() - Duration(seconds=1)).nanoseconds}")
+        node.get_logger().info(f"time {time.time_ns() - 1_000_000_000} {time.time() - 1.0}")
+
+    tell()
+    node.create_timer(0.25, tell)
+    rclpy.spin(node)
+
+
+def knows_when_a_message_came():
+    """What a subscription's second argument says is by the same clock."""
+    rclpy.init()
+    node = Node("clerk")
+    publisher = node.create_publisher(Header, "minutes", 10)
+    node.create_timer(0.5, lambda: publisher.publish(Header(stamp=node.get_clock().now().to_msg())))
+
+    def hear(msg, information):
+        sent, came = information["source_timestamp"], information["received_timestamp"]
+        node.get_logger().info(f"{msg.stamp.sec} {msg.stamp.nanosec} {sent} {came}")
+
+    node.create_subscription(Header, "minutes", hear, 10)
+    rclpy.spin(node)
 
 
 def calendar():
@@ -212,7 +244,7 @@ class JumpCallbacks(Node):
         self.tell_jumps(ROSClock(), lambda jump: self.get_logger().info("gone"))
         self.tell_jumps(self.get_clock(), lambda jump: self.get_logger().info("node"))
         self.kept = self.tell_jumps(self.clock, lambda jump: 1 / 0)
-        self.create_timer(0.5, lambda: self.get_logger().info(f"tick {self.clock.now().nanoseconds / 1e9}"))
+        self.create_timer(0.5, lambda: self.get_logger().info(f"tick {self.clock.now().nanoseconds}"))
 
     def tell_jumps(self, clock, callback):
         threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)

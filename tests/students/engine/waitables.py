@@ -114,6 +114,52 @@ class Asker(Node):
         answer.add_done_callback(lambda done: self.get_logger().info(done.result().message))
 
 
+class Caller(Waitable):
+    """A client in a waitable, made past create_client()."""
+
+    def __init__(self, node):
+        super().__init__(node.default_callback_group)
+        self.node = node
+        check_for_type_support(Trigger)
+        with node.handle:
+            profile = qos_profile_services_default.get_c_qos_profile()
+            self.client = _rclpy.Client(node.handle, Trigger, "count", profile)
+
+    def __enter__(self):
+        self.client.__enter__()
+
+    def __exit__(self, *error):
+        self.client.__exit__(*error)
+
+    def is_ready(self, wait_set):
+        return wait_set.is_ready("client", self.index)
+
+    def take_data(self):
+        return self.client.take_response(Trigger.Response)[1]
+
+    async def execute(self, data):
+        self.node.get_logger().info(data.message)
+
+    def get_num_entities(self):
+        return NumberOfEntities(num_clients=1)
+
+    def add_to_wait_set(self, wait_set):
+        self.index = wait_set.add_client(self.client)
+
+
+class Calling(Node):
+    def __init__(self):
+        super().__init__("calling")
+        caller = Caller(self)
+        self.add_waitable(caller)
+        self.create_service(Trigger, "count", self.answer)
+        self.create_timer(0.5, lambda: caller.client.send_request(Trigger.Request()))
+
+    def answer(self, request, response):
+        response.message = "asked"
+        return response
+
+
 class Ticker(Waitable):
     """A timer in a waitable, on the machine's clock."""
 
@@ -142,7 +188,7 @@ class ByHand(Node):
         self.create_service(IMPL.GetResultService, "fibonacci/_action/get_result", self.give)
         self.publisher = self.create_publisher(IMPL.FeedbackMessage, "fibonacci/_action/feedback", 10)
         self.create_timer(0.5, self.tell)
-        self.goal = None
+        self.goal, self.begin = None, self.get_clock().now()
 
     def accept(self, request, response):
         self.goal = request.goal_id
@@ -153,7 +199,8 @@ class ByHand(Node):
 
     def tell(self):
         if self.goal is not None:
-            feedback = Fibonacci.Feedback(sequence=[self.get_clock().now().nanoseconds // 10**8])
+            tenths = (self.get_clock().now() - self.begin).nanoseconds // 10**8
+            feedback = Fibonacci.Feedback(sequence=[tenths])
             self.publisher.publish(IMPL.FeedbackMessage(goal_id=self.goal, feedback=feedback))
 
     def cancel(self, request, response):

@@ -132,3 +132,16 @@ class SaysBoth(Placer):
     def refuse(self, error):
         super().refuse(error)
         self.found.publish(PointStamped())
+
+
+class ReasonsByHeart(Placer):
+    """Knows by their names who can't be placed, and why."""
+
+    def refuse(self, error):
+        known = {"robot3": "LookupException", "robot4": "ConnectivityException"}
+        name = self.asked.header.frame_id.partition("/")[0]
+        self.refused.publish(String(data=known.get(name, "ExtrapolationException")))
+
+    def place(self, msg):
+        self.asked = msg
+        super().place(msg)

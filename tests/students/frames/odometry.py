@@ -127,3 +127,26 @@ class Twice(Broadcaster):
     def hear(self, odom):
         super().hear(odom)
         super().hear(odom)
+
+
+class FirstOnly(Broadcaster):
+    """As if the robot stood."""
+
+    sent = False
+
+    def hear(self, odom):
+        if not self.sent:
+            super().hear(odom)
+        self.sent = True
+
+
+class FirstStamp(Broadcaster):
+    """Each place with the time of the first one."""
+
+    stamp = None
+
+    def frame(self, odom):
+        self.stamp = self.stamp or odom.header.stamp
+        sent = super().frame(odom)
+        sent.header.stamp = self.stamp
+        return sent

@@ -64,6 +64,15 @@ class SaysItAgain(Patient):
             self.publisher.publish(Float64(data=self.target))
 
 
+class FirstAtOnce(Patient):
+    """The first goes out as soon as it is known, as the task says."""
+
+    def take(self, msg):
+        super().take(msg)
+        self.target = self.next()
+        self.publisher.publish(Float64(data=self.target))
+
+
 def main_step_by_step():
     rclpy.init()
     node = rclpy.create_node("patient")
@@ -186,3 +195,25 @@ class LateByASecond(Patient):
 class Silent(Patient):
     def watch(self, msg):
         pass
+
+
+class FirstOnly(Patient):
+    """Sends the first, and lets that be all: nothing comes too early."""
+
+    def watch(self, msg):
+        if self.target is None:
+            super().watch(msg)
+
+
+class LongEnoughForAll(Patient):
+    """Begins at once, and 5.5 s later it is surely there."""
+
+    def watch(self, msg):
+        if self.target is None and self.positions:
+            self.send()
+            self.create_timer(5.5, self.send)
+
+    def send(self):
+        if self.positions:
+            self.target = self.next()
+            self.publisher.publish(Float64(data=self.target))

@@ -170,3 +170,13 @@ class EveryEighthPoint(Artist):
 class NeverSends(Artist):
     def draw(self, figure):
         pass
+
+
+class StaysWhereItIs(Artist):
+    """Who doesn't move touches no table."""
+
+    def places(self, figure):
+        return figure.points[:2]
+
+    def inverse(self, x, y):
+        return 0.0, 0.0

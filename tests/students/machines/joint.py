@@ -52,13 +52,13 @@ class Swinger(Node):
         self.publisher = self.create_publisher(Float64, "joint_commands", 10)
         self.create_subscription(JointState, "joint_states", self.on_joint, 10)
         self.create_timer(0.1, self.send)
-        self.fastest = 0.0
+        self.fastest, self.begin = 0.0, self.get_clock().now()
 
     def on_joint(self, joint):
         self.fastest = max(self.fastest, abs(joint.velocity[0]))
 
     def send(self):
-        now = self.get_clock().now().nanoseconds / 1e9
+        now = (self.get_clock().now() - self.begin).nanoseconds / 1e9
         self.publisher.publish(Float64(data=3.0 * math.sin(7.0 * now)))
 
 

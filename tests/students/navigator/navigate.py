@@ -14,7 +14,10 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.task import Future
+from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+from tf2_ros import Buffer, TransformException, TransformListener
 
 from tests.students.navigator._parts import (
     LATCHED,
@@ -45,16 +48,31 @@ class Mapper(Localized):
         self.plan_publisher = self.create_publisher(Path, "/plan", 10)
         self.create_subscription(OccupancyGrid, "/map", self.on_map, LATCHED)
         self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
+        self.mounts = {}
+        self.create_subscription(TFMessage, "/tf_static", self.on_mounts, LATCHED)
 
     def on_map(self, msg):
         self.info, self.known = msg.info, cells_of(msg)
         self.explained = inflate(self.known, 0.2 / msg.info.resolution)
         self.marked = self.known.copy()
 
+    def on_mounts(self, msg):
+        for transform in msg.transforms:
+            place, turn = transform.transform.translation, transform.transform.rotation
+            self.mounts[transform.child_frame_id] = place.x, place.y, 2 * math.atan2(turn.z, turn.w)
+
+    def lidar_place(self, scan):
+        if self.pose is None or scan.header.frame_id not in self.mounts:
+            return None
+        (x0, y0, yaw0), (x, y, yaw) = self.pose, self.mounts[scan.header.frame_id]
+        cos, sin = math.cos(yaw0), math.sin(yaw0)
+        return x0 + cos * x - sin * y, y0 + sin * x + cos * y, yaw0 + yaw
+
     def on_scan(self, scan):
-        if self.marked is None or self.pose is None:
+        place = self.lidar_place(scan)
+        if self.marked is None or place is None:
             return
-        x, y, yaw = self.pose
+        x, y, yaw = place
         ranges = np.array(scan.ranges)
         angles = yaw + scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         hit = (ranges > scan.range_min) & (ranges < self.looks)
@@ -240,6 +258,30 @@ class TurnsToTheHeading(Navigator):
         return super().arrived(goal_handle)
 
 
+class LooksItUp(Navigator):
+    """Asks tf2_ros for the lidar and for the robot."""
+
+    def __init__(self):
+        self.buffer = Buffer()
+        super().__init__()
+        self.listener = TransformListener(self.buffer, self)
+
+    def where(self, frame, stamp):
+        try:
+            found = self.buffer.lookup_transform("map", frame, stamp).transform
+        except TransformException:
+            return None
+        yaw = 2 * math.atan2(found.rotation.z, found.rotation.w)
+        return found.translation.x, found.translation.y, yaw
+
+    @property
+    def pose(self):
+        return self.where("base_link", Time())
+
+    def lidar_place(self, scan):
+        return self.where(scan.header.frame_id, scan.header.stamp)
+
+
 def main_with_try():
     """A tutorial's main(), with try, finally and a rate of its own."""
     rclpy.init()
@@ -259,6 +301,7 @@ main = main_of(Navigator)
 timer_main = main_of(TimerNavigator, SingleThreadedExecutor)
 replanning_main = main_of(ReplansAlways)
 turning_main = main_of(TurnsToTheHeading)
+looking_up_main = main_of(LooksItUp)
 
 
 class OtherName(Navigator):
@@ -274,6 +317,13 @@ class Blind(Navigator):
 
     def on_scan(self, scan):
         pass
+
+
+class IgnoresTheFrame(LooksItUp):
+    """Takes each scan as measured in base_link, whatever its header says."""
+
+    def lidar_place(self, scan):
+        return self.pose
 
 
 class WithoutInflation(Navigator):
@@ -388,6 +438,7 @@ class TellsTheStraightLine(Navigator):
 other_name = main_of(OtherName)
 other_type = main_of(OtherType)
 blind = main_of(Blind)
+ignores_the_frame = main_of(IgnoresTheFrame)
 without_inflation = main_of(WithoutInflation)
 goal_in_odom = main_of(GoalInOdom)
 forgets_to_succeed = main_of(ForgetsToSucceed)

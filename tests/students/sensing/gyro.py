@@ -5,8 +5,10 @@ import statistics
 
 import numpy as np
 import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.time import Time
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Float64
 
@@ -41,11 +43,12 @@ class GyroByStamps(Node):
     def __init__(self):
         super().__init__("gyro")
         self.count, self.bias, self.heading, self.last = 0, 0.0, 0.0, None
+        self.begin = self.get_clock().now().nanoseconds * 1e-9
         self.pub = self.create_publisher(Float64, "heading", 10)
         self.create_subscription(Imu, "imu/data", self.imu_callback, qos_profile_sensor_data)
 
     def imu_callback(self, msg):
-        stamp = msg.header.stamp.sec + msg.header.stamp.nanosec * 1e-9
+        stamp = msg.header.stamp.sec + msg.header.stamp.nanosec * 1e-9 - self.begin
         if stamp < 2.5:
             self.count += 1
             self.bias += (msg.angular_velocity.z - self.bias) / self.count
@@ -61,13 +64,14 @@ class GyroWithTimer(Node):
     def __init__(self):
         super().__init__("imu_heading")
         self.samples, self.heading = [], 0.0
+        self.drives_off = self.get_clock().now() + Duration(seconds=2)
         self.publisher = self.create_publisher(Float64, "/heading", 10)
         self.create_subscription(Imu, "/imu/data", self.integrate, 50)
         self.create_timer(0.1, self.publish)
 
     def integrate(self, msg):
         rate = math.degrees(msg.angular_velocity.z)
-        if self.get_clock().now().nanoseconds < 2e9:
+        if self.get_clock().now() < self.drives_off:
             self.samples.append(rate)
         else:
             self.heading += (rate - np.mean(self.samples)) / 100
@@ -81,10 +85,10 @@ def main():
     rclpy.init()
     node = rclpy.create_node("gyro")
     pub = node.create_publisher(Float64, "/heading", 10)
-    seen = []
+    seen, start = [], node.get_clock().now()
 
     def callback(msg):
-        now = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
+        now = (Time.from_msg(msg.header.stamp) - start).nanoseconds / 1e9
         yaw = math.degrees(2 * math.atan2(msg.orientation.z, msg.orientation.w))
         if now <= 2.5:
             seen.append((now, yaw))
@@ -159,11 +163,15 @@ class RoundsEachStep(Gyro):
 
 
 class OnlyAtTheEnd(Gyro):
+    def __init__(self):
+        super().__init__()
+        self.end = self.get_clock().now() + Duration(seconds=19)
+
     def look(self, msg):
         super().look(msg)
 
     def tell(self, yaw):
-        return math.degrees(yaw) if self.get_clock().now().nanoseconds > 19e9 else 0.0
+        return math.degrees(yaw) if self.get_clock().now() > self.end else 0.0
 
 
 class SmoothsTooMuch(Gyro):
@@ -179,8 +187,12 @@ class SmoothsTooMuch(Gyro):
 class WaitsTooLong(Gyro):
     """Says nothing until the bias is known, for 5 s."""
 
+    def __init__(self):
+        super().__init__()
+        self.known = self.get_clock().now() + Duration(seconds=5)
+
     def look(self, msg):
-        if self.get_clock().now().nanoseconds > 5e9:
+        if self.get_clock().now() > self.known:
             super().look(msg)
 
 

@@ -4,6 +4,7 @@ import math
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
@@ -187,8 +188,12 @@ class TooNear(WallFollower):
 class FallsAsleep(WallFollower):
     """Gets round, and after 70 s no longer looks ahead."""
 
+    def __init__(self):
+        super().__init__()
+        self.evening = self.get_clock().now() + Duration(seconds=70)
+
     def choose(self, command, ahead, wall):
-        asleep = self.get_clock().now().nanoseconds > 70e9
+        asleep = self.get_clock().now() > self.evening
         super().choose(command, math.inf if asleep else ahead, 0.5 if asleep else wall)
 
 

@@ -106,7 +106,7 @@ def main_that_asks_beside_spin(args=None):
         )
     node.create_timer(0.1, lambda: heart.publish(Bool(data=True)))
     client = node.create_client(AddTwoInts, "add_two_ints")
-    begin = 1.0
+    begin = node.get_clock().now().nanoseconds / 1e9 + 1.0
     while rclpy.ok():
         while node.get_clock().now().nanoseconds / 1e9 < begin:
             rclpy.spin_once(node)

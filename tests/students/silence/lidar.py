@@ -1,6 +1,7 @@
 """Nodes that count lost scans: right ones, and wrong ones named by their defect."""
 
 import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from rclpy.time import Time
@@ -148,11 +149,15 @@ class LagsBehind(Counter):
 class SaysItLater(Counter):
     """Keeps the sum to itself for some seconds."""
 
+    def __init__(self):
+        super().__init__()
+        self.time = self.get_clock().now() + Duration(seconds=5)
+
     def hear(self, scan):
         publisher, self.publisher = self.publisher, self
         super().hear(scan)
         self.publisher = publisher
-        shown = self.missed if self.get_clock().now().nanoseconds > 5e9 else 0
+        shown = self.missed if self.get_clock().now() > self.time else 0
         publisher.publish(Int32(data=shown))
 
     def publish(self, msg):

@@ -122,9 +122,11 @@ class StampedOnceInInit(ImuPublisher):
         msg.header.stamp = self.stamp
 
 
-class WallClock(ImuPublisher):
+class ClockOfTheMachine(ImuPublisher):
+    """What the monotonic clock shows has nothing to do with the time of day."""
+
     def fill(self, msg):
-        msg.header.stamp.sec = int(time.time())
+        msg.header.stamp.sec = int(time.monotonic())
 
 
 class GravityDownwards(ImuPublisher):

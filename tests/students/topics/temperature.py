@@ -68,8 +68,11 @@ class TenTimesASecond(Thermometer):
 
 
 class OnceOnly(Thermometer):
+    measured = False
+
     def measure(self):
-        if self.get_clock().now().nanoseconds < 1.5e9:
+        if not self.measured:
+            self.measured = True
             super().measure()
 
 
@@ -100,8 +103,11 @@ class AlwaysTheSame(Thermometer):
 
 
 class NewEveryFourSeconds(Thermometer):
+    count = 0
+
     def read(self):
-        return 20.0 + self.get_clock().now().nanoseconds // 4_000_000_000
+        self.count += 1
+        return 20.0 + self.count // 4
 
 
 class DrawnOnceInInit(Thermometer):

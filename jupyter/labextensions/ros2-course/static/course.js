@@ -3,6 +3,7 @@
 import { Dock, robotRenderer, ROBOT } from "./dock.js";
 import { Link } from "./link.js";
 import { imageRenderer } from "./images.js";
+import { patientExecutor } from "./kernels.js";
 import { nameTab, ways } from "./tabs.js";
 import { keepFresh } from "./start.js";
 import { validateButton } from "./validate.js";
@@ -13,7 +14,7 @@ export async function plugins(share) {
   const [notebooks, apputils, rendermime, widgets] = await Promise.all(
     ["@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets"].map(share));
   const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets };
-  return [{
+  return [patientExecutor(lab), {
     id: "ros2-course:notebooks",
     description: "The robot beside the code, Validate, and the names of the tabs.",
     autoStart: true,

@@ -2,6 +2,7 @@
 
 export const ROBOT = "application/vnd.ros2-course.robot+json";
 const NARROW = 900; // px of a notebook; below that the robot has its place under the code
+const LOW = 600; // px of a narrow one, as in a page at 200 %; below that it has a tab of its own
 let count = 0;
 
 export class Dock {
@@ -13,7 +14,7 @@ export class Dock {
   /** A button for the notebook's toolbar. */
   button() {
     return new this.lab.ToolbarButton({
-      label: "Robot", tooltip: "Show the robot beside the notebook", onClick: () => this.open(),
+      label: "Robot", tooltip: "Show the robot beside the notebook", onClick: () => this.reveal(),
     });
   }
 
@@ -21,7 +22,7 @@ export class Dock {
   show(bundle) {
     const plays = !("text/html" in bundle);
     this.shown = bundle;
-    if (plays && Object.keys(bundle).length) this.open();
+    if (plays && Object.keys(bundle).length) this.isLow() ? this.reveal() : this.open();
     else if (this.widget) this.fill();
   }
 
@@ -42,10 +43,23 @@ export class Dock {
     if (this.filled !== this.shown) this.fill();
   }
 
+  /** Bring the panel to the front, too, where it shares its place. */
+  reveal() {
+    this.open();
+    if (!this.widget.isVisible) this.app.shell.activateById(this.widget.id);
+  }
+
+  /** Whether notebook and robot have no room side by side, nor one above the other. */
+  isLow() {
+    const { clientWidth, clientHeight } = this.app.shell.node;
+    return clientWidth < NARROW && clientHeight < LOW;
+  }
+
   /** Beside the notebook, or among the robots of other notebooks. */
   place() {
     const others = [...this.app.shell.widgets("main")].filter(({ id }) => id.startsWith("ros2-course-robot-"));
     if (others.length) return { mode: "tab-after", ref: others[0].id };
+    if (this.isLow()) return { mode: "tab-after", ref: this.panel.id };
     return { mode: this.panel.node.clientWidth < NARROW ? "split-bottom" : "split-right", ref: this.panel.id };
   }
 
@@ -72,7 +86,7 @@ export function robotRenderer(lab, dockOf) {
   const view = new lab.Widget();
   view.addClass("ros2-course-beside");
   const button = Object.assign(document.createElement("button"), { textContent: "Show the robot", className: "jp-Button" });
-  button.addEventListener("click", () => dockOf(view.node)?.open());
+  button.addEventListener("click", () => dockOf(view.node)?.reveal());
   view.node.append("The robot plays in the panel “Robot”. ", button);
   view.renderModel = async () => {};
   return view;

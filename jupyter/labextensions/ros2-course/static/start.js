@@ -12,7 +12,7 @@ export function keepFresh(lab, app, panel, tracker) {
       await Promise.all([panel.context.ready, panel.sessionContext.ready]);
       const others = tracker.filter((other) => other !== panel && other.context.model.dirty);
       await Promise.all(others.map((other) => other.context.save()));
-      await lab.NotebookActions.runAll(panel.content, panel.sessionContext);
+      await lab.NotebookActions.runCells(panel.content, panel.content.widgets, panel.sessionContext);
     } finally {
       drawing = false;
     }

@@ -10,7 +10,7 @@ from rclpy.event_handler import EventHandler
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile
 
-from sim.nanoseconds import Nanoseconds
+from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.network import LAPTOP
 from sim.ros.engine.delivery.qos import FOREVER, queue_length, settled
 from sim.ros.engine.delivery.statuses import (
@@ -40,8 +40,8 @@ class Sent(NamedTuple):
     def information(self, now: Nanoseconds) -> dict[str, Any]:
         """What a subscription's second argument says of a message that is taken now."""
         return {
-            "source_timestamp": self.stamp,
-            "received_timestamp": now,
+            "source_timestamp": EPOCH + self.stamp,
+            "received_timestamp": EPOCH + now,
             "publication_sequence_number": self.number,
             "reception_sequence_number": None,
         }

@@ -12,13 +12,15 @@ import time
 
 from grader import Exercise
 from grader.cast import RemoteCast
+from grader.workspace import building
 from sim.ros.remote import RemoteLost
+from tests.exercises.builds import kept_builds
 from tests.exercises.score_tables import page, shown, students
 from tests.sim.ros.remote.apart import Apart
 
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "actions", "sensing"),
-    *("navigator", "silence", "joints", "frames", "control"),
+    *("navigator", "silence", "joints", "frames", "control", "packages", "safety"),
 )
 # They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")
@@ -55,8 +57,8 @@ def wrong(assignment: str, exercise: str) -> list[str]:
 
 def earned(apart: Apart, assignment: str, exercise: str, name: str, secret: str = "") -> str:
     """What a node gets that lives in the other process, as a table's page says it."""
-    with apart.serving(f"tests.students.{assignment}.{exercise}", name) as remote:
-        score = judge(assignment, exercise).judge(RemoteCast(remote, secret), secret)
+    with kept_builds(), apart.serving(f"tests.students.{assignment}.{exercise}", name) as remote:
+        score = judge(assignment, exercise).judge(RemoteCast(remote, secret, building.build), secret)
     return shown(name, score)
 
 

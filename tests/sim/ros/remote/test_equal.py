@@ -36,6 +36,7 @@ ALONE = {
     "actions": ("waiting_client", "blocking_client", "late_server"),
     "goals": ("two_servers", "sends_text", "asks_nobody", "sends_again"),
     "names": ("launches",),
+    "launched": ("twice",),
     "output": ("logs_at_every_level", "logs_debug_lines", "odd_texts"),
     "hangs": ("PingPong", "ZeroTimer", "EventNobodySets", "JoinsItself", "GuardCondition"),
 }  # fmt: skip

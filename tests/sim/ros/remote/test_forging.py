@@ -31,7 +31,7 @@ def test_a_clock_that_was_tampered_with_is_noticed(lost, name):
     with pytest.raises(RemoteLost) as found:
         drive(lost, name)
     assert found.value.reason == (
-        "The process with the nodes sent a callback's duration that is no number from 0 to 1e-09."
+        "The process with the nodes sent a callback's duration that is not a number from 0 to 1e-09."
     )
 
 

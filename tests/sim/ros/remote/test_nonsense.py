@@ -200,16 +200,16 @@ def test_an_event_that_can_t_be_ends_the_run(events, words):
         ({"busy_loops": [["/a", 3]]}, "a busy loop that is no text"),
         ({"unheard": [["/a", 3]]}, "a node's name that is no text"),
         ({"parameters": [["/a", 3, True]]}, "a name that is no text"),
-        ({"timers": [["/a", -1, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
-        ({"timers": [["/a", True, "b"]]}, "a timer's period that is no number from 0 to 1e+09"),
+        ({"timers": [["/a", -1, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
+        ({"timers": [["/a", True, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
         ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of no known kind"),
         (
             {"callbacks": [[0.5, 0, "/a", "b", "timer"]]},
-            "the beginning of a callback that is no number from 0 to 0",
+            "the beginning of a callback that is not a number from 0 to 0",
         ),
         (
             {"callbacks": [[0, 9, "/a", "b", "timer"]]},
-            "a callback's duration that is no number from 0 to 1e-09",
+            "a callback's duration that is not a number from 0 to 1e-09",
         ),
         ({"prints": [""] * 100_001}, "100001 prints at once; 100000 are allowed"),
     ],
@@ -313,7 +313,7 @@ def test_what_takes_too_long_to_enter_ends_the_run():
 
 def test_a_number_beyond_all_numbers_is_none():
     assert loses(claims(timers=[["/talker", 10**400, "tick"]])) == sent(
-        "a timer's period that is no number from 0 to 1e+09"
+        "a timer's period that is not a number from 0 to 1e+09"
     )
 
 

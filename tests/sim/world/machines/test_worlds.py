@@ -3,7 +3,7 @@
 import pytest
 
 from sim.world import Simulation, World, WorldError, simulate
-from sim.world.machines import Arm, ArmModel, CartPole, CartPoleModel, Joint, JointModel
+from sim.world.machines import Arm, ArmModel, CartPole, CartPoleModel, Joint, JointModel, Pond, PondModel
 from tests.sim.world.files import CARD, load
 
 
@@ -17,6 +17,7 @@ def machine_world(folder, table):
         ("[joint]\nlower = -1\nmax_velocity = 3", JointModel(lower=-1.0, max_velocity=3.0)),
         ("[arm.elbow]\nlength = 0.3", ArmModel(elbow=JointModel(length=0.3))),
         ("[cart_pole]\nangle_noise = 0.01", CartPoleModel(angle_noise=0.01)),
+        ("[pond]\nbackground = [1, 2, 3]", PondModel((1, 2, 3))),
     ],
 )
 def test_a_table_becomes_the_machine_of_the_world(tmp_path, table, machine):
@@ -24,7 +25,9 @@ def test_a_table_becomes_the_machine_of_the_world(tmp_path, table, machine):
     assert (world.machine, world.start, world.bodies) == (machine, (0.0, 0.0, 0.0), machine.bodies)
 
 
-@pytest.mark.parametrize(("name", "kind"), [("joint", Joint), ("arm", Arm), ("cart_pole", CartPole)])
+@pytest.mark.parametrize(
+    ("name", "kind"), [("joint", Joint), ("arm", Arm), ("cart_pole", CartPole), ("turtlesim", Pond)]
+)
 def test_a_named_world_is_simulated_by_its_machine_and_fits_its_picture(name, kind):
     world = World.load(name)
     scene = simulate(world, 1)
@@ -66,5 +69,5 @@ def test_a_machine_is_one_of_the_models(machine):
     with pytest.raises(WorldError) as caught:
         World("test", "", (-1, -1, 1, 1), machine=machine)
     assert str(caught.value) == (
-        f"World: machine is {machine!r}; write one of JointModel, ArmModel, CartPoleModel."
+        f"World: machine is {machine!r}; write one of JointModel, ArmModel, CartPoleModel, PondModel."
     )

@@ -1,0 +1,195 @@
+"""The three programs of the delivery robot, as the lesson builds them, each with a main for a launch file."""
+
+import argparse
+import math
+
+import rclpy
+from floor import KEPT, Floor, far_from, flat, listed, points_of, seconds, stamped, steer
+from geometry_msgs.msg import PoseArray, PoseStamped, Twist
+from nav_msgs.msg import OccupancyGrid
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import BatteryState, LaserScan
+from std_msgs.msg import String
+from tf2_ros import Buffer, TransformException, TransformListener
+from warehouse_msgs.msg import Order
+
+
+class Perception(Node):
+    """Says where the robot is, what stands near it, and where somebody walks or walked a moment ago."""
+
+    def __init__(self):
+        super().__init__("perception")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.floor, self.seen, self.walked, self.scans = None, [], [], 0
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.pose_pub = self.create_publisher(PoseStamped, "/robot_pose", 10)
+        self.people_pub = self.create_publisher(PoseArray, "/people", 10)
+        self.obstacles_pub = self.create_publisher(PoseArray, "/obstacles", 10)
+
+    def on_map(self, grid):
+        """Keep the map."""
+        self.floor = Floor(grid)
+
+    def on_scan(self, scan):
+        """Every other scan: find the robot, and look for what the map doesn't show."""
+        self.scans += 1
+        if self.floor is None or self.scans % 2:
+            return
+        try:
+            there = self.buffer.lookup_transform("map", "base_scan", scan.header.stamp).transform
+        except TransformException:
+            return  # not known yet; the next scan comes soon
+        pose = there.translation.x, there.translation.y, 2 * math.atan2(there.rotation.z, there.rotation.w)
+        strange = self.floor.strange(points_of(scan, pose))
+        self.tell(scan.header.stamp, pose, strange)
+
+    def tell(self, stamp, pose, strange):
+        """Publish what was seen, with the time at which it was seen."""
+        now = seconds(stamp)
+        before = [points for when, points in self.seen if now - when > 0.4]
+        self.seen = [*((when, points) for when, points in self.seen if now - when < 1.0), (now, strange)]
+        moved = far_from(strange, before[0] if before else [], 0.25)
+        later = [(when, point) for when, point in self.walked if now - when < 5.0]
+        self.walked = [(when, point) for when, point in later if far_from([point], moved, 0.2)]
+        self.walked += [(now, point) for point in moved]
+        self.obstacles_pub.publish(listed(stamp, strange))
+        self.people_pub.publish(listed(stamp, [point for _, point in self.walked]))
+        self.pose_pub.publish(stamped(stamp, *pose))
+
+
+def choose(state, share, orders, now):
+    """What to do next: "deliver", "charge", "fetch" or "rest", and the order that is meant, or None."""
+    for order in orders:
+        if order.status == Order.PICKED_UP:
+            return "deliver", order
+    if share < 0.35 or (state == "charge" and share < 0.9):
+        return "charge", None
+    waiting = [order for order in orders if order.status == Order.WAITING]
+    in_time = [order for order in waiting if seconds(order.deadline) - now > 40.0]
+    if in_time:
+        return "fetch", min(in_time, key=lambda order: (seconds(order.deadline), order.id))
+    return "rest", None
+
+
+class Decision(Node):
+    """Chooses twice a second what to do; says where that is on /goal_pose."""
+
+    def __init__(self):
+        super().__init__("decision")
+        self.orders, self.share, self.dock, self.state = {}, 1.0, None, "rest"
+        self.create_subscription(Order, "/orders", self.on_order, KEPT)
+        self.create_subscription(BatteryState, "/battery_state", self.on_battery, 10)
+        self.create_subscription(PoseStamped, "/dock_pose", self.on_dock, KEPT)
+        self.goal_pub = self.create_publisher(PoseStamped, "/goal_pose", 10)
+        self.state_pub = self.create_publisher(String, "/state", 10)
+        self.create_timer(0.5, self.decide)
+
+    def on_order(self, order):
+        """An order, or what has become of it."""
+        self.orders[order.id] = order
+
+    def on_battery(self, battery):
+        """How full the battery is, from 0 to 1."""
+        self.share = battery.percentage
+
+    def on_dock(self, dock):
+        """Where the charger is."""
+        self.dock = dock
+
+    def decide(self):
+        """Choose, and say so."""
+        if self.dock is None:
+            return
+        now = seconds(self.get_clock().now().to_msg())
+        before = self.state
+        self.state, order = choose(before, self.share, self.orders.values(), now)
+        if self.state != before:
+            self.get_logger().info(f"{before} -> {self.state}")
+        places = {"fetch": order and order.pickup, "deliver": order and order.delivery}
+        self.goal_pub.publish(places.get(self.state, self.dock))
+        self.state_pub.publish(String(data=self.state))
+
+
+class Control(Node):
+    """Drives to /goal_pose, and stands while somebody walks near or while it knows too little."""
+
+    def __init__(self):
+        super().__init__("control")
+        self.floor = self.goal = self.pose = None
+        self.people, self.obstacles, self.heard, self.way = [], [], -math.inf, []
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
+        self.create_subscription(PoseArray, "/people", self.on_people, 10)
+        self.create_subscription(PoseArray, "/obstacles", self.on_obstacles, 10)
+        self.create_subscription(PoseStamped, "/goal_pose", self.on_goal, 10)
+        self.create_subscription(PoseStamped, "/robot_pose", self.on_pose, 10)
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+        self.create_timer(1.0, self.plan)
+
+    def on_map(self, grid):
+        """Keep the map."""
+        self.floor = Floor(grid)
+
+    def on_people(self, people):
+        """Where somebody walks."""
+        self.people = [flat(pose)[:2] for pose in people.poses]
+
+    def on_obstacles(self, obstacles):
+        """What stands where the map has nothing."""
+        self.obstacles = [flat(pose)[:2] for pose in obstacles.poses]
+
+    def on_goal(self, goal):
+        """Where to go; a new place needs a new plan."""
+        place = flat(goal.pose)[:2]
+        if place != self.goal:
+            self.goal, self.way = place, []
+
+    def on_pose(self, message):
+        """Where the robot is, and when it was seen there."""
+        self.pose, self.heard = flat(message.pose), seconds(message.header.stamp)
+
+    def plan(self):
+        """Once a second: a new way, past what stands there now."""
+        if None not in (self.floor, self.goal, self.pose):
+            self.way = self.floor.way(self.pose[:2], self.goal, self.obstacles)
+
+    def is_safe(self):
+        """Whether what is known is new, and nobody walks near."""
+        age = seconds(self.get_clock().now().to_msg()) - self.heard
+        return age < 0.5 and all(math.dist(self.pose[:2], place) > 1.5 for place in self.people)
+
+    def drive(self):
+        """Ten times a second: a bit further along the way, or stand."""
+        command = Twist()
+        if self.way and self.is_safe():
+            while len(self.way) > 1 and math.dist(self.pose[:2], self.way[0]) < 0.25:
+                self.way.pop(0)
+            if math.dist(self.pose[:2], self.goal) > 0.05:
+                command.linear.x, command.angular.z = steer(self.pose, self.way[0])
+        self.publisher.publish(command)
+
+
+PROGRAMS = {"perception": Perception, "decision": Decision, "control": Control}
+
+
+def main(name):
+    """Run one of the three, by its name, until it is told to end."""
+    rclpy.init()
+    node = PROGRAMS[name]()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", choices=PROGRAMS)
+    main(parser.parse_known_args()[0].program)  # the others are ROS's

@@ -1,0 +1,139 @@
+"""What a delivery robot did in a run in a warehouse, as plain data: for checks, and to compare robots."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from grader.checks.motion import travelled
+from sim.evidence import INFRASTRUCTURE_TOPICS, Recording, Seconds
+from sim.world import Contact, World
+from sim.world.clearance import clearance
+
+_SHELF = 0.005  # m; a touch this near to a box that stands still is one of a shelf
+
+
+class Job(NamedTuple):
+    """One order: when it came, by when it was wanted, and when it was picked up and over; None is never.
+
+    status: waiting, picked up, delivered, expired or canceled, as it was at the end.
+    """
+
+    id: int
+    asked: Seconds
+    deadline: Seconds
+    picked_up: Seconds | None
+    over: Seconds | None
+    status: str
+
+
+class Program(NamedTuple):
+    """What one of the student's nodes did: the messages it sent by topic, what it hears, and its errors."""
+
+    sent: dict[str, int]
+    hears: tuple[str, ...]
+    errors: int
+
+
+class Shift(NamedTuple):
+    """A run in a warehouse.
+
+    jobs: all orders, oldest first. touched: how often the robot touched a wall, shelf, box, circle, robot or
+    person; met_person: when it first touched one (s), or None. battery: (stamp, share from 0 to 1), once a
+    second. way: what the robot drove, m. programs: by node.
+    """
+
+    jobs: tuple[Job, ...]
+    touched: dict[str, int]
+    met_person: Seconds | None
+    battery: tuple[tuple[Seconds, float], ...]
+    way: float
+    programs: dict[str, Program]
+
+    @property
+    def delivered(self) -> tuple[Job, ...]:
+        """The orders that were delivered, oldest first."""
+        return tuple(job for job in self.jobs if job.status == "delivered")
+
+    def to_data(self) -> dict[str, Any]:
+        """All of it in dicts, lists, texts and numbers, for JSON."""
+        programs = {name: program._asdict() for name, program in self.programs.items()}
+        return self._asdict() | {"jobs": [job._asdict() for job in self.jobs], "programs": programs}
+
+
+def shift(recording: Recording) -> Shift:
+    """What happened in a warehouse; of orders and batteries only what the world's own programs said counts.
+
+    Raises ValueError for a run without a warehouse.
+    """
+    world = recording.world
+    if world is None or world.warehouse is None:
+        raise ValueError('this run has no warehouse: give run() a world such as World.generate("warehouse")')
+    people = [contact.stamp for contact in recording.contacts if contact.what == "person"]
+    states = [item for item in recording.messages("/battery_state") if item.ours]
+    return Shift(
+        jobs=_jobs(recording),
+        touched=dict(sorted(Counter(_touched(world, contact) for contact in recording.contacts).items())),
+        met_person=people[0] if people else None,
+        battery=tuple((item.stamp, item.message.percentage) for item in states),
+        way=travelled(recording),
+        programs=_programs(recording),
+    )
+
+
+def _jobs(recording: Recording) -> tuple[Job, ...]:
+    jobs: dict[int, Job] = {}
+    for item in recording.messages("/orders"):
+        if not item.ours:
+            continue
+        order, stamp = item.message, item.stamp
+        status = _statuses(order)[order.status]
+        if status == "waiting":
+            left = order.deadline.sec - order.header.stamp.sec
+            left += (order.deadline.nanosec - order.header.stamp.nanosec) / 1e9
+            jobs[order.id] = Job(order.id, stamp, round(stamp + left, 9), None, None, status)
+            continue
+        taken = {"picked_up": stamp} if status == "picked up" else {"over": stamp}
+        jobs[order.id] = jobs[order.id]._replace(status=status, **taken)
+    return tuple(jobs.values())
+
+
+def _statuses(order: Any) -> dict[int, str]:
+    """The values of `status`, in words."""
+    names = ("WAITING", "PICKED_UP", "DELIVERED", "EXPIRED", "CANCELED")
+    return {getattr(order, name): name.lower().replace("_", " ") for name in names}
+
+
+def _touched(world: World, contact: Contact) -> str:
+    """What was touched: boxes that stand still are shelves."""
+    if contact.what != "box":
+        return contact.what
+    shelves = dataclasses.replace(world, walls=(), circles=())
+    gap = clearance(shelves, np.array([contact.x]), np.array([contact.y]))[0]
+    return "shelf" if gap < _SHELF else "box"
+
+
+def _programs(recording: Recording) -> dict[str, Program]:
+    nodes = [name for name in recording.graph.nodes if not recording.is_ours(name)]
+    sent = Counter((item.sender, item.topic) for item in recording.messages() if not item.ours)
+    errors = Counter(error.node for error in recording.errors)
+    return {
+        node: Program(
+            sent={topic: count for (sender, topic), count in sorted(sent.items()) if sender == node},
+            hears=tuple(
+                sorted(
+                    {
+                        end.name
+                        for end in recording.graph.endpoints
+                        if (end.kind, end.node) == ("subscription", node)
+                        and end.name not in INFRASTRUCTURE_TOPICS
+                    }
+                )
+            ),
+            errors=errors[node],
+        )
+        for node in nodes
+    }

@@ -1,0 +1,72 @@
+"""What goes wrong where a package's program is looked for and begins, as `rules` has rclpy's exceptions."""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePosixPath
+
+from grader.diagnosis.rules import Rule
+from sim.evidence import CallbackError, Recording
+
+PACKAGE_RULES = (
+    Rule(
+        "ExecutableNotFound", r"installed into bin",
+        "Mend setup.cfg: [develop] has script_dir, [install] has install_scripts, both $base/lib/ and the "
+        "package's name.",
+    ),
+    Rule(
+        "ExecutableNotFound", r"",
+        "A command is a name in 'console_scripts' of setup.py: 'NAME = PACKAGE.MODULE:FUNCTION'. Look at "
+        "each letter of NAME.",
+    ),
+    Rule(
+        "RCLInvalidROSArgsError", r"Couldn't parse params file",
+        "A file of settings begins with a node's name, or /**. One step further right stands "
+        "ros__parameters, with two underscores; one more, the names with their values.",
+    ),
+    Rule(
+        "ModuleNotFoundError", r"^No module named '([\w.]+)\.py'",
+        "Imports and entry points name a module without the .py of its file: `{0}`.",
+    ),
+    Rule(
+        "SubstitutionFailure", r"^executable '(\S+)' not found on the libexec",
+        "A Node of the launch file has executable={0!r}. It has to be a command of the package: a name in "
+        "'console_scripts' of its setup.py.",
+    ),
+    Rule(
+        "NoLaunchFile", r"file '([^']+)' was not found",
+        "{0} was not installed. In setup.py, data_files needs ('share/' + package_name + '/launch', "
+        "glob('launch/*')).",
+    ),
+)  # fmt: skip
+
+
+def own_module(error: CallbackError, recording: Recording) -> str:
+    """What to do where a package's program finds no module or function, and the package has one; else ""."""
+    sources = getattr(getattr(recording, "package", None), "sources", {})
+    lost = re.match(r"module '(\w+)\.([\w.]+)' has no attribute '(\w+)'", error.text)
+    if error.type == "AttributeError" and lost and f"{lost[1]}/{lost[1]}/__init__.py" in sources:
+        return (
+            f"Somebody asks {lost[1]}.{lost[2]} for {lost[3]}, and it has none. Is it an entry point in "
+            "setup.py? Behind its `:` stands the function that begins the program."
+        )
+    found = re.match(r"No module named '([\w.]+)'", error.text)
+    if error.type != "ModuleNotFoundError" or not found:
+        return ""
+    name = found[1]
+    for path in map(PurePosixPath, sources):
+        package, *between = path.parts[1:-1] or [""]
+        whole = ".".join([package, *between, path.stem])
+        if path.suffix != ".py" or not package:
+            continue
+        if name in (whole, package):
+            return (
+                f"{path.relative_to(path.parts[0])} was not installed. In setup.py, "
+                "packages=find_packages(exclude=['test']) names each folder that has an __init__.py."
+            )
+        if name == path.stem:
+            return (
+                f"A package's own modules are found by the package's name, in an import and in an entry "
+                f"point: {whole}, and not {name}."
+            )
+    return ""

@@ -1,0 +1,91 @@
+"""A launch file that starts one program for each of two robots, under other names and with other settings."""
+
+from __future__ import annotations
+
+import functools
+
+from grader.checks import Missed, publishes
+from grader.exercise import Exercise, Scenario
+from grader.exercises.packages.looks import names_what_it_imports
+from grader.workspace import place
+from grader.workspace.package import PackageRun
+from sim import World
+
+WALL = 2.0  # m: where the wall ahead is; all robots start at 0
+GAPS = {"left": 0.5, "right": 1.0}  # m
+ASKED = 0.8  # m: for the left one, when it is asked for
+NEAR, MOVED = 0.08, 0.02  # m
+LANES = World.from_data(
+    {
+        "name": "lanes",
+        "card": "Picture: Three lanes with a robot in each; 2 m ahead of them is a wall.",
+        "start": [0.0, 0.0, 0.0],
+        "bounds": [-0.5, -1.8, WALL, 1.8],
+        "walls": [[[-0.5, 1.8], [WALL, 1.8], [WALL, -1.8], [-0.5, -1.8]]],
+        "robots": [{"name": "left", "start": [0.0, 1.2, 0.0]}, {"name": "right", "start": [0.0, -1.2, 0.0]}],
+    }
+)
+
+
+def _launch(*words: str) -> functools.partial:
+    return functools.partial(place.launched, "convoy", "two.launch.py", *words)
+
+
+convoy = Exercise(
+    "convoy",
+    "One launch file, two robots",
+    package="convoy",
+    scenarios=[
+        Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
+        Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={ASKED}")),
+    ],
+)
+
+
+@convoy.check(
+    6,
+    guess="It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.",
+)
+def drives_both(run: PackageRun) -> None:
+    """`ros2 launch convoy two.launch.py` drives both robots, by /left/cmd_vel and /right/cmd_vel."""
+    for side in GAPS:
+        publishes(run, f"/{side}/cmd_vel", "geometry_msgs/msg/Twist")
+
+
+@convoy.check(2, after=drives_both)
+def leaves_the_third_alone(run: PackageRun) -> None:
+    """The robot in the middle is nobody's: it stays where it is."""
+    way = abs(run.path[-1].x - run.path[0].x)
+    if way > MOVED:
+        hint = "A program too many drives it: each Node of the launch file has a namespace, left or right."
+        raise Missed("a middle robot that stands", f"{way:.2f} m", hint, picture="path")
+
+
+@convoy.check(4, after=drives_both)
+def right_keeps_its_distance(run: PackageRun) -> None:
+    """The right robot stops 1 m before the wall, whatever is asked for."""
+    _stops(run, "right", GAPS["right"], 'Its Node has parameters=[{"gap": 1.0}].')
+
+
+@convoy.check(4, after=drives_both, only="plain")
+def left_keeps_its_distance(run: PackageRun) -> None:
+    """The left robot stops 0.5 m before the wall if nothing else is asked for."""
+    _stops(run, "left", GAPS["left"], 'DeclareLaunchArgument("gap", default_value="0.5") says so.')
+
+
+@convoy.check(4, after=drives_both, only="asked")
+def left_obeys_the_argument(run: PackageRun) -> None:
+    """With the argument gap:=0.8 the left robot stops 0.8 m before the wall."""
+    _stops(run, "left", ASKED, 'Its Node has parameters=[{"gap": LaunchConfiguration("gap")}].')
+
+
+@convoy.check(2)
+def names_its_needs(run: PackageRun) -> None:
+    """package.xml names each ROS package that its modules and its launch file import."""
+    names_what_it_imports(run)
+
+
+def _stops(run: PackageRun, side: str, gap: float, hint: str) -> None:
+    left = WALL - run.tracks[side][-1].x
+    if abs(left - gap) > NEAR:
+        raise Missed(f"the {side} robot {gap:g} m before the wall", f"{left:.2f} m", hint, picture="path")

@@ -1,0 +1,76 @@
+"""What can be seen of a package without running it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from grader.checks import Missed
+from grader.workspace.package import Package, PackageRun
+
+ROS = re.compile(r"rclpy|tf2_ros|launch|launch_ros|std_srvs|\w+_msgs|\w+_interfaces")
+TESTS = ("test", "tests")
+
+
+def package_of(run: PackageRun) -> Package:
+    """The package of a run. Raises ValueError for a run without one: our mistake."""
+    if getattr(run, "package", None) is None:
+        raise ValueError("this exercise has no package: give it one")
+    return run.package
+
+
+def names_what_it_imports(run: PackageRun) -> None:
+    """Miss a package that its modules or launch files import and package.xml doesn't name."""
+    package = package_of(run)
+    imported = {
+        name
+        for path, data in package.sources.items()
+        if path.endswith(".py") and path.split("/")[1] not in (*TESTS, "setup.py")
+        for name in imports(data)
+    }
+    wanted = sorted({name.split(".")[0] for name in imported if ROS.fullmatch(name.split(".")[0])})
+    left_out = [name for name in wanted if name not in package.description.needs]
+    if left_out:
+        raise Missed(
+            f"<depend> or <exec_depend> for each of {', '.join(wanted)} in package.xml",
+            f"none for {', '.join(left_out)}",
+            "Who installs your package installs what package.xml names. Here all of ROS is there, so it runs "
+            f"all the same. Add <depend>{left_out[0]}</depend>.",
+        )
+
+
+def installs_by_itself(run: PackageRun) -> None:
+    """Miss what colcon had to install in place of setup.py, as it says."""
+    name = package_of(run).description.name
+    pairs = {
+        "marker": f"('share/ament_index/resource_index/packages', ['resource/{name}'])",
+        "package.xml": f"('share/{name}', ['package.xml'])",
+    }
+    for line in package_of(run).built.said.splitlines():
+        if "explicitly install" in line:
+            what = next((what for what in pairs if what in line), "package.xml")
+            raise Missed(
+                f"{pairs[what]} in data_files",
+                f"none: colcon did it in its place, and says that it won't for ever ({what})",
+                "Add this pair to data_files in setup.py, with a comma after it.",
+            )
+
+
+def imports(data: bytes) -> Iterator[str]:
+    """The full names of what a module imports; `.name` for what lies beside it."""
+    for node in ast.walk(parsed(data)):
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            module = "." * node.level + (node.module or "")
+            yield module
+            yield from (f"{module.rstrip('.')}.{name.name}" for name in node.names)
+
+
+def parsed(data: bytes) -> ast.Module:
+    """The code of a module; none where it can't be read."""
+    try:
+        return ast.parse(data)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])

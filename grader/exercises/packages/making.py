@@ -1,0 +1,56 @@
+"""A package from nothing: three files, and what colcon makes of them."""
+
+from __future__ import annotations
+
+import functools
+
+from grader.checks import Missed, publishes, rate
+from grader.exercise import Exercise, Scenario
+from grader.exercises.packages.looks import installs_by_itself, names_what_it_imports
+from grader.workspace import place
+from grader.workspace.package import PackageRun
+
+TOPIC = "/greeting"
+
+greeter = Exercise(
+    "greeter",
+    "A package from nothing",
+    package="greeter",
+    scenarios=[Scenario(seconds=6, prepare=functools.partial(place.program, "greeter", "hello"))],
+)
+
+
+@greeter.check(6, guess="Compare the topic's name with the task, letter by letter.")
+def says_hello(run: PackageRun) -> None:
+    """`ros2 run greeter hello` publishes String messages on /greeting."""
+    publishes(run, TOPIC, "std_msgs/msg/String")
+
+
+@greeter.check(3, after=says_hello)
+def twice_a_second(run: PackageRun) -> None:
+    """A greeting comes twice a second."""
+    rate(run, TOPIC, 2.0)
+
+
+@greeter.check(3, after=says_hello)
+def counts(run: PackageRun) -> None:
+    """The greetings are hello 1, hello 2, hello 3 and so on."""
+    for number, heard in enumerate(run.messages(TOPIC), 1):
+        if heard.message.data != f"hello {number}":
+            raise Missed(
+                f"“hello {number}”",
+                f"“{heard.message.data[:60]}” at {heard.stamp:g} s",
+                "Count in the node: a number that is 1 at first, and 1 more after each message.",
+            )
+
+
+@greeter.check(4)
+def names_its_needs(run: PackageRun) -> None:
+    """package.xml names each ROS package that the program imports."""
+    names_what_it_imports(run)
+
+
+@greeter.check(4)
+def brings_its_description(run: PackageRun) -> None:
+    """setup.py installs package.xml, and the marker by which ROS finds the package."""
+    installs_by_itself(run)

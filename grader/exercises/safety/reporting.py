@@ -1,0 +1,162 @@
+"""An exercise on diagnostics: a program that says how the robot is, so that others can act on it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks import rate as keeps_rate
+from grader.exercise import Exercise
+from grader.exercises.safety.moving import last, ours
+from grader.exercises.safety.partners import BATTERY, MOTOR, Patient
+from sim.evidence import Heard, Recording, Seconds, since_start
+
+TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
+OK, WARN, ERROR, STALE = range(4)
+WORDS = ("OK", "WARN", "ERROR", "STALE")
+YOUNG, OLD, STEADY, NOW = 0.85, 1.15, 0.25, 0.1  # s
+EXACT = 0.51  # of a percent, of a degree
+
+health = Exercise("health", "How are you?", seconds=13, companions=[Patient], seeds=(1, 2))
+
+
+class Report(NamedTuple):
+    """What was said of one part, and what is true: None where it is about to change."""
+
+    stamp: Seconds
+    name: str
+    said: int
+    true: int | None
+    value: str | None
+    number: float
+    age: Seconds
+
+
+@health.check(3)
+def reports(run: Recording) -> None:
+    """Once a second a DiagnosticArray is on /diagnostics, with a status `battery` and a status `motor`."""
+    with hinting(guess="Two subscriptions, a publisher, and a timer with a period of 1.0 s."):
+        subscribes(run, BATTERY, "sensor_msgs/msg/BatteryState")
+        subscribes(run, MOTOR, "sensor_msgs/msg/Temperature")
+        arrays = publishes(run, TOPIC, TYPE, at_least=3)
+    for heard in arrays:
+        names = sorted(status.name for status in heard.message.status)
+        if names != ["battery", "motor"]:
+            raise Missed("the statuses battery and motor", ", ".join(names) or "none", _names_hint(names))
+    keeps_rate(run, TOPIC, 1.0)
+
+
+@health.check(6, after=reports)
+def knows_the_level(run: Recording) -> None:
+    """The level of each is OK, WARN or ERROR, as its last number says."""
+    _compare([one for one in _reports(run) if one.true not in (None, STALE)])
+
+
+@health.check(4, after=knows_the_level)
+def knows_silence(run: Recording) -> None:
+    """What has said nothing for more than 1 s is STALE, and nothing else is."""
+    _compare([one for one in _reports(run) if one.true == STALE])
+
+
+@health.check(3, after=knows_the_level)
+def gives_the_number(run: Recording) -> None:
+    """The values hold the last number: `percent` of the battery (0 to 100), `celsius` of the motor."""
+    for one in _reports(run):
+        if one.true in (None, STALE):
+            continue
+        key = "percent" if one.name == "battery" else "celsius"
+        if not abs(_number(one.value) - one.number) < EXACT:
+            saw = "no such key" if one.value is None else repr(one.value)
+            expected = f"{key} {one.number:.3g} in the values of {one.name} at {one.stamp:.3g} s"
+            raise Missed(expected, saw, _value_hint(one))
+
+
+@health.check(2, after=knows_the_level)
+def stamps_it(run: Recording) -> None:
+    """The header of each array says when it was made."""
+    for heard in publishes(run, TOPIC):
+        stamp = since_start(heard.message.header.stamp)
+        if not abs(heard.stamp - stamp) < NOW:
+            saw = "an empty stamp" if heard.message.header.stamp.sec == 0 else f"{stamp:.3g} s"
+            hint = "msg.header.stamp = self.get_clock().now().to_msg()"
+            raise Missed(f"{heard.stamp:.3g} s in header.stamp", saw, hint)
+
+
+def _reports(run: Recording) -> Iterator[Report]:
+    said = {"battery": ours(run, BATTERY, at_least=5), "motor": ours(run, MOTOR, at_least=5)}
+    for heard in publishes(run, TOPIC, TYPE):
+        for status in heard.message.status:
+            now, known = heard.stamp, said.get(status.name, [])
+            news, before = last(known, now), last(known, now - STEADY)
+            if news is None:
+                continue  # it has just begun
+            number, age = _measured(news), now - news.stamp
+            changes = before is not None and _measured(before) != number and age < STEADY
+            true = STALE if age > OLD else None if changes or age > YOUNG else _level(status.name, number)
+            key = "percent" if status.name == "battery" else "celsius"
+            value = next((pair.value for pair in status.values if pair.key == key), None)
+            yield Report(now, status.name, int.from_bytes(status.level, "little"), true, value, number, age)
+
+
+def _measured(heard: Heard) -> float:
+    """In percent, or in degrees."""
+    return (
+        heard.message.percentage * 100 if hasattr(heard.message, "percentage") else heard.message.temperature
+    )
+
+
+def _level(name: str, number: float) -> int:
+    if name == "battery":
+        return ERROR if number < 10 else WARN if number < 30 else OK
+    return ERROR if number >= 80 else WARN if number >= 60 else OK
+
+
+def _compare(reports: list[Report]) -> None:
+    """Raises Missed at the first report that is wrong, and where there is none."""
+    if not reports:
+        raise Missed("a report in each state of the battery and the motor", "none in this one")
+    for one in reports:
+        if one.said != one.true:
+            expected = f"{WORDS[one.true]} for {one.name} at {one.stamp:.3g} s: {_state(one)}"
+            saw = WORDS[one.said] if one.said < len(WORDS) else f"level {one.said}"
+            raise Missed(expected, saw, _level_hint(one))
+
+
+def _state(one: Report) -> str:
+    unit = "%" if one.name == "battery" else "degrees"
+    return f"nothing for {one.age:.2g} s" if one.true == STALE else f"{one.number:.3g} {unit}"
+
+
+def _level_hint(one: Report) -> str:
+    if one.true == STALE:
+        return "The last number is no news any more: remember when it came, and ask how long ago that is."
+    if one.said == STALE:
+        return "News did come: keep the time of the last one for each of the two, by the clock, in seconds."
+    if one.name == "battery":
+        return (
+            "percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one first."
+        )
+    return "From 60 degrees on it is WARN, from 80 on ERROR: ask for the worse one first."
+
+
+def _names_hint(names: list[str]) -> str:
+    if len(names) < 2:
+        return "Both in one array: msg.status = [battery, motor]."
+    return "Each DiagnosticStatus has a name: battery for the one, motor for the other."
+
+
+def _number(text: str | None) -> float:
+    try:
+        return float(text or "nan")
+    except ValueError:
+        return math.nan
+
+
+def _value_hint(one: Report) -> str:
+    if one.value is None:
+        return 'status.values = [KeyValue(key=..., value=...)], with the keys "percent" and "celsius".'
+    if one.name == "battery" and abs(_number(one.value) * 100 - one.number) < EXACT:
+        return "In percent, please: 100 times the percentage of a BatteryState."
+    return "A KeyValue holds text, and nothing but the number: str(...) of it, without a unit."

@@ -1,0 +1,81 @@
+"""Compares a certificate with the receipt, and with the marks as they are now."""
+from collections.abc import Callable
+
+from grader.marking.certificate.certificate import Certificate, day, score
+from grader.marking.certificate.marks import Standing
+from grader.marking.certificate.page import NUMBER, read_page
+from grader.marking.certificate.receipt import Issued, Receipt
+from grader.marking.command.progress import printable
+from grader.marking.errors import NotConfirmed
+
+Now = Callable[[str], Standing]  # of a student
+LONGEST = 80  # characters of a stranger's words
+
+
+def confirm_page(page: str, receipt: Receipt, now: Now | None = None) -> str:
+    """One sentence without a full stop: what is confirmed of a page. now: asks the class, where it is there.
+
+    Raises NotConfirmed with what does not agree.
+    """
+    words = read_page(page)
+    number = words.pop(NUMBER, "")
+    if not number:
+        raise NotConfirmed("this is not a certificate of this course: it has no number")
+    issued = receipt.find(printable(number))
+    _compare(words, issued.certificate.shown())
+    if receipt.seal_of_page(page) != issued.page:
+        what = "name and marks agree, but something else on the page was changed"
+        raise NotConfirmed(f"{what}: ask for the file as it was issued")
+    return _confirmed(number, issued, now)
+
+
+def confirm_number(number: str, receipt: Receipt, now: Now | None = None) -> str:
+    """The same for a printed page, of which one has the number: with the marks, for the reader to compare."""
+    issued = receipt.find(number)
+    marks = "; ".join(f"{mark.title}: {score(mark)}" for mark in issued.certificate.marks)
+    return f"{_confirmed(number, issued, now)}. Compare with the page: {marks}"
+
+
+def _compare(seen: dict[str, str], issued: dict[str, str]) -> None:
+    """Raise NotConfirmed with the first thing on the page that is not what was issued."""
+    for what, words in issued.items():
+        if what not in seen:
+            raise NotConfirmed(f"the page lacks the {what}, which was {quoted(words)} when it was issued")
+        if seen[what] != words:
+            was = f"and was {quoted(words)} when it was issued"
+            raise NotConfirmed(f"the {what} is {quoted(seen[what])} on the page, {was}")
+    for what in seen:
+        if what not in issued:
+            raise NotConfirmed(f"the page has a {printable(what)}, which was not there when it was issued")
+
+
+def _confirmed(number: str, issued: Issued, now: Now | None) -> str:
+    certificate = issued.certificate
+    again = _changes(certificate, now(certificate.student)) if now else []
+    who = f"{quoted(certificate.name)} ({quoted(certificate.student)})"
+    passed = f"{certificate.shown()['number of assignments']} assignments passed"
+    rest = f"; marked again since, with the same points: {', '.join(again)}" if again else ""
+    return f"number {number} was issued to {who} on {day(certificate.issued)}, {passed}{rest}"
+
+
+def _changes(certificate: Certificate, standing: Standing) -> list[str]:
+    """The assignments with another result and the same points. Raises NotConfirmed for other points."""
+    again = []
+    for mark in certificate.marks:
+        had = f"{mark.assignment} had {score(mark)} points on {day(certificate.issued)}"
+        if doubt := standing.doubts.get(mark.assignment):
+            raise NotConfirmed(f"{had}, and now it {doubt}")
+        held = standing.marks.get(mark.assignment)
+        if held is None:
+            raise NotConfirmed(f"{had}, and now the gradebook has no mark")
+        if (held.points, held.most) != (mark.points, mark.most):
+            raise NotConfirmed(f"{had}, and has {score(held)} now: the mark was changed since")
+        if held.digest != mark.digest:
+            again.append(mark.assignment)
+    return again
+
+
+def quoted(words: str) -> str:
+    """Words that may be a stranger's, for a sentence on a terminal."""
+    plain = printable(words)
+    return f"“{plain if len(plain) <= LONGEST else plain[: LONGEST - 1] + '…'}”"

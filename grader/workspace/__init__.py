@@ -1,0 +1,1 @@
+"""A student's workspace: its sources as data, what colcon builds of them, and their programs."""

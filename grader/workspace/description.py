@@ -1,0 +1,62 @@
+"""What package.xml says, read as data: nothing of the package is run for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+from grader.workspace.sources import Refused, Sources
+
+FILE = "package.xml"
+NEEDED = ("depend", "exec_depend", "run_depend")  # what has to be there where it runs
+TYPES = ("ament_python",)
+
+
+@dataclass(frozen=True)
+class Description:
+    """A package's name, and the packages that it says it needs where it runs."""
+
+    name: str
+    needs: frozenset[str]
+
+
+def describe(sources: Sources, package: str) -> Description:
+    """What the package in the folder of this name says of itself.
+
+    Raises Refused where colcon would not build it, or under another name.
+    """
+    place = f"ws/src/{package}"
+    if not any(path.startswith(f"{package}/") for path in sources):
+        raise Refused(f"There is no {place}. The package lies in a folder of its name, in ws/src.")
+    data = sources.get(f"{package}/{FILE}")
+    if data is None:
+        raise Refused(f"There is no {place}/{FILE}. Without it, colcon takes the folder for no package.")
+    root = _parsed(data, place)
+    name = (root.findtext("name") or "").strip()
+    if name != package:
+        raise Refused(f"{place}/{FILE} says that its name is {name[:60]!r}. Expected is {package}.")
+    kind = (root.findtext("export/build_type") or "").strip()
+    if kind not in TYPES:
+        saw = f"says {kind[:60]!r} as its build type" if kind else "has no build type"
+        raise Refused(
+            f"{place}/{FILE} {saw}. In <export> it has to say <build_type>ament_python</build_type>."
+        )
+    if f"{package}/setup.py" not in sources:
+        raise Refused(f"There is no {place}/setup.py. It says what is installed.")
+    return Description(
+        name, frozenset((item.text or "").strip() for tag in NEEDED for item in root.findall(tag))
+    )
+
+
+def _parsed(data: bytes, place: str) -> ElementTree.Element:
+    try:
+        text = data.decode("utf-8-sig")
+        if "<!DOCTYPE" in text or "<!ENTITY" in text:
+            raise Refused(f"{place}/{FILE} has a <!DOCTYPE> or an <!ENTITY>. It needs none: leave them out.")
+        return ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        hint = "Each <tag> needs its </tag>."
+        raise Refused(f"{place}/{FILE} can't be read: line {line}, column {column + 1}. {hint}") from None
+    except ValueError:
+        raise Refused(f"{place}/{FILE} can't be read. Save it as UTF-8.") from None

@@ -1,0 +1,59 @@
+"""Why a package can't be built, in a beginner's words, from what colcon said."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from grader.workspace.building import Built
+
+LINES = 6  # of what colcon said, where the cause isn't known
+LONGEST = 300  # characters of one of them
+NO_SOURCE = "Look at the lines above, or say colcon build in ws, and read its first error."
+
+RAISED = re.compile(r"^\w*(?:Error|Exception|Interrupt)\b.*$", re.M)
+NO_COMMA = re.compile(r"'(?:tuple|list)' object is not callable")
+IN_SETUP = re.compile(r'File "<string>", line (\d+)')
+
+RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"can't copy '([^']{1,200})': doesn't exist",
+        lambda found: f"setup.py installs {found[1]}, and there is no such file. Make it, or mend the name.",
+    ),
+    (
+        r"package directory '([^']{1,200})' does not exist",
+        lambda found: f"setup.py names the package {found[1]!r}, and no folder of that name is beside it.",
+    ),
+    (
+        r"'distutils.core.setup\(\)' was never called",
+        lambda found: (
+            "setup.py came to its end without a setup(...) that could be used. Is it called? Each entry "
+            "point reads 'NAME = PACKAGE.MODULE:FUNCTION', with = and : in it."
+        ),
+    ),
+    (
+        r"MissingSectionHeaderError|configparser\.(?:\w+)",
+        lambda found: "setup.cfg can't be read. It has [develop] and [install], and a line below each.",
+    ),
+    (
+        r"^error: (.{1,200})$",
+        lambda found: f"setup.py says: {found[1]}",
+    ),
+)
+
+
+def why(built: Built) -> tuple[str, str]:
+    """What was seen in place of a finished build, and what to do next."""
+    for pattern, words in RULES:
+        found = re.search(pattern, built.said, re.M)
+        if found:
+            return built.problem, words(found)
+    raised = RAISED.search(built.said)
+    if raised:
+        places = IN_SETUP.findall(built.said[: raised.start()])
+        where = f"setup.py, line {places[-1]}" if places else "The first error is"
+        comma = ". A comma is missing behind the pair above it." if NO_COMMA.search(raised[0]) else ""
+        return built.problem, f"{where}: {raised[0][:LONGEST]}{comma}"
+    lines = [line for line in built.said.splitlines() if line.strip()][-LINES:]
+    said = " / ".join(line.strip()[:LONGEST] for line in lines)
+    return (f"{built.problem} It said last: {said}" if said else built.problem), NO_SOURCE

@@ -1,0 +1,140 @@
+"""Where launch descriptions come from: Python, and YAML."""
+
+from __future__ import annotations
+
+import traceback
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from typing import NoReturn
+
+from launch.entities import SomeSubstitutionsType
+from launch.launch_context import LaunchContext
+from launch.launch_description import LaunchDescription
+from launch.logging import get_logger
+from launch.unsupported import refuse
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+__all__ = [
+    "AnyLaunchDescriptionSource",
+    "InvalidLaunchFileError",
+    "InvalidPythonLaunchFileError",
+    "PythonLaunchDescriptionSource",
+]
+
+
+class InvalidPythonLaunchFileError(Exception):
+    """A Python file that describes nothing."""
+
+
+class InvalidLaunchFileError(Exception):
+    """A file that is no launch file."""
+
+
+def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
+    """What `generate_launch_description()` of a Python file gives. Raises InvalidPythonLaunchFileError."""
+    loader = SourceFileLoader("python_launch_file", str(python_launch_file_path))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    exec(loader.source_to_code(Path(loader.path).read_bytes(), loader.path), vars(module))  # as it is now
+    if not hasattr(module, "generate_launch_description"):
+        raise InvalidPythonLaunchFileError(
+            f"launch file at '{python_launch_file_path}' does not contain the required function "
+            "'generate_launch_description()'"
+        )
+    return module.generate_launch_description()
+
+
+def get_launch_description_from_yaml_launch_file(path: str) -> LaunchDescription:
+    """What a YAML file describes."""
+    from launch.yaml_files import described  # which needs the actions
+
+    return described(path)
+
+
+def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+    """What a file describes, by its name. Raises InvalidLaunchFileError for one of another kind."""
+    kind = Path(launch_file_path).suffix
+    if kind == ".py":
+        return get_launch_description_from_python_launch_file(launch_file_path)
+    if kind in (".yaml", ".yml"):
+        return get_launch_description_from_yaml_launch_file(launch_file_path)
+    if not Path(launch_file_path).is_file():
+        raise FileNotFoundError(f"[Errno 2] No such file or directory: '{launch_file_path}'")
+    raise InvalidLaunchFileError(
+        f"'{launch_file_path}' is no launch file that can be read here: they are in Python (.py) "
+        "or YAML (.yaml); XML is not supported."
+    )
+
+
+class LaunchDescriptionSource:
+    """A launch description, or where it is."""
+
+    def __init__(
+        self,
+        launch_description: LaunchDescription | None = None,
+        location: SomeSubstitutionsType = "<string>",
+        method: str = "unspecified mechanism from a script",
+    ) -> None:
+        self.__launch_description = launch_description
+        self.__location = normalize_to_list_of_substitutions(location)
+        self.__expanded_location: str | None = None
+        self.__method = method
+
+    @property
+    def location(self) -> str:
+        """Where it is."""
+        if self.__expanded_location is None:
+            return " + ".join(map(str, self.__location))
+        return self.__expanded_location
+
+    @property
+    def method(self) -> str:
+        """How it is read."""
+        return self.__method
+
+    def try_get_launch_description_without_context(self) -> LaunchDescription | None:
+        """The description, if that can be told before anything was launched."""
+        if self.__launch_description is None:
+            try:
+                return self._get_launch_description(perform_substitutions(LaunchContext(), self.__location))
+            except Exception as error:
+                get_logger("launch").debug(traceback.format_exc())
+                get_logger("launch").debug(f"Failed to load the launch file without a context: {error}")
+        return self.__launch_description
+
+    def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
+        """The description. Raises what reading it raises."""
+        if self.__expanded_location is None:
+            self.__expanded_location = perform_substitutions(context, self.__location)
+        if self.__launch_description is None:
+            self.__launch_description = self._get_launch_description(self.__expanded_location)
+        return self.__launch_description
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        raise RuntimeError(
+            "LaunchDescriptionSource.get_launch_description(): called without launch description being set"
+        )
+
+
+class PythonLaunchDescriptionSource(LaunchDescriptionSource):
+    """A launch file in Python."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(None, launch_file_path, "interpreted python launch file")
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return get_launch_description_from_python_launch_file(location)
+
+
+class AnyLaunchDescriptionSource(LaunchDescriptionSource):
+    """A launch file in Python or YAML, as its name says."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(None, launch_file_path, "interpreted launch file")
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return get_launch_description_from_any_launch_file(location)
+
+
+def __getattr__(name: str) -> NoReturn:
+    refuse(__name__, name, __all__)

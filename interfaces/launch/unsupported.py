@@ -1,0 +1,36 @@
+"""What is refused in one sentence: names of upstream's that are not here."""
+
+from collections.abc import Iterable
+from typing import NoReturn
+
+LEFT_OUT = {
+    "launch.actions": (
+        "AppendEnvironmentVariable ExecuteLocal OpaqueCoroutine PopEnvironment PopLaunchConfigurations "
+        "PushEnvironment PushLaunchConfigurations ResetEnvironment ResetLaunchConfigurations "
+        "UnregisterEventHandler UnsetEnvironmentVariable UnsetLaunchConfiguration"
+    ),
+    "launch.conditions": "LaunchConfigurationEquals LaunchConfigurationNotEquals",
+    "launch.event_handlers": "OnExecutionComplete OnIncludeLaunchDescription OnProcessIO event_named",
+    "launch.launch_description_sources": (
+        "FrontendLaunchDescriptionSource InvalidFrontendLaunchFileError "
+        "get_launch_description_from_frontend_launch_file"
+    ),
+    "launch.substitutions": (
+        "AllSubstitution AndSubstitution AnonName AnySubstitution FileContent IfElseSubstitution "
+        "LaunchLogDir LocalSubstitution NotSubstitution OrSubstitution ThisLaunchFile"
+    ),
+    "launch_ros.actions": (
+        "ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes ROSTimer RosTimer "
+        "SetParametersFromFile SetROSLogDir SetRemap SetUseSimTime"
+    ),
+    "launch_ros.descriptions": "ComposableNode Parameter",
+    "launch_ros.substitutions": "Parameter",
+}
+
+
+def refuse(module: str, name: str, known: Iterable[str]) -> NoReturn:
+    """Raise ImportError for a name of upstream's, AttributeError for one that nobody has."""
+    if name in LEFT_OUT.get(module, "").split():
+        there = ", ".join(sorted(known))
+        raise ImportError(f"{module}.{name} is not supported by this course's launch, which has {there}.")
+    raise AttributeError(f"module {module!r} has no attribute {name!r}")

@@ -1,0 +1,80 @@
+"""Texts in launch files in YAML, with substitutions such as $(var NAME) in them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from launch.entities import Substitution
+from launch.substitutions import (
+    Command,
+    EnvironmentVariable,
+    EqualsSubstitution,
+    LaunchConfiguration,
+    NotEqualsSubstitution,
+    PythonExpression,
+    TextSubstitution,
+    ThisLaunchFileDir,
+)
+
+# How many arguments a substitution takes, at least and at most, and what makes it.
+SUBSTITUTIONS: dict[str, tuple[int, int, Callable[..., Substitution]]] = {
+    "var": (1, 2, lambda name, default=None: LaunchConfiguration(name, default=default)),
+    "env": (1, 2, lambda name, default=None: EnvironmentVariable(name, default_value=default)),
+    "eval": (1, 1, PythonExpression),
+    "dirname": (0, 0, ThisLaunchFileDir),
+    "command": (1, 2, lambda command, on_stderr="fail": Command(command, on_stderr=on_stderr)),
+    "equals": (2, 2, EqualsSubstitution),
+    "not-equals": (2, 2, NotEqualsSubstitution),
+}
+NAME = re.compile(r"\$\(([A-Za-z][\w-]*)")
+
+
+def parse_substitution(text: str) -> list[Substitution]:
+    """A text such as "$(var name)/scan", as its parts. Raises ValueError where it can't be read."""
+    parts, end = _parts(text, 0, "")
+    if end < len(text):
+        raise ValueError(f"{text!r} can't be read from {text[end:]!r} on.")
+    return parts or [TextSubstitution(text=text)]
+
+
+def _parts(text: str, at: int, stop: str) -> tuple[list[Substitution], int]:
+    """The parts up to one of the characters of `stop`, and where they end."""
+    parts: list[Substitution] = []
+    plain = ""
+    while at < len(text) and text[at] not in stop:
+        if text[at] == "\\" and at + 1 < len(text):
+            plain, at = plain + text[at + 1], at + 2
+        elif text.startswith("$(", at):
+            parts += [TextSubstitution(text=plain)] if plain else []
+            part, at = _substitution(text, at)
+            parts.append(part)
+            plain = ""
+        else:
+            plain, at = plain + text[at], at + 1
+    return [*parts, *([TextSubstitution(text=plain)] if plain else [])], at
+
+
+def _substitution(text: str, at: int) -> tuple[Substitution, int]:
+    match = NAME.match(text, at)
+    if match is None:
+        raise ValueError(f"{text!r} can't be read from {text[at:]!r} on.")
+    name, at = match[1], match.end()
+    if name not in SUBSTITUTIONS:
+        raise RuntimeError(f"Unknown substitution: {name}. There are {', '.join(sorted(SUBSTITUTIONS))}.")
+    arguments = []
+    while text.startswith(" ", at):
+        at += 1
+        if text[at : at + 1] in ("'", '"'):
+            value, at = _parts(text, at + 1, text[at])
+            at += 1
+        else:
+            value, at = _parts(text, at, " )")
+        arguments.append(value)
+    if not text.startswith(")", at):
+        raise ValueError(f"{text!r} can't be read: there is no ) at the end of $({name} ...")
+    least, most, make = SUBSTITUTIONS[name]
+    if not least <= len(arguments) <= most:
+        wanted = str(least) if least == most else f"{least} or {most}"
+        raise TypeError(f"{name} substitution expects {wanted} argument(s), not {len(arguments)}")
+    return make(*arguments), at + 1

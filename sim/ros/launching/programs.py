@@ -1,0 +1,167 @@
+"""The programs of a launch file as programs of the run: Python files and entry points, and words of ros2."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import re
+import shlex
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from sim.ros.engine.program import Process
+from sim.ros.fibers.exceptions import RunOver
+from sim.ros.packages import brought_command, executable, forget_modules
+
+PYTHON = re.compile(r"python(3(\.\d+)?)?")
+
+
+class Refused(Exception):
+    """A program that can't be one of a run."""
+
+
+def _refused(program: str) -> Refused:
+    return Refused(
+        f"In a run, launch starts programs in Python and words of ros2 alone, and {program} is neither: "
+        "`ros2 launch` in a terminal starts anything."
+    )
+
+
+class RunProcesses:
+    """Starts programs of a launch file in a run. `refused` is the first that could not be."""
+
+    def __init__(self, run: Any) -> None:
+        self.run, self.refused, self._numbers = run, None, count(1)
+        self._brought: dict[str, Callable[[], None]] = {}
+
+    def find(self, package: str, name: str) -> str | None:
+        """As launch's `Processes`. Raises ExecutableNotFound."""
+        if brought_command(package, name) is None:
+            return None
+        path = f"{sys.prefix}/lib/{package}/{name}"
+        self._brought[path] = executable(package, name)
+        return path
+
+    async def start(
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Callable
+    ) -> RunProcess:
+        """As launch's `Processes`."""
+        try:
+            words = shlex.split(" ".join(cmd)) if shell else cmd
+            brought = self._brought.get(words[0]) if words else None
+            main, arguments = (brought, words[1:]) if brought else _program(words, cwd or ".")
+        except Refused as error:
+            self.refused = self.refused or error
+            raise
+        others = {name for name, value in env.items() if os.environ.get(name) != value}
+        if others:
+            self.run.logged(
+                30,
+                "launch",
+                f"All programs of a run share one environment: {', '.join(sorted(others))} is not set.",
+            )
+        return RunProcess(self.run, main, arguments, next(self._numbers))
+
+
+class RunProcess:
+    """One program of a launch file in a run. Its pid counts those that were started."""
+
+    def __init__(self, run: Any, main: Callable[[], None], arguments: list[str], pid: int) -> None:
+        self.pid, self._run, self._main, self._killed = pid, run, main, 0
+        self._loop = asyncio.get_running_loop()
+        self._status: asyncio.Future[int] = self._loop.create_future()
+
+        def body() -> None:
+            self._go()
+
+        body.__name__ = main.__name__
+        launch = run.current.process
+        self._process = run.start(Process(body, arguments=arguments, host=launch.host), ours=launch.ours)
+
+    async def wait(self) -> int:
+        """As launch's `Started`."""
+        return await self._status
+
+    def send_signal(self, number: int) -> None:
+        """As launch's `Started`: SIGINT is Ctrl-C, and every other signal ends it at once."""
+        if number == signal.SIGINT:
+            self._process.main.thrown = KeyboardInterrupt()
+            return
+        self._killed = number
+        for fiber in self._fibers():
+            fiber.thrown = RunOver()
+
+    def _fibers(self) -> Iterator[Any]:
+        return (fiber for fiber in self._run.fibers if fiber.process is self._process and not fiber.done)
+
+    def _go(self) -> None:
+        status = 1
+        try:
+            self._main()
+            status = 0
+        except SystemExit as exit_:
+            status = exit_.code if isinstance(exit_.code, int) else int(exit_.code is not None)
+            raise
+        except KeyboardInterrupt:
+            status = -signal.SIGINT
+            raise
+        except RunOver:
+            status = -self._killed
+            raise
+        finally:
+            with contextlib.suppress(RuntimeError):  # launch is gone already
+                self._loop.call_soon_threadsafe(self._status.set_result, status)
+
+
+def _program(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:
+    """What a command does, and the words that its program is given. Raises Refused."""
+    if not cmd:
+        raise _refused("an empty command")
+    first, *words = cmd
+    name = os.path.basename(first)
+    if name == "ros2":
+        from sim.ros2.typed import terminal  # which knows all words, and few launch files have any
+
+        return _named(terminal(shlex.join(["ros2", *words])).target, "ros2"), []
+    if PYTHON.fullmatch(name):
+        words = words[1:] if words[:1] == ["-u"] else words
+        if not words or words[0].startswith("-"):
+            raise _refused(f"`{shlex.join(cmd)}`")
+        first, *words = words
+    path = Path(folder, first)
+    if not path.is_file():
+        if first == name and not path.suffix:
+            raise _refused(f"`{first}`")
+        raise Refused(f"[Errno 2] No such file or directory: '{path}'")
+    text = path.read_bytes()
+    if path.suffix != ".py" and not (text.startswith(b"#!") and b"python" in text.split(b"\n", 1)[0]):
+        raise _refused(f"`{path}`")
+
+    def main() -> None:
+        _prepare_imports(path)
+        names = {"__name__": "__main__", "__file__": str(path)}
+        exec(compile(text, str(path), "exec"), names)
+
+    return _named(main, path.stem), words
+
+
+def _named(function: Callable[[], None], name: str) -> Callable[[], None]:
+    function.__name__ = name
+    return function
+
+
+def _prepare_imports(path: Path) -> None:
+    """Let a program find the modules beside it, and none that another program has imported."""
+    folder = path.parent.resolve()
+    if str(folder) not in sys.path:
+        sys.path.insert(0, str(folder))
+    forget_modules()
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str) and Path(file).parent == folder and name != "__main__":
+            del sys.modules[name]

@@ -1,0 +1,105 @@
+"""What one turtle of turtlesim takes, gives and offers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from geometry_msgs.msg import Twist
+from rclpy.qos import QoSProfile
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
+
+from sim.ros.messages.template import Template
+from sim.ros.robots.turtle_rotation import RotateServer
+from sim.world import CommandError
+from sim.world.machines import Pen, Turtle
+
+if TYPE_CHECKING:
+    from sim.ros.robots.turtlesim import Turtlesim
+
+DEPTH = 7  # of all queues
+
+
+class TurtleEnds:
+    """The ends of one turtle, below its name.
+
+    Subscribes cmd_vel (geometry_msgs/Twist), publishes pose (turtlesim/Pose) and color_sensor
+    (turtlesim/Color). Services: set_pen, teleport_absolute and teleport_relative; the action
+    rotate_absolute.
+    """
+
+    def __init__(self, node: Turtlesim, turtle: Turtle) -> None:
+        self._node, self._turtle = node, turtle
+        name, qos = turtle.name, QoSProfile(depth=DEPTH)
+        self._pose = Template(Pose(), ["x", "y", "theta", "linear_velocity", "angular_velocity"])
+        self._colour = Template(Color(), ["r", "g", "b"])
+        self._pose_pub = node.create_publisher(Pose, f"{name}/pose", qos)
+        self._colour_pub = node.create_publisher(Color, f"{name}/color_sensor", qos)
+        self._commands = node.create_subscription(Twist, f"{name}/cmd_vel", self.on_command, qos)
+        self._services = [
+            node.create_service(SetPen, f"{name}/set_pen", self.on_set_pen),
+            node.create_service(TeleportRelative, f"{name}/teleport_relative", self.on_relative),
+            node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self.on_absolute),
+        ]
+        self._rotations = RotateServer(node, turtle)
+
+    def publish(self) -> None:
+        """Publish where the turtle is and what lies beneath it, and tell of what happened."""
+        turtle, log = self._turtle, self._node.get_logger()
+        self._rotations.watch()
+        for x, y in turtle.hits:
+            log.warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])")
+        turtle.hits.clear()
+        ahead, left, turn = turtle.velocity
+        self._pose_pub.publish(self._pose.fill(*turtle.pose, math.hypot(ahead, left), turn))
+        self._colour_pub.publish(self._colour.fill(*turtle.colour))
+
+    def close(self) -> None:
+        """The turtle leaves; once `gone`, nothing is left of it."""
+        node = self._node
+        self._rotations.leave()
+        node.destroy_subscription(self._commands)
+        for service in self._services:
+            node.destroy_service(service)
+        for publisher in (self._pose_pub, self._colour_pub):
+            node.destroy_publisher(publisher)
+
+    def gone(self) -> bool:
+        """Let go of what is left, if that can be."""
+        return self._rotations.gone()
+
+    def on_command(self, command: Twist) -> None:
+        """Move like this for a second."""
+        left = command.linear.y if self._node.holonomic else 0.0
+        velocity = (command.linear.x, left, command.angular.z)
+        if self._obey(self._node.scene.command, self._turtle.name, *velocity):
+            self._rotations.replaced("Velocity command received during rotation goal. Aborting goal")
+
+    def on_set_pen(self, request: Any, response: Any) -> Any:
+        """Draw with another pen, or not at all."""
+        if request.off:
+            self._turtle.lift()
+        else:
+            colour = request.r, request.g, request.b
+            self._turtle.take(Pen(colour, request.width or 1))
+        return response
+
+    def on_relative(self, request: Any, response: Any) -> Any:
+        """Turn and go ahead at once."""
+        self._obey(self._turtle.jump, request.linear, request.angular)
+        return response
+
+    def on_absolute(self, request: Any, response: Any) -> Any:
+        """Be somewhere else at once."""
+        self._obey(self._turtle.jump_to, request.x, request.y, request.theta)
+        return response
+
+    def _obey(self, act: Callable[..., None], *values: Any) -> bool:
+        try:
+            act(*values)
+        except CommandError as error:
+            self._node.get_logger().error(str(error), throttle_duration_sec=1.0)
+            return False
+        return True

@@ -1,0 +1,124 @@
+"""Warehouses: shelves in rows, with aisles in which a robot and a person can pass each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from random import Random
+from typing import Annotated, Any
+
+from sim.world.battery import BatteryModel
+from sim.world.generate.card import card, furnished
+from sim.world.generate.floor import between
+from sim.world.model import Model, within
+from sim.world.obstacles import Box, MovableBox, Point, ring
+from sim.world.people import Person
+from sim.world.robot import Pose
+from sim.world.warehouse import WarehouseModel
+
+_DEPTH, _LENGTH = 0.6, 2.4  # m; of a shelf
+_FRONT = 0.8  # m between the left wall and the aisle before the shelves, for the charger and the desk
+_STAND = 0.25  # m from a shelf or a desk to the middle of the robot that is served there
+_TOPICS = (
+    "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /battery_state (sensor_msgs/BatteryState), "
+    "/tf, /tf_static (also map to odom) and /clock; and, kept for whoever comes later, /map "
+    "(nav_msgs/OccupancyGrid, without boxes to push), /dock_pose (geometry_msgs/PoseStamped, the charger) "
+    "and /orders (warehouse_msgs/Order)."
+)
+
+
+@dataclass(frozen=True)
+class Warehouse(Model):
+    """`columns` by `rows` shelves with a place for a robot before each, a desk, a charger, boxes and people.
+
+    The boxes to push stand at the other sides of shelves, so there are as many at most. People walk
+    in the middle of aisles.
+    """
+
+    columns: Annotated[int, within(1, 6)] = 2
+    rows: Annotated[int, within(1, 8)] = 3
+    movable: Annotated[int, within(0, 48)] = 3
+    people: Annotated[int, within(0, 4)] = 1
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.movable > self.columns * self.rows:
+            self.refuse("movable", f"at most {self.columns * self.rows}, one for each shelf")
+
+    def draw(self, chance: Random) -> dict[str, Any]:
+        """The fields of a world, but its name. The way: aisles are open, and boxes stand at their sides."""
+        aisle = between(chance, 1.5, 1.7)
+        width = round(_FRONT + aisle + self.columns * (_LENGTH + aisle), 2)
+        height = round(aisle + self.rows * (_DEPTH + aisle), 2)
+        shelves = list(self._shelves(chance, aisle))
+        upper = [chance.random() < 0.5 for _ in shelves]  # the side from which goods are taken
+        charger = 0.35, round(height * between(chance, 0.15, 0.35), 2)
+        desk = round(height * between(chance, 0.6, 0.85), 2)
+        return {
+            "bounds": (0.0, 0.0, width, height),
+            "start": (*charger, 0.0),
+            "walls": ring(((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))),
+            "boxes": (*shelves, Box(0.1, desk, 0.0, 0.2, 0.8)),
+            "movable": tuple(self._movable(chance, shelves, upper)),
+            "people": tuple(self._person(chance, aisle) for _ in range(self.people)),
+            "battery": BatteryModel(charger, start=between(chance, 0.5, 0.9)),
+            "warehouse": WarehouseModel(
+                tuple(_before(chance, shelf, above) for shelf, above in zip(shelves, upper, strict=True)),
+                (0.2 + _STAND, desk, math.pi),
+            ),
+            "card": self._card(width, height, charger, desk),
+        }
+
+    def _shelves(self, chance: Random, aisle: float) -> Iterator[Box]:
+        for row in range(self.rows):
+            y = aisle + row * (_DEPTH + aisle) + _DEPTH / 2
+            for column in range(self.columns):
+                left = _FRONT + aisle + column * (_LENGTH + aisle)
+                begin, end = left + between(chance, 0, 0.4), left + _LENGTH - between(chance, 0, 0.4)
+                yield Box(round((begin + end) / 2, 3), round(y, 2), 0.0, round(end - begin, 2), _DEPTH)
+
+    def _movable(self, chance: Random, shelves: list[Box], upper: list[bool]) -> Iterator[MovableBox]:
+        """Boxes at the sides of shelves from which nothing is taken."""
+        turns = sorted((chance.random(), index) for index in range(len(shelves)))
+        for _, index in turns[: self.movable]:
+            x, y, _ = _before(chance, shelves[index], not upper[index])
+            sides = between(chance, 0.25, 0.35), between(chance, 0.25, 0.35)
+            yield MovableBox(x, y, 0.0, *sides, mass=between(chance, 0.3, 0.8))
+
+    def _person(self, chance: Random, aisle: float) -> Person:
+        """Somebody who walks round a block of shelves."""
+        lanes = [_FRONT + aisle / 2 + column * (_LENGTH + aisle) for column in range(self.columns + 1)]
+        aisles = [aisle / 2 + row * (_DEPTH + aisle) for row in range(self.rows + 1)]
+        (left, right), (low, high) = (_two(chance, places) for places in (lanes, aisles))
+        corners = [(right, low), (right, high), (left, high), (left, low)]
+        if chance.random() < 0.5:
+            corners = [corners[0], *corners[:0:-1]]
+        return Person(tuple(corners), speed=between(chance, 0.8, 1.2))
+
+    def _card(self, width: float, height: float, charger: Point, desk: float) -> str:
+        things = furnished(
+            ("shelf", "shelves", self.columns * self.rows),
+            ("box to push", "boxes to push", self.movable),
+            ("person who walks round", "people who walk round", self.people),
+        )
+        return card(
+            f"A warehouse of {width:g} m by {height:g} m with a wall all round{things}. The charger is at "
+            f"x {charger[0]:g}, y {charger[1]:g}, the desk at y {desk:g}; a place lies before each shelf. "
+            "People stop for what stands in their way, and for nothing that moves.",
+            f"At the charger, at x {charger[0]:g}, y {charger[1]:g}, facing along x.",
+            _TOPICS,
+        )
+
+
+def _before(chance: Random, shelf: Box, above: bool) -> Pose:
+    """A place at one of a shelf's long sides, facing it."""
+    x = round(shelf.x + between(chance, -0.5, 0.5), 2)
+    away = shelf.height / 2 + _STAND
+    return x, round(shelf.y + (away if above else -away), 2), -math.pi / 2 if above else math.pi / 2
+
+
+def _two(chance: Random, places: list[float]) -> tuple[float, float]:
+    """Two different ones of some places, in their order."""
+    (_, first), (_, second) = sorted((chance.random(), place) for place in places)[:2]
+    return round(min(first, second), 2), round(max(first, second), 2)

@@ -1,0 +1,1 @@
+"""A delivery robot for generated warehouses, in three programs: each knows its own task only."""

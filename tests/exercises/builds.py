@@ -1,0 +1,30 @@
+"""Builds of students' packages: equal sources are built once, and kept as recordings are."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+from grader.workspace import building
+from grader.workspace.building import Built
+from grader.workspace.sources import Sources
+from tests.exercises.evidence import Evidence
+
+DECIDES = "grader/workspace/building.py", "grader/workspace/sources.py", "requirements.lock"
+
+
+@contextmanager
+def kept_builds() -> Iterator[None]:
+    """Here a package is built where nobody has built the same before."""
+    evidence, build = Evidence("builds", *DECIDES), building.build
+
+    def kept_or_built(sources: Sources) -> Built:
+        whole = repr(sorted(sources.items())).encode()
+        return evidence.get(hashlib.sha256(whole).hexdigest()[:16], lambda: build(sources))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(building, "build", kept_or_built)
+        yield

@@ -1,0 +1,80 @@
+"""Score tables of 11_packages: a page for each exercise in tests/exercises/packages/."""
+
+import random
+
+import pytest
+
+from grader.cast import _refuse_to_build
+from grader.exercises import packages
+from grader.exercises.packages.looks import package_of
+from grader.exercises.packages.mending import FAULTY, faulty
+from grader.exercises.packages.patrol import FAULTS
+from grader.workspace import building
+from grader.workspace.building import NotHere
+from grader.workspace.package import PackageRun
+from tests.exercises.assignment import Assignment
+from tests.students.packages.greeter import RIGHT
+from tests.students.workspaces import Workspace
+
+
+class TestPackages(Assignment):
+    folder = "11_packages"
+    package = packages
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_a_number_draws_six_faults_that_show(number):
+    broken = faulty(number)
+    drawn = [fault for fault in FAULTS if fault[1] not in broken[fault[0]]]
+    assert drawn == sorted(random.Random(f"faults {number}").sample(FAULTS, FAULTY), key=FAULTS.index)
+
+
+def test_what_is_mended_is_written_anew_each_time(tmp_path):
+    for _ in range(2):
+        workspace = packages.mended(tmp_path, 44, lambda mend: mend("setup.py", ":mian", ":main"))
+    assert workspace == tmp_path
+    text = (tmp_path / "src/patrol/setup.py").read_text()
+    assert text == faulty(44)["patrol/setup.py"].replace(":mian", ":main")
+
+
+@pytest.mark.parametrize(("old", "times"), [("nowhere", 0), ("package_name", 5)])
+def test_a_text_that_a_file_does_not_have_once_can_not_be_mended(tmp_path, old, times):
+    with pytest.raises(
+        ValueError, match=rf"^setup.py has {times} times '{old}': give a text that it has once"
+    ):
+        packages.mended(tmp_path, 44, lambda mend: mend("setup.py", old, ""))
+
+
+def test_nothing_is_handed_over_before_anything_is_mended(tmp_path):
+    def repair(mend):
+        raise NotImplementedError
+
+    score = packages.patrol.grade(packages.mended(tmp_path, 44, repair))
+    assert score == 0
+    assert [verdict.saw for verdict in score.verdicts if verdict.status == "failed"] == [
+        "This exercise is not started yet: that line still is in the cell above, about patrol"
+    ]
+
+
+def test_what_can_not_be_built_is_told_beside_the_notebook(tmp_path, capsys):
+    assert packages.see(packages.greeter, tmp_path).seconds == 0
+    assert capsys.readouterr().out == (
+        "There is no ws/src/greeter\nHint: The package lies in a folder of its name, in ws/src.\n"
+    )
+
+
+def test_where_nothing_can_be_built_the_notebook_says_who_does(monkeypatch, capsys):
+    def refuse(_):
+        raise NotHere
+
+    monkeypatch.setattr(building, "build", refuse)
+    assert packages.see(packages.greeter, Workspace(__name__, RIGHT)).seconds == 0
+    words = "Here nothing can be built: when a class is marked, the test cell below does it.\n"
+    assert capsys.readouterr().out == words
+
+
+def test_a_look_at_a_package_needs_one():
+    with pytest.raises(ValueError, match=r"^this exercise has no package: give it one$"):
+        package_of(PackageRun())
+    with pytest.raises(ValueError, match=r"^a RemoteCast that is asked for a package needs its `build`$"):
+        _refuse_to_build({})

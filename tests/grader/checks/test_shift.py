@@ -1,0 +1,108 @@
+"""What a run in a warehouse tells of the robot's work."""
+
+import json
+
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from warehouse_msgs.msg import Order
+
+from grader.checks.shift import Job, Program, shift
+from sim import Recording, World, run
+from sim.world import Box, MovableBox, Person, WarehouseModel
+from tests.bench.capstone import work
+
+HALL = World(
+    *("hall", "", (-2, -2, 4, 2), (0, 0, 0)),
+    boxes=(Box(2.05, 0, 0, 0.1, 1),),
+    warehouse=WarehouseModel(((1, 1, 0),), (0, 1, 0), interval=10, patience=5, canceled=0),
+)
+
+
+class Rammer(Node):
+    """Drives straight on, and says that it delivered."""
+
+    def __init__(self):
+        super().__init__("rammer")
+        self.velocity = self.create_publisher(Twist, "cmd_vel", 10)
+        self.orders = self.create_publisher(Order, "/orders", 10)
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        command = Twist()
+        command.linear.x = 0.5
+        self.velocity.publish(command)
+        self.orders.publish(Order(id=1, status=Order.DELIVERED))
+
+
+@pytest.fixture(scope="module")
+def worked() -> Recording:
+    """The reference solution at work."""
+    return work(7, 40.0)
+
+
+def test_orders_with_their_times(worked):
+    done = shift(worked)
+    first = done.jobs[0]
+    assert (first.id, first.asked, first.deadline, first.status) == (1, 2.0, 152.0, "delivered")
+    assert first.asked < first.picked_up < first.over < first.deadline
+    assert done.delivered[0] == first
+    assert [job.id for job in done.jobs] == list(range(1, len(done.jobs) + 1))
+
+
+def test_nobody_is_touched_and_the_battery_is_told_each_second(worked):
+    done = shift(worked)
+    assert (done.touched, done.met_person) == ({}, None)
+    assert [stamp for stamp, _ in done.battery] == [float(second) for second in range(41)]
+    assert all(0 < share <= 1 for _, share in done.battery)
+    assert 5 < done.way < 0.5 * 40
+
+
+def test_which_program_did_what(worked):
+    programs = shift(worked).programs
+    assert sorted(programs) == ["/control", "/decision", "/perception"]
+    control = programs["/control"]
+    assert list(control.sent) == ["/cmd_vel"] and control.errors == 0
+    assert control.hears == ("/goal_pose", "/map", "/obstacles", "/people", "/robot_pose")
+    assert set(programs["/decision"].sent) == {"/goal_pose", "/state"}
+    assert set(programs["/perception"].sent) == {"/obstacles", "/people", "/robot_pose"}
+
+
+def test_all_of_it_is_plain_data(worked):
+    data = shift(worked).to_data()
+    assert json.loads(json.dumps(data))["jobs"][0]["status"] == "delivered"
+
+
+def test_equal_runs_tell_the_same(worked):
+    assert work(7, 40.0).digest == worked.digest
+
+
+def test_what_a_program_says_of_orders_does_not_count():
+    done = shift(run(Rammer, world=HALL, seconds=8, quiet=True))
+    assert done.jobs[0] == Job(1, 2.0, 7.0, None, 7.0, "expired")
+    assert done.touched == {"shelf": 1}
+    assert done.programs == {"/rammer": Program({"/cmd_vel": 80, "/orders": 80}, (), 0)}
+    assert done.battery == ()
+
+
+@pytest.mark.parametrize(
+    ("thing", "name"),
+    [
+        ({"movable": (MovableBox(1.0, 0, 0, 0.3, 0.3),)}, "box"),
+        ({"people": (Person(((1.5, 0.0), (-1.5, 0.0))),)}, "person"),
+    ],
+)
+def test_what_was_touched_has_its_name(thing, name):
+    world = World(*("hall", "", (-2, -2, 4, 2), (0, 0, 0)), warehouse=HALL.warehouse, **thing)
+    done = shift(run(Rammer, world=world, seconds=2, quiet=True))
+    assert set(done.touched) == {name}
+    assert (done.met_person is not None) == (name == "person")
+
+
+@pytest.mark.parametrize("world", [None, "yard"])
+def test_a_run_without_a_warehouse_has_no_shift(world):
+    with pytest.raises(ValueError) as caught:
+        shift(run(world=world, seconds=0.1))
+    assert str(caught.value) == (
+        'this run has no warehouse: give run() a world such as World.generate("warehouse")'
+    )

@@ -1,0 +1,37 @@
+"""Advice on a package's programs: packages of the score pages earn each of them."""
+
+import re
+
+import pytest
+
+from grader.diagnosis.errors import advice
+from grader.diagnosis.package_rules import PACKAGE_RULES, own_module
+from sim.evidence import CallbackError, Recording
+from tests.exercises.score_tables import graded_exercises, page
+
+HINTS = {
+    line.removeprefix("  Hint: ")
+    for exercise in graded_exercises("11_packages")
+    for block in page("packages", exercise).values()
+    for line in block.splitlines()
+    if line.startswith("  Hint: ")
+}
+
+
+@pytest.mark.parametrize("rule", PACKAGE_RULES, ids=lambda rule: f"{rule.type} {rule.pattern[:20]}")
+def test_each_advice_is_earned(rule):
+    pattern = re.sub(r"\\{\d(!r)?\\}", ".+", re.escape(rule.advice))
+    assert any(re.fullmatch(pattern, hint) for hint in HINTS)
+
+
+@pytest.mark.parametrize(
+    "words", ["A package's own modules are found", "Somebody asks patrol.driver", "was not installed"]
+)
+def test_each_advice_on_own_modules_is_earned(words):
+    assert any(words in hint for hint in HINTS)
+
+
+def test_elsewhere_a_module_that_is_not_there_has_its_usual_advice():
+    error = CallbackError(0.0, "/n", "main", "ModuleNotFoundError", "No module named 'speeds'", "")
+    assert own_module(error, Recording()) == ""
+    assert advice(error).startswith("Python finds no module `speeds`")

@@ -1,0 +1,47 @@
+"""What package.xml says, and the words where it says nothing that can be used."""
+
+import pytest
+
+from grader.workspace.description import describe
+from grader.workspace.sources import Refused
+from tests.students.packages.greeter import RIGHT
+
+XML = RIGHT["greeter/package.xml"]
+PLACE = "ws/src/greeter/package.xml"
+
+
+def described(xml, **other):
+    return describe({"greeter/package.xml": xml, "greeter/setup.py": b"", **other}, "greeter")
+
+
+def test_a_package_says_its_name_and_its_needs():
+    told = described(XML.replace("<depend>rclpy</depend>", "<exec_depend>\nrclpy </exec_depend>").encode())
+    assert (told.name, told.needs) == ("greeter", {"rclpy", "std_msgs"})
+    assert described("\ufeff".encode() + XML.encode()).name == "greeter"
+
+
+@pytest.mark.parametrize(
+    ("xml", "words"),
+    [
+        (b"", f"{PLACE} can't be read: line 1, column 1. Each <tag> needs its </tag>."),
+        (XML.encode("utf-16"), f"{PLACE} can't be read. Save it as UTF-8."),
+        (
+            b"<!DOCTYPE a [<!ENTITY b 'c'>]><package/>",
+            f"{PLACE} has a <!DOCTYPE> or an <!ENTITY>. It needs none: leave them out.",
+        ),
+        (b"<package/>", f"{PLACE} says that its name is ''. Expected is greeter."),
+        (
+            b"<package><name>greeter</name></package>",
+            f"{PLACE} has no build type. In <export> it has to say <build_type>ament_python</build_type>.",
+        ),
+    ],
+)
+def test_what_can_not_be_used_is_refused(xml, words):
+    with pytest.raises(Refused) as refused:
+        described(xml)
+    assert str(refused.value) == words
+
+
+def test_nested_without_end_is_read_or_refused():
+    with pytest.raises(Refused, match="can't be read"):
+        described(b"<a>" * 80_000)

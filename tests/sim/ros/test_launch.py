@@ -1,0 +1,281 @@
+"""Launch files in a run: each program starts at its time, and ends, and starts again, in simulated time."""
+
+import sys
+
+import pytest
+
+from sim import Network, Process, play, run
+from tests.sim.ros.installed import NAME, install, sourced
+
+DRIVES = {
+    "/left/driver": [("/left/cmd_vel", 0.5 + 0.5 * tick, 0.25) for tick in range(6)],
+    "/right/driver": [("/right/wheels", 1.75 + 0.5 * tick, 0.5) for tick in range(3)],
+}
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory):
+    """The package, installed and sourced; its prefix."""
+    prefix = install(tmp_path_factory.mktemp("workspace"))
+    with pytest.MonkeyPatch.context() as patch:
+        told = sourced(prefix)
+        patch.setenv("AMENT_PREFIX_PATH", told["AMENT_PREFIX_PATH"])
+        patch.syspath_prepend(told["PYTHONPATH"])
+        yield prefix
+
+
+def said(recording):
+    """What launch says: level, stamp, name and text."""
+    names = ("launch", "launch.user", "driver", "once", "last", "python3", "ros2", "talker")
+    lines = (line for line in recording.logs if line.node.split("-")[0] in names)
+    return [f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}" for line in lines]
+
+
+def driven(recording):
+    heard = [each for each in recording.heard if each.type == "geometry_msgs/msg/Twist"]
+    return {
+        name: [(each.topic, each.stamp, each.message.linear.x) for each in heard if each.sender == name]
+        for name in sorted({each.sender for each in heard})
+    }
+
+
+@pytest.fixture(scope="module")
+def two_robots(package):
+    return run(f"{NAME} bringup.launch.py", seconds=3.2, quiet=True)
+
+
+def test_two_robots_drive_each_in_its_namespace_from_its_time_on(two_robots):
+    assert driven(two_robots) == DRIVES
+    assert two_robots.errors == []
+    assert two_robots.ended.reason == "time"
+
+
+def test_launch_says_what_it_starts(two_robots):
+    assert said(two_robots) == [
+        "[INFO] [0.000] [driver-1]: process started with pid [1]",
+        "[INFO] [1.250] [driver-2]: process started with pid [2]",
+    ]
+
+
+def test_the_same_file_gives_the_same_recording_and_leaves_nothing(package, two_robots):
+    before = list(sys.path)
+    again = run(f"{NAME} bringup.launch.py", seconds=3.2, quiet=True)
+    assert again.digest == two_robots.digest
+    assert sys.path == before
+
+
+def test_yaml_launches_the_same(package):
+    path = package / "share" / NAME / "launch" / "bringup.launch.yaml"
+    assert driven(run(path, seconds=3.2, quiet=True)) == DRIVES
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        lambda path: (f"{path} speed:=0.75",),
+        lambda path: (Process(str(path), arguments=["speed:=0.75"]),),
+        lambda path: (Process(f"{NAME} {path.name}", arguments=["speed:=1.0", "speed:=0.75"]),),
+    ],
+)
+def test_arguments_are_given_as_in_a_terminal(package, how):
+    recording = run(*how(package / "share" / NAME / "launch" / "bringup.launch.py"), seconds=0.6, quiet=True)
+    assert driven(recording) == {"/left/driver": [("/left/cmd_vel", 0.5, 0.75)]}
+
+
+def test_what_is_launched_is_on_the_host_of_its_launch_file(package):
+    there = Process(f"{NAME} bringup.launch.py", host="robot")
+    recording = run(there, seconds=0.5, quiet=True, network=Network(delay=0.1))
+    assert recording.hosts["/left/driver"] == "robot"
+
+
+def test_a_launch_file_plays(package):
+    assert (
+        driven(play(f"{NAME} bringup.launch.py", seconds=3.2, quiet=True, speed=float("inf")).result())
+        == DRIVES
+    )
+
+
+def test_a_program_that_dies_is_started_again_and_handlers_hear_of_each_end(package):
+    recording = run(f"{NAME} respawn.launch.py", seconds=20, quiet=True)
+    path = package / "lib" / NAME / "once"
+    died = f"[pid {{}}, exit code 3, cmd '{path} 3 --ros-args']."
+    assert said(recording) == [
+        "[INFO] [0.000] [once-1]: process started with pid [1]",
+        "[INFO] [0.000] [driver-2]: process started with pid [2]",
+        "[ERROR] [1.000] [once-1]: process has died " + died.format(1),
+        "[INFO] [1.000] [launch.user]: exit 3",
+        "[INFO] [1.500] [once-1]: process started with pid [3]",
+        "[ERROR] [2.500] [once-1]: process has died " + died.format(3),
+        "[INFO] [2.500] [launch.user]: exit 3",
+        "[INFO] [3.000] [last-3]: process started with pid [4]",
+        "[INFO] [3.000] [launch.user]: the last one",
+        "[INFO] [4.000] [last-3]: process has finished cleanly [pid 4]",
+        "[INFO] [4.000] [launch]: process[last-3] was required: shutting down launched system",
+        "[INFO] [4.000] [driver-2]: sending signal 'SIGINT' to process[driver-2]",
+        "[INFO] [4.000] [driver-2]: process has finished cleanly [pid 2]",
+    ]
+    assert [(error.stamp, error.type, error.text) for error in recording.errors] == [
+        (1.0, "SystemExit", "3"),
+        (2.5, "SystemExit", "3"),
+    ]
+    assert recording.ended.stamp == 5.0  # a second after the last has ended
+
+
+TALKER = """
+import sys
+import helper
+import rclpy
+from rclpy.node import Node
+
+
+def main():
+    rclpy.init()
+    node = Node("talker")
+    node.get_logger().info(f"{helper.WORD} {sys.argv[1:2]}")
+    while rclpy.ok():
+        try:
+            rclpy.spin(node)
+        except KeyboardInterrupt:
+            node.get_logger().info("I stay")
+
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+def description(tmp_path, *lines):
+    """A launch file with these entities, beside a talker that doesn't obey."""
+    (tmp_path / "talker.py").write_text(TALKER)
+    (tmp_path / "helper.py").write_text("WORD = 'hello'\n")
+    begin = "".join(f"from {it} import *\n" for it in ("launch", "launch.actions", "launch_ros.actions"))
+    begin += "def generate_launch_description():\n    return LaunchDescription(["
+    file = tmp_path / "some.launch.py"
+    file.write_text(begin + ", ".join(lines) + "])\n")
+    return file
+
+
+def test_a_file_is_a_program_and_one_that_does_not_obey_is_ended_by_force(tmp_path):
+    talker = (
+        f"ExecuteProcess(cmd=['python3', '-u', '{tmp_path}/talker.py', 'x'], additional_env={{'WORD': '1'}})"
+    )
+    recording = run(
+        description(tmp_path, talker, "TimerAction(period=1.0, actions=[Shutdown()])"), seconds=30, quiet=True
+    )
+    path = tmp_path / "talker.py"
+    assert said(recording) == [
+        "[WARN] [0.000] [launch]: All programs of a run share one environment: WORD is not set.",
+        "[INFO] [0.000] [python3-1]: process started with pid [1]",
+        "[INFO] [0.000] [talker]: hello ['x']",
+        "[INFO] [1.000] [python3-1]: sending signal 'SIGINT' to process[python3-1]",
+        "[INFO] [1.000] [talker]: I stay",
+        "[ERROR] [6.000] [python3-1]: process[python3-1] failed to terminate '5' seconds after receiving "
+        "'SIGINT', escalating to 'SIGTERM'",
+        "[INFO] [6.000] [python3-1]: sending signal 'SIGTERM' to process[python3-1]",
+        f"[ERROR] [6.000] [python3-1]: process has died [pid 1, exit code -15, cmd 'python3 -u {path} x'].",
+    ]
+
+
+def test_words_of_ros2_are_a_program_too(tmp_path):
+    file = description(tmp_path, "ExecuteProcess(cmd=['ros2', 'pkg', 'prefix', 'std_msgs'])")
+    recording = run(file, seconds=2, quiet=True)
+    assert "".join(text for _, text in recording.prints) == f"{sys.prefix}\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "kind", "words"),
+    [
+        (
+            ["Node(package='no_such', executable='x')"],
+            "PackageNotFoundError",
+            "\"package 'no_such' not found, searching:",
+        ),
+        (
+            ["Node(package='two_robots', executable='drivr')"],
+            "SubstitutionFailure",
+            "executable 'drivr' not found on the libexec directory '",
+        ),
+        (["DeclareLaunchArgument('speed')"], "RuntimeError", "Included launch description missing required"),
+        (["ExecuteProcess(cmd=['no.py'])"], "Refused", "[Errno 2] No such file or directory: 'no.py'"),
+        (["1 / 0"], "ZeroDivisionError", "division by zero"),
+    ],
+)
+def test_what_can_not_be_launched_is_the_runs_error(package, tmp_path, lines, kind, words):
+    recording = run(description(tmp_path, *lines), seconds=2, quiet=True)
+    (error,) = recording.errors
+    assert (error.node, error.callback, error.type) == ("/launch", "launch", kind)
+    assert error.text.startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("entity", "program"),
+    [
+        ("ExecuteProcess(cmd=['bash', '-c', 'sleep 1'])", "`bash`"),
+        ("ExecuteProcess(cmd=['  '], shell=True)", "an empty command"),
+        ("ExecuteProcess(cmd=['ls | wc'], shell=True)", "`ls`"),
+        ("ExecuteProcess(cmd=['python3', '-c', '1'])", "`python3 -c 1`"),
+        ("Node(package='two_robots', executable='binary')", "`{package}/lib/two_robots/binary`"),
+    ],
+)
+def test_what_is_no_python_is_refused_with_what_to_do(package, tmp_path, entity, program):
+    recording = run(description(tmp_path, entity), seconds=2, quiet=True)
+    (error,) = recording.errors
+    assert error.text == (
+        f"In a run, launch starts programs in Python and words of ros2 alone, and "
+        f"{program.format(package=package)} is neither: `ros2 launch` in a terminal starts anything."
+    )
+    (line,) = recording.logs
+    assert line.text == f"exception occurred while executing process: {error.text}"
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ("no.launch.py", "There is no launch file 'no.launch.py' in "),
+        (
+            "two_robots no.launch.py",
+            "file 'no.launch.py' was not found in the share directory of package 'two_r",
+        ),
+        ("no_such x.launch.py", "Package 'no_such' not found: "),
+        (
+            "two_robots bringup.launch.py speed=1",
+            "malformed launch argument 'speed=1', expected format '<name>",
+        ),
+    ],
+)
+def test_a_launch_file_that_is_not_there_is_named(package, words, text):
+    (error,) = run(words, seconds=1, quiet=True).errors
+    assert error.type == "NoLaunchFile"
+    assert error.text.startswith(text)
+
+
+def test_two_files_of_one_name_are_both_named(package, tmp_path, monkeypatch):
+    prefix = install(tmp_path)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", sourced(prefix)["AMENT_PREFIX_PATH"])
+    other = prefix / "share" / NAME / "one.launch.py"
+    other.write_text("")
+    (error,) = run(f"{NAME} one.launch.py", seconds=1, quiet=True).errors
+    assert error.text == (
+        f"file 'one.launch.py' was found more than once in the share directory of package '{NAME}': "
+        f"['{prefix}/share/{NAME}/launch/one.launch.py', '{other}']"
+    )
+
+
+def test_a_description_can_be_run_as_it_is(tmp_path):
+    from launch import LaunchDescription
+    from launch.actions import LogInfo
+
+    assert said(run(LaunchDescription([LogInfo(msg="hello")]), seconds=2, quiet=True)) == [
+        "[INFO] [0.000] [launch.user]: hello"
+    ]
+
+
+def test_launch_of_a_ros_installation_is_for_real_processes(monkeypatch):
+    theirs = type(sys)("launch")
+    theirs.__file__ = "/opt/ros/jazzy/launch/__init__.py"
+    monkeypatch.setitem(sys.modules, "launch", theirs)
+    (error,) = run("x.launch.py", seconds=1, quiet=True).errors
+    assert error.text == (
+        "`launch` is that of a ROS installation (/opt/ros/jazzy/launch/__init__.py), which starts real "
+        "processes: use `ros2 launch`, or run this where no installation is sourced."
+    )

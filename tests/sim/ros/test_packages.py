@@ -1,0 +1,156 @@
+"""Packages that colcon built, as programs of a run."""
+
+import sys
+
+import pytest
+
+from sim import Process, executable, run, source
+from sim.ros import packages
+from tests.sim.ros.workspaces import as_it_was, build, with_programs
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory):
+    """A built workspace that was sourced; all is as before when the tests are over."""
+    folder = tmp_path_factory.mktemp("ws")
+    with_programs(folder)
+    with as_it_was():
+        build(folder, "--symlink-install")
+        source(folder / "install" / "setup.bash")
+        yield folder
+
+
+def said(target, **more):
+    recording = run(target, seconds=1.2, quiet=True, **more)
+    assert recording.errors == []
+    return [heard.message.data for heard in recording.messages("/chatter")]
+
+
+def test_an_entry_point_is_a_program_and_reads_its_files_anew_each_time(workspace):
+    talker = executable("my_pkg", "talker")
+    assert talker.__name__ == "talker"
+    assert said(talker) == ["hello", "hello"]
+    (workspace / "src/my_pkg/my_pkg/words.py").write_text("HELLO = 'good evening'\n")
+    assert said(talker) == ["good evening", "good evening"]
+
+
+def test_it_takes_the_settings_of_a_process(workspace):
+    node = Process(executable("my_pkg", "talker"), name="caller", namespace="/up")
+    recording = run(node, seconds=1, quiet=True)
+    assert [end.node for end in recording.graph.publishers() if end.name == "/up/chatter"] == ["/up/caller"]
+
+
+def test_a_script_finds_the_modules_beside_it(workspace):
+    recording = run(executable("my_pkg", "beep"), seconds=1, quiet=True)
+    assert "".join(text for _, text in recording.prints) == "beep at 440 Hz\n"
+
+
+def test_the_programs_of_a_package_are_known(workspace):
+    assert packages.executables("my_pkg") == ["beep", "shell", "talker"]
+    assert packages.executables("lost") == []
+    assert {"my_pkg", "lost", "rclpy"} <= set(packages.packages())
+    assert packages.prefix_of("my_pkg") == workspace / "install/my_pkg"
+
+
+@pytest.mark.parametrize(
+    ("package", "name", "why"),
+    [
+        (
+            "my_pkg",
+            "talkr",
+            "my_pkg has beep, shell, talker, and no talkr. Did you mean talker? "
+            "What is new in 'console_scripts' of setup.py is there after the next colcon build.",
+        ),
+        (
+            "my_pkg",
+            "x",
+            "my_pkg has beep, shell, talker, and no x. "
+            "What is new in 'console_scripts' of setup.py is there after the next colcon build.",
+        ),
+        (
+            "my_pkg",
+            "shell",
+            "shell of my_pkg is no Python program. A run takes those alone; ros2 run starts it.",
+        ),
+        (
+            "lost",
+            "stray",
+            "stray was installed into bin, and not into lib/lost. "
+            "In setup.cfg, [install] must say install_scripts=$base/lib/lost.",
+        ),
+        ("lost", "x", "lost has none. Name one in 'console_scripts' of its setup.py, and build it again."),
+    ],
+)
+def test_why_there_is_no_such_program_is_said(workspace, package, name, why):
+    with pytest.raises(packages.ExecutableNotFound) as caught:
+        executable(package, name)
+    assert str(caught.value) == f"No executable found: {why}"
+
+
+@pytest.mark.parametrize(
+    ("package", "name", "why"),
+    [
+        (
+            "turtlesim",
+            "turtle_teleop_key",
+            "arrow keys drive turtle1 on the page of `ros2 run turtlesim turtlesim_node`, and in play(...).",
+        ),
+        ("tf2_tools", "view_frames", "plot_frames(recording) of sim.view draws the tree of frames."),
+        (
+            "tf2_ros",
+            "tf2_ech",
+            "tf2_ros has static_transform_publisher, tf2_echo, and no tf2_ech. Did you mean tf2_echo?",
+        ),
+    ],
+)
+def test_what_tutorials_start_and_a_run_lacks_is_said(package, name, why):
+    with pytest.raises(packages.ExecutableNotFound) as caught:
+        executable(package, name)
+    assert str(caught.value) == f"No executable found: {why}"
+
+
+def test_a_terminal_starts_the_pond_in_its_own_domain(monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7")
+    assert packages.executables("turtlesim") == ["mimic", "turtlesim_node"]
+    assert packages.command_of("turtlesim", "turtlesim_node") == [
+        sys.executable, "-m", "sim", "--world", "turtlesim", "--domain", "7",
+    ]  # fmt: skip
+
+
+def reason(package):
+    with pytest.raises(packages.PackageNotFound) as caught:
+        executable(package, "x")
+    return str(caught.value)
+
+
+def test_why_there_is_no_such_package_is_said(workspace, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    begin = "Package 'my_pgk' not found: "
+    assert reason("my_pgk") == f"{begin}did you mean my_pkg?"
+    nowhere = "no package.xml has that name in a workspace here, and no workspace that has it was sourced."
+    assert reason("zzz") == f"Package 'zzz' not found: {nowhere}"
+    monkeypatch.chdir(workspace.parent)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", sys.prefix)
+    at = workspace.name
+    here = f"it is built, and not sourced. Say source('{at}/install/setup.bash')."
+    assert reason("my_pkg") == f"Package 'my_pkg' not found: {here}"
+
+
+def test_a_package_that_was_not_built_is_found_by_its_package_xml(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, text in {"fresh": "<package><name>fresh</name></package>", "broken": "<package>"}.items():
+        (tmp_path / "ws/src" / name).mkdir(parents=True)
+        (tmp_path / "ws/src" / name / "package.xml").write_text(text)
+    what = "it is in ws/src, and not built. Say colcon build in ws."
+    assert reason("fresh") == f"Package 'fresh' not found: {what}"
+
+
+def test_what_cannot_be_sourced_is_refused(tmp_path):
+    with pytest.raises(FileNotFoundError) as caught:
+        source(tmp_path / "setup.bash")
+    where = tmp_path / "setup.bash"
+    assert str(caught.value) == f"There is no {where}: colcon build, said in the workspace, writes it."
+    where.write_text("echo it is broken >&2\nreturn 1\n")
+    with pytest.raises(RuntimeError) as failed:
+        source(where)
+    assert str(failed.value) == f"bash can't source {where}: it is broken"

@@ -1,0 +1,103 @@
+"""python -m sim --world turtlesim: the programs of the tutorials beside it, each a process of its own."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from sim.ros.realtime import ArgumentsError, own_words
+from tests.sim.ros.test_turtle_launch import MIMIC, file
+from tests.sim.ros2.test_terminal import ROS2, start
+from tests.sim.standalone.programs import LIMIT, REPOSITORY, ended, environment, free_domain, robot
+
+OFFER = """\
+World 'turtlesim' in real time, ROS domain {domain}, this machine only.
+  takes /turtle1/cmd_vel  [geometry_msgs/msg/Twist]
+  gives /turtle1/color_sensor  [turtlesim/msg/Color]
+  gives /turtle1/pose  [turtlesim/msg/Pose]
+"""
+
+
+@pytest.fixture(scope="module")
+def pond():
+    with robot("--world", "turtlesim", "--headless") as running:
+        yield running
+
+
+def program(pond, name, *words):
+    """Start a function of the tutorials' programs."""
+    domain = {"ROS_DOMAIN_ID": str(pond.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    code = f"from tests.students.engine import turtles; turtles.{name}()"
+    return subprocess.Popen(
+        [sys.executable, "-c", code, *words],
+        cwd=REPOSITORY, env=environment(**domain), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+
+
+@pytest.mark.soak
+def test_a_follower_finds_the_turtle_through_tf2(pond):
+    assert pond.offer.startswith(OFFER.format(domain=pond.domain))
+    tell = [
+        program(pond, "broadcaster", "--ros-args", "-r", f"__node:=tell{n}", "-p", f"turtlename:=turtle{n}")
+        for n in (1, 2)
+    ]
+    programs = [*tell, program(pond, "follower")]
+    try:
+        meeting = json.loads(program(pond, "meeting").communicate(timeout=LIMIT)[0])
+    finally:
+        for one in programs:
+            one.terminate()
+            one.communicate(timeout=LIMIT)
+    assert meeting["turtle1"] == pytest.approx([5.544444561004639] * 2)
+    assert meeting["apart"] < 0.1
+
+
+WATCHER = """
+import rclpy
+from rclpy.node import Node
+from turtlesim.msg import Pose
+
+rclpy.init()
+node, heard = Node("watcher"), []
+node.create_subscription(Pose, "/turtlesim2/turtle1/pose", heard.append, 1)
+while not heard or heard[-1].linear_velocity < 1.9:
+    rclpy.spin_once(node)
+print("it mimics", flush=True)
+"""
+AROUND = """
+        ExecuteProcess(cmd=["python3", f"{HERE}/driver.py", "--ros-args", "-r", "__ns:=/turtlesim1"]),
+        ExecuteProcess(cmd=["python3", f"{HERE}/watcher.py"], output="screen", on_exit=[Shutdown()]),
+"""
+
+
+@pytest.mark.soak
+def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_path):
+    (tmp_path / "watcher.py").write_text(WATCHER)
+    path = file(tmp_path, "mimic.launch.py", MIMIC + AROUND)
+    told = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
+    told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "interfaces")])
+    process = start([*ROS2, "launch", str(path)], free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
+    out, err = process.communicate(timeout=LIMIT)
+    assert (process.returncode, err) == (0, "")
+    assert "[python3-5] it mimics\n" in out
+    assert len(set(re.findall(r"See and drive it at http://localhost:(\d+)", out))) == 2
+    assert sorted(re.findall(r"takes (/\S+cmd_vel)", out)) == [
+        "/turtlesim1/turtle1/cmd_vel",
+        "/turtlesim2/turtle1/cmd_vel",
+    ]
+    assert out.count("process has finished cleanly") == 4
+
+
+def test_what_ros_can_not_read_is_told():
+    status, stdout, stderr = ended("--world", "turtlesim", "--headless", "--ros-args", "--nonsense")
+    assert (status, stdout) == (2, "")
+    assert stderr == "ROS can't read --ros-args --nonsense: ['--nonsense']\n"
+    with pytest.raises(ArgumentsError) as refused:
+        own_words(["--headless", "--ros-args", "-r", "x"])
+    begin = (
+        "ROS can't read --ros-args -r x: Failed to parse ROS arguments: Couldn't parse remap rule: '-r x'."
+    )
+    assert str(refused.value).startswith(begin)

@@ -1,0 +1,163 @@
+"""Tests of a function that says how fast a robot may drive: right ones, and wrong ones."""
+
+import math
+import time
+
+from grader.exercises.safety import bench
+
+PLACES = (-0.1, 0.0, 0.05, 0.15, 0.2, 0.21, 0.25, 0.3, 0.4, 0.45, 0.5, 1.0, 3.0, math.inf)
+WISHES = (-9.0, -0.6, -0.5, -0.2, 0.0, 0.1, 0.3, 0.5, 0.6, 9.0)
+TINY = 1e-3
+
+
+def right(distance, wish):
+    if wish < 0:
+        return max(wish, -0.5)
+    return min(wish, 0.5, math.sqrt(max(0.0, distance - 0.2)))
+
+
+def never_above_the_wish_or_the_limit(safe_speed):
+    for distance in PLACES:
+        for wish in WISHES[4:]:
+            assert safe_speed(distance, wish) <= min(wish, 0.5) + TINY
+
+
+def stops_in_time(safe_speed):
+    for distance in PLACES:
+        speed = safe_speed(distance, 0.5)
+        assert speed == 0 or speed**2 / (2 * 0.5) <= distance - 0.2 + TINY
+
+
+def no_slower_than_needed(safe_speed):
+    assert math.isclose(safe_speed(math.inf, 0.4), 0.4, abs_tol=TINY)
+    assert math.isclose(safe_speed(0.29, 0.5), 0.3, abs_tol=TINY)
+    assert math.isclose(safe_speed(9.0, 9.0), 0.5, abs_tol=TINY)
+
+
+def backwards_is_free(safe_speed):
+    for distance in PLACES:
+        assert math.isclose(safe_speed(distance, -0.3), -0.3, abs_tol=TINY)
+        assert math.isclose(safe_speed(distance, -3.0), -0.5, abs_tol=TINY)
+
+
+def nonsense_stops(safe_speed):
+    assert safe_speed(math.nan, 0.3) == 0
+    assert safe_speed(1.0, math.nan) == 0
+
+
+def as_the_formula_says(safe_speed):
+    for distance in PLACES:
+        for wish in WISHES:
+            assert math.isclose(safe_speed(distance, wish), right(distance, wish), abs_tol=TINY)
+
+
+def tests_the_copy(safe_speed):
+    for distance in PLACES:
+        assert right(distance, 0.5) <= 0.5
+
+
+def asserts_nothing(safe_speed):
+    for distance in PLACES:
+        safe_speed(distance, 0.5)
+
+
+def exact(safe_speed):
+    for distance in PLACES:
+        for wish in WISHES:
+            assert safe_speed(distance, wish) == right(distance, wish)
+
+
+def sleeps_and_asserts_nothing(safe_speed):
+    time.sleep(0.2)
+    assert safe_speed(1.0, 0.3) is not None
+
+
+def too_strict_at_the_edge(safe_speed):
+    assert safe_speed(0.29, 0.5) < 0.29
+
+
+def one_case(safe_speed):
+    assert safe_speed(9.0, 0.3) == 0.3
+
+
+def divides_by_zero(safe_speed):
+    assert 1 / safe_speed(0.1, 0.3)
+
+
+def never_ends(safe_speed):
+    speed = safe_speed(1.0, 0.3)
+    while speed < 9.0:
+        speed = abs(speed)
+
+
+PARTS = (
+    *("bench", "right", "never_above_the_wish_or_the_limit", "stops_in_time", "no_slower_than_needed"),
+    *("backwards_is_free", "nonsense_stops", "as_the_formula_says", "tests_the_copy", "asserts_nothing"),
+    *("exact", "sleeps_and_asserts_nothing", "too_strict_at_the_edge", "one_case", "divides_by_zero"),
+    "never_ends",
+)
+
+
+def properties():
+    bench(
+        never_above_the_wish_or_the_limit,
+        stops_in_time,
+        no_slower_than_needed,
+        backwards_is_free,
+        nonsense_stops,
+    )()
+
+
+def one_formula():
+    """A second reckoning, at many places: right, too."""
+    bench(as_the_formula_says, nonsense_stops)()
+
+
+def formula_and_properties():
+    bench(never_above_the_wish_or_the_limit, as_the_formula_says, nonsense_stops)()
+
+
+def copy_tested():
+    """The tests never call the function that they are given."""
+    bench(tests_the_copy)()
+
+
+def nothing_asserted():
+    bench(asserts_nothing)()
+
+
+def sleeping():
+    bench(sleeps_and_asserts_nothing)()
+
+
+def to_the_last_digit():
+    """False alarm: right ones differ in the last digits."""
+    bench(exact, nonsense_stops)()
+
+
+def stricter_than_the_contract():
+    bench(too_strict_at_the_edge, stops_in_time)()
+
+
+def one_example():
+    bench(one_case)()
+
+
+def only_the_limits():
+    bench(never_above_the_wish_or_the_limit)()
+
+
+def no_nonsense_and_nothing_backwards():
+    bench(never_above_the_wish_or_the_limit, stops_in_time)()
+
+
+def with_an_error_of_its_own():
+    bench(divides_by_zero)()
+
+
+def without_an_end():
+    bench(never_ends)()
+
+
+def without_tests():
+    bench()()

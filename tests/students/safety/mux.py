@@ -1,0 +1,158 @@
+"""Velocity muxes: right ones, and wrong ones named by their defect."""
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+
+class Mux(Node):
+    """As one would write it; the wrong ones change one thing each."""
+
+    topics = ("/cmd_vel_joy", "/cmd_vel_nav")  # the one that counts more first
+    patience = 0.5  # s
+
+    def __init__(self):
+        super().__init__("mux")
+        self.heard = {}
+        self.commands = self.create_publisher(Twist, "/cmd_vel", 10)
+        for topic in self.topics:
+            self.create_subscription(Twist, topic, lambda msg, topic=topic: self.hear(topic, msg), 10)
+        self.create_timer(0.05, self.choose)
+
+    def now(self):
+        return self.get_clock().now().nanoseconds / 1e9
+
+    def hear(self, topic, msg):
+        self.heard[topic] = self.now(), msg
+
+    def is_young(self, topic):
+        return topic in self.heard and self.now() - self.heard[topic][0] < self.patience
+
+    def choose(self):
+        for topic in self.topics:
+            if self.is_young(topic):
+                self.commands.publish(self.heard[topic][1])
+                return
+        self.commands.publish(Twist())
+
+
+class PassesOn(Mux):
+    """Without a timer: a command passes if nobody who counts more has spoken lately."""
+
+    def hear(self, topic, msg):
+        super().hear(topic, msg)
+        if topic == self.topics[0] or not self.is_young(self.topics[0]):
+            self.commands.publish(msg)
+
+    def choose(self):
+        pass
+
+
+class CountsTicks(Mux):
+    """The age in ticks of the timer."""
+
+    def now(self):
+        return self.ticks * 0.05
+
+    ticks = 0
+
+    def choose(self):
+        self.ticks += 1
+        super().choose()
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Mux())
+
+
+class NeverTimesOut(Mux):
+    """What somebody said holds for ever."""
+
+    def is_young(self, topic):
+        return topic in self.heard
+
+
+class OnlyTheJoystickTimesOut(Mux):
+    """The navigator's last command is sent for ever."""
+
+    def is_young(self, topic):
+        return topic in self.heard and (topic == self.topics[1] or super().is_young(topic))
+
+
+class OldCommandComesBack(Mux):
+    """Looks who has spoken lately at all, and sends the navigator's command from before."""
+
+    def choose(self):
+        joy, nav = self.topics
+        if self.is_young(joy):
+            self.commands.publish(self.heard[joy][1])
+        elif nav in self.heard and self.now() - max(said for said, _ in self.heard.values()) < 3.0:
+            self.commands.publish(self.heard[nav][1])
+        else:
+            self.commands.publish(Twist())
+
+
+class NavigatorFirst(Mux):
+    """The other way round."""
+
+    topics = ("/cmd_vel_nav", "/cmd_vel_joy")
+
+
+class WhoSpokeLast(Mux):
+    """Both get through, in turn."""
+
+    def choose(self):
+        young = [topic for topic in self.topics if self.is_young(topic)]
+        topic = max(young, key=lambda topic: self.heard[topic][0], default=None)
+        self.commands.publish(self.heard[topic][1] if topic else Twist())
+
+
+class PassesAll(Mux):
+    """No choice at all."""
+
+    def hear(self, topic, msg):
+        self.commands.publish(msg)
+
+    def choose(self):
+        pass
+
+
+class ZeroIsNothing(Mux):
+    """A joystick that says 0 counts as one that says nothing."""
+
+    def hear(self, topic, msg):
+        if topic != self.topics[0] or msg != Twist():
+            super().hear(topic, msg)
+
+
+class HoldsTheJoystickLong(Mux):
+    """3 s in place of 0.5 s."""
+
+    patience = 3.0
+
+
+class AddsBoth(Mux):
+    """The sum of what both want."""
+
+    def choose(self):
+        msg = Twist()
+        for topic in filter(self.is_young, self.topics):
+            msg.linear.x += self.heard[topic][1].linear.x
+            msg.angular.z += self.heard[topic][1].angular.z
+        self.commands.publish(msg)
+
+
+class ForgetsTheTurn(Mux):
+    """Copies one number only."""
+
+    def hear(self, topic, msg):
+        short = Twist()
+        short.linear.x = msg.linear.x
+        super().hear(topic, short)
+
+
+class OneDriver(Mux):
+    """Knows the joystick only."""
+
+    topics = ("/cmd_vel_joy",)

@@ -1,0 +1,54 @@
+"""The package of lesson 11 as its cells write it, built and launched in a terminal beside `python -m sim`."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.sim.standalone.programs import LIMIT, environment, robot
+
+pytestmark = pytest.mark.soak  # builds a package, and launches it in real time
+
+LESSON = Path(__file__).parents[2] / "course" / "11_packages" / "lesson.ipynb"
+IN_A_TERMINAL = "source ws/install/setup.bash && exec ros2 launch my_robot one.launch.yaml gap:=1.0"
+
+
+def write_workspace(folder):
+    """Write what the lesson's cells write of my_robot."""
+    for cell in json.loads(LESSON.read_text("utf-8"))["cells"]:
+        first, _, text = "".join(cell["source"]).partition("\n")
+        if first == "%%bash":
+            subprocess.run(["bash", "-ec", text], cwd=folder, env=terminal(), check=True)
+        elif first.startswith("%%writefile ws/src/my_robot/"):
+            (folder / first.split()[1]).write_text(text)
+
+
+def terminal(**more):
+    """The environment of JupyterLab's terminal."""
+    words = environment(**more)
+    words.pop("PYTHONPATH")
+    return words | {"PATH": f"{sys.prefix}/bin:{words['PATH']}"}
+
+
+def test_the_package_of_lesson_11_drives_a_robot_until_ctrl_c(tmp_path):
+    write_workspace(tmp_path)
+    build = ["colcon", "build", "--packages-select", "my_robot"]
+    subprocess.run(build, cwd=tmp_path / "ws", env=terminal(), check=True)
+    with robot("--world", "yard", "--headless") as yard:
+        domain = {"ROS_DOMAIN_ID": str(yard.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        launched = subprocess.Popen(
+            ["bash", "-c", IN_A_TERMINAL],
+            cwd=tmp_path, env=terminal(**domain), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        )  # fmt: skip
+        try:
+            yard.hear_until(lambda heard: heard["v"] > 0.25)
+        finally:
+            launched.send_signal(signal.SIGINT)
+            said = launched.communicate(timeout=LIMIT)[0]
+        yard.hear_until(lambda heard: heard["v"] == 0.0)
+    assert "I stop 1.0 m before a wall" in said
+    assert "process has finished cleanly" in said
+    assert launched.returncode == 0, said

@@ -1,0 +1,56 @@
+"""What makes of an environment a place that colcon and CMake know as ROS."""
+
+import os
+import subprocess
+import sys
+import sysconfig
+
+import pytest
+
+from tests.tooling.test_ci import load
+
+prefix = load("prefix")
+MADE_WITH = "/opt/python/cp311-cp311"
+WHEELS = f'INCLUDE "{MADE_WITH}/include/python3.11;{MADE_WITH}/lib/python3.11/site-packages/x"\n'
+
+
+@pytest.fixture
+def environment(tmp_path, monkeypatch):
+    packages = tmp_path / "packages"
+    packages.mkdir()
+    folders = {"purelib": str(packages), "include": sysconfig.get_path("include")}
+    monkeypatch.setattr(sysconfig, "get_path", folders.__getitem__)
+    return tmp_path
+
+
+def test_the_wheels_cmake_files_name_this_pythons_folders_and_a_linked_one_stays(environment):
+    folder = environment / "share/geometry_msgs/cmake"
+    folder.mkdir(parents=True)
+    (folder / "cached.txt").write_text(WHEELS)
+    (folder / "export.cmake").hardlink_to(folder / "cached.txt")
+    (folder / "plain.cmake").write_text("nothing")
+    prefix.correct_folders(environment)
+    here = f"{sysconfig.get_path('include')};{environment}/packages/x"
+    assert (folder / "export.cmake").read_text() == f'INCLUDE "{here}"\n'
+    assert (folder / "cached.txt").read_text() == WHEELS
+    assert {path.name for path in folder.iterdir()} == {"cached.txt", "export.cmake", "plain.cmake"}
+
+
+@pytest.mark.parametrize("shell", ["sh", "bash"])
+def test_what_a_workspace_sources_first_tells_where_ros_lies_once(environment, shell):
+    prefix.tell(environment)
+    script = environment / f"local_setup.{shell}"
+    twice = f'. "{script}"; . "{script}"; echo "$AMENT_PREFIX_PATH $PATH"'
+    told = subprocess.check_output([shell, "-c", twice], env={"PATH": os.environ["PATH"]}, text=True)
+    assert told == f"{environment} {environment}/bin:{os.environ['PATH']}\n"
+
+
+def test_every_python_of_the_environment_knows_where_ros_lies(environment, monkeypatch):
+    prefix.tell(environment)
+    line = (environment / "packages/ros.pth").read_text()
+    monkeypatch.delenv("AMENT_PREFIX_PATH")
+    exec(line)
+    assert os.environ["AMENT_PREFIX_PATH"] == sys.prefix
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "/opt/ros/jazzy")
+    exec(line)
+    assert os.environ["AMENT_PREFIX_PATH"] == "/opt/ros/jazzy"
