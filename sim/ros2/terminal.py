@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from argparse import Namespace
 from collections.abc import Callable
@@ -27,6 +28,7 @@ MARK = b"sim.ros2"  # what the script that starts this one holds, wherever it is
 def main() -> int:
     """What `ros2` on the command line does; the exit status."""
     give_way()
+    signal.signal(signal.SIGINT, _interrupted)
     reader = words.parser(_offered)
     # Names come without options among them; where nothing is known, bash offers files.
     argcomplete.autocomplete(
@@ -42,6 +44,12 @@ def main() -> int:
     except BrokenPipeError:  # as of `ros2 topic echo /scan | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+
+
+def _interrupted(*_: Any) -> None:
+    # It may hit rclpy while an object is made, and what is half made complains on stderr when it goes.
+    sys.unraisablehook = lambda _: None
+    raise KeyboardInterrupt
 
 
 def _say(line: str) -> None:
