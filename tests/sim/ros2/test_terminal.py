@@ -74,7 +74,7 @@ def terminal(system, tmp_path_factory):
 def test_nodes_in_another_process_are_described_as_by_the_official_tools(terminal, command):
     said, status = terminal(command)
     expected = plain(OURS.get(command, OFFICIAL[command]))
-    if "--feedback" in command:  # a topic beside services: it may come before the acceptance, or after the result
+    if "--feedback" in command:  # a topic: it may overtake the acceptance, and the result it
         said, wanted = Counter(plain(said).split("\n\n")), Counter(expected.split("\n\n"))
         assert not said - wanted
         assert all(block.startswith("Feedback:") for block in wanted - said)
