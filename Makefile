@@ -10,6 +10,8 @@ export PYTHON WHEELS
 # Equal runs need equal dictionary orders and equal sums on every machine.
 export PYTHONHASHSEED = 0
 export OPENBLAS_NUM_THREADS = 1
+# Hundreds of processes would compile all that they import again; containers often say that they should.
+unexport PYTHONDONTWRITEBYTECODE
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
