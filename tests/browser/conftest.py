@@ -12,6 +12,7 @@ from tests.browser.pictures import COUNT_FRAMES
 from tests.marking.tiny import tiny
 
 CHROMIUM = shutil.which("chromium")
+WINDOW = {"width": 1280, "height": 900}
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -67,7 +68,7 @@ def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
 
     @contextmanager
     def opened(notebook: str) -> Iterator[Lab]:
-        page = browser.new_page(viewport={"width": 1280, "height": 900})
+        page = browser.new_page(viewport=WINDOW)
         page.add_init_script(COUNT_FRAMES)
         lab = Lab(page, address)
         try:
@@ -80,8 +81,35 @@ def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
     return opened
 
 
+@pytest.fixture(scope="module")
+def turn_to(browser, address) -> Iterator[Callable[[str], AbstractContextManager[Lab]]]:
+    """The same in one tab, which turns to a notebook after the other.
+
+    JupyterLab itself is loaded once, which takes longer than most of what a test does there; where one could
+    not be opened or closed, it is loaded again.
+    """
+    page = browser.new_page(viewport=WINDOW)
+    page.add_init_script(COUNT_FRAMES)
+    lab = Lab(page, address)
+
+    @contextmanager
+    def opened(notebook: str) -> Iterator[Lab]:
+        page.set_viewport_size(WINDOW)
+        try:
+            lab.turn_to(notebook)
+            yield lab
+            lab.leave()
+        except BaseException:
+            lab.shut_down()
+            page.goto("about:blank")
+            raise
+
+    yield opened
+    page.close()
+
+
 @pytest.fixture
 def lab(browser, address) -> Iterator[Lab]:
-    page = browser.new_page(viewport={"width": 1280, "height": 900})
+    page = browser.new_page(viewport=WINDOW)
     yield Lab(page, address)
     page.close()

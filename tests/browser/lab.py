@@ -29,6 +29,14 @@ KERNEL_READY = """async () => {
     await panel.sessionContext.ready;
     await panel.sessionContext.session.kernel.info;
 }"""
+OPEN = """async path => { await window.jupyterapp.commands.execute('docmanager:open', {path}); }"""
+# Without a question whether to save: a notebook that was run is changed.
+CLOSE_ALL = """() => {
+    for (const widget of [...window.jupyterapp.shell.widgets('main')]) {
+        if (widget.context) widget.context.model.dirty = false;
+        if (!widget.isDisposed) widget.close();
+    }
+}"""
 # By the session and not by its sign, which a narrow toolbar hides.
 KERNEL_IDLE = "() => window.notebook()?.sessionContext.kernelDisplayStatus === 'idle'"
 # In the order of the cells: each has a count, up to one whose output is an error.
@@ -143,6 +151,19 @@ class Lab:
         self.page.goto(f"{self.address}/{path}")
         self.wait_for_kernel()
 
+    def turn_to(self, notebook: str) -> None:
+        """Open a notebook in the JupyterLab that shows; where none shows, load it."""
+        if not self.page.url.startswith(self.address):
+            self.open(notebook)
+            return
+        self.page.evaluate(OPEN, notebook)
+        self.wait_for_kernel()
+
+    def leave(self) -> None:
+        """Close all notebooks, and shut down their kernels, so that what plays ends here."""
+        self.page.evaluate(CLOSE_ALL)
+        self.shut_down()
+
     def wait_for_kernel(self) -> None:
         """Wait until the notebook shows and its kernel is idle."""
         self.page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook .jp-Cell")
@@ -198,12 +219,20 @@ class Lab:
         self.page.evaluate("name => window.jupyterapp.commands.execute(name)", name)
 
     @contextmanager
-    def dark(self) -> Iterator[None]:
-        """Show JupyterLab in its dark theme for a while; the server would keep it for the next test."""
+    def narrow_and_dark(self) -> Iterator[None]:
+        """Show JupyterLab in a narrow window, without its left area, and in its dark theme for a while.
+
+        The server would keep the theme for the next test, and the page the rest.
+        """
+        before = self.page.viewport_size
         self._use_theme("JupyterLab Dark")
+        self.page.set_viewport_size({"width": 480, "height": 900})
+        self.command("application:toggle-left-area")
         try:
             yield
         finally:
+            self.command("application:toggle-left-area")
+            self.page.set_viewport_size(before)
             self._use_theme("JupyterLab Light")
 
     def _use_theme(self, name: str) -> None:

@@ -41,16 +41,17 @@ ENDED = "list(player.recording.ended)"
 
 
 @pytest.fixture
-def playing(request, students_folder, open_lab):
+def playing(request, students_folder, turn_to):
     """JupyterLab with a notebook whose second cell, the test's parameter, plays; more cells may follow."""
     cells = request.param if isinstance(request.param, tuple) else (request.param,)
     name = f"pictures/{request.node.originalname}.ipynb"
     write_notebook(students_folder / name, IMPORTS, *cells)
-    with open_lab(name) as lab:
+    with turn_to(name) as lab:
         lab.run_cell(0)
         lab.run_cell(1)
         live(lab).wait_for_time(0.2)
         yield lab
+        lab.page.keyboard.up("ArrowUp")  # some tests end with it held
 
 
 def live(lab) -> Picture:
@@ -309,9 +310,7 @@ def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(playing):
 
 @pytest.mark.parametrize("playing", [CIRCLE], indirect=True)
 def test_the_live_picture_fits_a_narrow_dark_window(playing):
-    with playing.dark():
-        playing.page.set_viewport_size({"width": 480, "height": 900})
-        playing.command("application:toggle-left-area")
+    with playing.narrow_and_dark():
         picture = live(playing)
         picture.wait_for_time(picture.time() + 0.5)
         box = picture.root.bounding_box()

@@ -79,9 +79,7 @@ def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
 
 
 def test_a_replay_fits_a_narrow_dark_window(saved, open_lab):
-    with open_lab("pictures/replay.ipynb") as lab, lab.dark():
-        lab.page.set_viewport_size({"width": 480, "height": 900})
-        lab.command("application:toggle-left-area")
+    with open_lab("pictures/replay.ipynb") as lab, lab.narrow_and_dark():
         picture = Picture(lab.page.locator(".ros2-view"))
         picture.plays()
         box = picture.root.bounding_box()
