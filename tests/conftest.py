@@ -31,7 +31,8 @@ LESSONS = "tests/tooling/test_lessons.py"
 FIRST = ("tests/browser/", LESSONS, "tests/marking/", "tests/tooling/", "tests/exercises/", "tests/sim/ros/")
 
 
-LAB = [f"tests/browser/test_{name}.py" for name in ("course", "play_in_lab", "replay_in_lab", "students_lab")]
+IN_LAB = "cells_in_lab", "course", "play_in_lab", "replay_in_lab", "students_lab", "terminals"
+LAB = [f"tests/browser/test_{name}.py" for name in IN_LAB]
 
 
 class ByFile(LoadScopeScheduling):
