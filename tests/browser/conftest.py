@@ -60,33 +60,12 @@ def address(students_folder) -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def open_lab(browser, address) -> Callable[[str], AbstractContextManager[Lab]]:
-    """Open a notebook in a tab of its own; in the end the tab closes, and the kernel is shut down.
-
-    The page counts the frames that its pictures paint, as `framesPainted`.
-    """
-
-    @contextmanager
-    def opened(notebook: str) -> Iterator[Lab]:
-        page = browser.new_page(viewport=WINDOW)
-        page.add_init_script(COUNT_FRAMES)
-        lab = Lab(page, address)
-        try:
-            lab.open(notebook)
-            yield lab
-        finally:
-            lab.shut_down()
-            page.close()
-
-    return opened
-
-
-@pytest.fixture(scope="module")
-def turn_to(browser, address) -> Iterator[Callable[[str], AbstractContextManager[Lab]]]:
-    """The same in one tab, which turns to a notebook after the other.
+def open_lab(browser, address) -> Iterator[Callable[[str], AbstractContextManager[Lab]]]:
+    """Open a notebook; in the end it is closed, and its kernel is shut down.
 
     JupyterLab itself is loaded once, which takes longer than most of what a test does there; where one could
-    not be opened or closed, it is loaded again.
+    not be opened or closed, it is loaded again. The page counts the frames that its pictures paint, as
+    `framesPainted`.
     """
     page = browser.new_page(viewport=WINDOW)
     page.add_init_script(COUNT_FRAMES)

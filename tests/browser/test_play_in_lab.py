@@ -41,12 +41,12 @@ ENDED = "list(player.recording.ended)"
 
 
 @pytest.fixture
-def playing(request, students_folder, turn_to):
+def playing(request, students_folder, open_lab):
     """JupyterLab with a notebook whose second cell, the test's parameter, plays; more cells may follow."""
     cells = request.param if isinstance(request.param, tuple) else (request.param,)
     name = f"pictures/{request.node.originalname}.ipynb"
     write_notebook(students_folder / name, IMPORTS, *cells)
-    with turn_to(name) as lab:
+    with open_lab(name) as lab:
         lab.run_cell(0)
         lab.run_cell(1)
         live(lab).wait_for_time(0.2)
