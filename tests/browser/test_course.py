@@ -22,33 +22,33 @@ RED = """() => [...window.notebook().content.model.cells].flatMap(cell =>
 
 
 @pytest.mark.parametrize("notebook", LESSONS)
-def test_a_lesson_runs_from_top_to_bottom_without_red(lab, notebook):
-    lab.open(f"course/{notebook}")
-    lab.run_all()
-    assert lab.page.evaluate(RED) == []
-    lab.screenshot("lesson-" + notebook.split("/")[0])
+def test_a_lesson_runs_from_top_to_bottom_without_red(open_lab, notebook):
+    with open_lab(f"course/{notebook}") as lab:
+        lab.run_all()
+        assert lab.page.evaluate(RED) == []
+        lab.screenshot("lesson-" + notebook.split("/")[0])
 
 
 @pytest.mark.parametrize("notebook", ASSIGNMENTS)
-def test_an_assignment_that_is_not_started_runs_without_red_and_gives_no_points(lab, notebook):
-    lab.open(f"exercises/{notebook}")
-    lab.run_all()
-    assert lab.page.evaluate(RED) == []
-    text = lab.output()
-    assert text.count("This exercise is not started yet") == text.count(": 0 of ") > 0
-    lab.screenshot("starter-" + notebook.split("/")[0])
+def test_an_assignment_that_is_not_started_runs_without_red_and_gives_no_points(open_lab, notebook):
+    with open_lab(f"exercises/{notebook}") as lab:
+        lab.run_all()
+        assert lab.page.evaluate(RED) == []
+        text = lab.output()
+        assert text.count("This exercise is not started yet") == text.count(": 0 of ") > 0
+        lab.screenshot("starter-" + notebook.split("/")[0])
 
 
 @pytest.mark.parametrize("notebook", ASSIGNMENTS)
-def test_validate_accepts_the_solution(lab, notebook):
-    lab.open(f"solved/{notebook}")
-    rows = lab.validate()
+def test_validate_accepts_the_solution(open_lab, notebook):
+    with open_lab(f"solved/{notebook}") as lab:
+        rows = lab.validate()
     assert rows[-1] == "Total | 100 of 100 | "
     assert all(row.endswith(" | ✔") for row in rows[:-1])
 
 
 @pytest.mark.parametrize("notebook", ASSIGNMENTS[:1])
-def test_validate_gives_a_starter_no_points(lab, notebook):
-    lab.open(f"exercises/{notebook}")
-    rows = lab.validate()
+def test_validate_gives_a_starter_no_points(open_lab, notebook):
+    with open_lab(f"exercises/{notebook}") as lab:
+        rows = lab.validate()
     assert len(rows) > 5 and rows[-1] == "Total | 0 of 100 | "

@@ -42,30 +42,30 @@ def test_the_first_press_on_run_works_before_the_kernel_is_there(lab, students_f
     assert lab.page.locator(".jp-Dialog").count() == 0
 
 
-def test_the_instructors_panels_are_hidden(lab):
-    lab.open("tiny/wrong.ipynb")
-    assert lab.page.locator(".validate-button").is_visible()
-    panels = ("formgrader", "formgrader-local", "create-assignment", "assignment-list", "course-list")
-    assert [name for name in panels if lab.has_command(f"nbgrader:open-{name}")] == []
-    assert lab.page.locator(".lm-MenuBar-itemLabel", has_text="Nbgrader").count() == 0
-    assert lab.page.request.get(f"{lab.address}/formgrader").status == 404
+def test_the_instructors_panels_are_hidden(open_lab):
+    with open_lab("tiny/wrong.ipynb") as lab:
+        assert lab.page.locator(".validate-button").is_visible()
+        panels = ("formgrader", "formgrader-local", "create-assignment", "assignment-list", "course-list")
+        assert [name for name in panels if lab.has_command(f"nbgrader:open-{name}")] == []
+        assert lab.page.locator(".lm-MenuBar-itemLabel", has_text="Nbgrader").count() == 0
+        assert lab.page.request.get(f"{lab.address}/formgrader").status == 404
 
 
-def test_a_notebook_runs(lab):
-    lab.open("tiny/right.ipynb")
-    lab.run_all()
-    assert "3.0" in lab.output()
+def test_a_notebook_runs(open_lab):
+    with open_lab("tiny/right.ipynb") as lab:
+        lab.run_all()
+        assert "3.0" in lab.output()
 
 
 @pytest.mark.parametrize(
     ("notebook", "points", "total"),
     [("right", [2, 3, 1], 6), ("half_right", [2, 3, 0], 5), ("wrong", [0, 0, 0], 0)],
 )
-def test_validate_shows_the_points_of_each_check_and_their_sum(lab, notebook, points, total):
-    lab.open(f"tiny/{notebook}.ipynb")
-    *rows, last = lab.validate()
-    assert [row.split(" | ")[1] for row in rows] == [
-        f"{each} of {most}" for each, most in zip(points, (2, 3, 1), strict=True)
-    ]
-    assert last == f"Total | {total} of 6 | "
-    assert lab.page.evaluate("window.notebook().content.model.cells.get(0).executionCount") is None
+def test_validate_shows_the_points_of_each_check_and_their_sum(open_lab, notebook, points, total):
+    with open_lab(f"tiny/{notebook}.ipynb") as lab:
+        *rows, last = lab.validate()
+        assert [row.split(" | ")[1] for row in rows] == [
+            f"{each} of {most}" for each, most in zip(points, (2, 3, 1), strict=True)
+        ]
+        assert last == f"Total | {total} of 6 | "
+        assert lab.page.evaluate("window.notebook().content.model.cells.get(0).executionCount") is None
