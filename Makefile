@@ -15,7 +15,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab teach test solutions demo exercises handout bench tidy lint setup tools wheels lock clean
+.PHONY: help lab teach test solutions demo exercises league handout bench tidy lint setup tools wheels lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -37,6 +37,9 @@ demo: setup  ## release, mark three sample submissions, give feedback; no browse
 
 exercises: setup  ## make exercises/ from solutions/
 	$(BIN)/python -m grader.marking.release.make_exercises
+
+league: setup  ## let a class's delivery robots compete (make league ARGS="--worlds 3")
+	$(BIN)/python -m grader league $(ARGS)
 
 handout: setup  ## make what students get, a folder and a ZIP, in dist/
 	$(BIN)/python -m grader.marking.release.handout $(ARGS)

@@ -1,27 +1,41 @@
-"""The instructor's commands: `python -m grader mark`, `certificate` and `confirm`, see their --help."""
+"""The commands of the course: `python -m grader mark`, `league`, `certificate` and `confirm`; see --help.
+
+Students have `league` alone.
+"""
+import importlib
+import importlib.util
 import sys
 
 # jsonschema, below nbgrader, would load this to check web addresses: more than a second, for nothing.
 sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
-USAGE = """usage: python -m grader mark ASSIGNMENT [--help]
-       python -m grader certificate --issuer WORDS [--help]
-       python -m grader confirm PAGE [--help]"""
+COMMANDS = {  # module and function, and how it is used
+    "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
+    "league": ("grader.marking.league.cli", "main", "[NOTEBOOK ...]"),
+    "certificate": ("grader.marking.certificate.cli", "certificate", "--issuer WORDS"),
+    "confirm": ("grader.marking.certificate.cli", "confirm", "PAGE"),
+}
+
+
+def usage() -> str:
+    """How the commands are used that are there."""
+    lines = [f"python -m grader {name} {COMMANDS[name][2]} [--help]" for name in COMMANDS if _is_there(name)]
+    return "usage: " + "\n       ".join(lines)
 
 
 def main(arguments: list[str]) -> int:
     """Run a command; returns the exit status."""
     command, *rest = arguments or [""]
-    if command == "mark":
-        from grader.marking.command.cli import main as mark
-
-        return mark(rest)
-    if command in ("certificate", "confirm"):
-        from grader.marking.certificate import cli
-
-        return cli.certificate(rest) if command == "certificate" else cli.confirm(rest)
+    if command in COMMANDS and _is_there(command):
+        module, function, _ = COMMANDS[command]
+        return int(getattr(importlib.import_module(module), function)(rest))
     asked = command in ("-h", "--help")
-    print(USAGE, file=sys.stdout if asked else sys.stderr)
+    print(usage(), file=sys.stdout if asked else sys.stderr)
     return 0 if asked else 2
+
+
+def _is_there(command: str) -> bool:
+    package = COMMANDS[command][0].rpartition(".")[0]
+    return importlib.util.find_spec(package) is not None
 
 
 if __name__ == "__main__":

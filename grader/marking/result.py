@@ -28,6 +28,7 @@ class CellResult:
     verdicts: list[dict[str, Any]] = field(default_factory=list)  # as in Score.as_dict()
     digests: list[str] = field(default_factory=list)  # of the recordings that were judged
     needs_look: bool = False  # a check of ours broke: the instructor decides
+    games: list[dict[str, Any]] = field(default_factory=list)  # as in Game.as_dict(), in a league alone
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,11 @@ class Result:
 
     def to_json(self) -> str:
         """As text. The same result gives the same text."""
-        return json.dumps(asdict(self), sort_keys=True, ensure_ascii=False, allow_nan=False)
+        data = asdict(self)
+        for cell in (cell for notebook in data["notebooks"] for cell in notebook["cells"]):
+            if not cell["games"]:  # marks, and so their digests, are what they were before there were leagues
+                del cell["games"]
+        return json.dumps(data, sort_keys=True, ensure_ascii=False, allow_nan=False)
 
     def grade_json(self) -> str:
         """The same without what differs from one marking to the next: the timings."""

@@ -9,6 +9,7 @@ import tempfile
 from dataclasses import dataclass, field
 
 from grader.marking.handed_in.submission import HandedIn, Release
+from grader.marking.league.contest import Contest
 
 RESULT = 250_000_000  # bytes of a result on its way back: JSON, where a letter may take six
 
@@ -32,13 +33,14 @@ class Task:
     """One submission to mark: all that was read of it, so nobody has to read it again.
 
     release: the instructor's, without answers. key: hexadecimal digest of everything that is marked; the
-    Result carries the same.
+    Result carries the same. contest: plays in it, instead of being marked.
     """
 
     student: str
     release: Release
     handed_in: HandedIn
     key: str
+    contest: Contest | None = None
 
     @property
     def assignment(self) -> str:

@@ -30,6 +30,7 @@ FAR = 10_000.0  # m; nothing in a world is farther away
 LIDAR = ("sensor_msgs/msg/LaserScan", "/robot")  # type and sender of the scans that are shown
 NOTHING_NEAR, NOT_MEASURED = -1, -2  # in place of a range
 MARKS, LOGS, TOPICS, COLUMNS, CHARACTERS = 100, 200, 20, 240, 200
+Mark = tuple[float, str, str, tuple[float, float] | None]  # stamp, kind, words, place
 WORDS = 9_000  # bytes, packed, of all marks together, and of all log lines; there are no more than fit
 
 
@@ -39,14 +40,24 @@ def pack(recording: Recording, speed: float) -> str:
     data |= {"stamps": [], "tracks": [], "scans": []}
     if recording.world is not None:
         world = world_data(recording.world, recording.bodies)
-        data |= {"world": world, **_motion(recording), "scans": list(_scans(recording))}
+        data |= {"world": world, **motion(recording), "scans": list(_scans(recording))}
     if recording.drawing is not None:
         data |= {"drawing": packed(recording.drawing)}
     data |= {"marks": _marks(recording), "logs": _logs(recording), "topics": _topics(recording)}
     data["graph"] = graph_data(recording)
+    return deflated(data)
+
+
+def deflated(data: dict[str, Any]) -> str:
+    """A page's data as base64 of deflated JSON."""
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).encode()
     return base64.b64encode(deflate.compress(text) + deflate.flush()).decode()
+
+
+def inflated(text: str) -> dict[str, Any]:
+    """What `deflated` was given."""
+    return dict(json.loads(zlib.decompress(base64.b64decode(text), -15)))
 
 
 def run_end(recording: Recording) -> float:
@@ -54,7 +65,8 @@ def run_end(recording: Recording) -> float:
     return recording.stamp if recording.ended.reason == "running" else recording.ended.stamp
 
 
-def _motion(recording: Recording) -> dict[str, Any]:
+def motion(recording: Recording) -> dict[str, Any]:
+    """Where all bodies were, and when. Raises ValueError where nothing has moved yet."""
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
         raise ValueError("this run moved nothing yet: it has no pose to draw")
@@ -103,14 +115,24 @@ def _range(value: float) -> int:
 
 def _marks(recording: Recording) -> list[list[Any]]:
     """What the scrub bar points at: contacts, errors and the end."""
-    marks = [
+    marks = touches(recording)
+    for error in recording.errors:
+        marks.append((error.stamp, "error", f"{error.type} in {error.callback}{error.says}", None))
+    end = (run_end(recording), "end", f"the run ended. {recording.ended.detail}", None)
+    return mark_rows(marks, end)
+
+
+def touches(recording: Recording) -> list[Mark]:
+    """What the robot touched."""
+    return [
         (touch.stamp, "contact", f"touched a {touch.what} with its {touch.side}", (touch.x, touch.y))
         for touch in recording.contacts
     ]
-    for error in recording.errors:
-        marks.append((error.stamp, "error", f"{error.type} in {error.callback}{error.says}", None))
-    kept = thinned(sorted(marks, key=lambda mark: mark[0]), MARKS)
-    kept.append((run_end(recording), "end", f"the run ended. {recording.ended.detail}", None))
+
+
+def mark_rows(marks: Iterable[Mark], end: Mark) -> list[list[Any]]:
+    """The marks in order, no more of them than a page shows, and the end."""
+    kept = [*thinned(sorted(marks, key=lambda mark: mark[0]), MARKS), end]
     return _fitting(
         [
             [round(stamp * 1000), kind, f"t = {stamp:.3g} s: {_short(words)}", _place(place)]

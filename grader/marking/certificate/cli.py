@@ -11,9 +11,9 @@ from grader.marking.certificate.certificate import Certificate
 from grader.marking.certificate.confirm import Now, confirm_number, confirm_page, quoted
 from grader.marking.certificate.marks import Standing, read_standings
 from grader.marking.certificate.receipt import FILE, Receipt
-from grader.marking.command.progress import printable
 from grader.marking.errors import CourseError, NotConfirmed
 from grader.marking.gradebook.course import Course
+from grader.marking.progress import printable
 from grader.marking.version import versions
 from grader.marking.whole_file import write_whole
 

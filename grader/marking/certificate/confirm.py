@@ -5,8 +5,8 @@ from grader.marking.certificate.certificate import Certificate, day, score
 from grader.marking.certificate.marks import Standing
 from grader.marking.certificate.page import NUMBER, read_page
 from grader.marking.certificate.receipt import Issued, Receipt
-from grader.marking.command.progress import printable
 from grader.marking.errors import NotConfirmed
+from grader.marking.progress import printable
 
 Now = Callable[[str], Standing]  # of a student
 LONGEST = 80  # characters of a stranger's words

@@ -6,10 +6,10 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from grader.marking.certificate.certificate import Mark
-from grader.marking.command.journal import Journal
-from grader.marking.command.progress import printable
 from grader.marking.gradebook.book import Book, BookMark
 from grader.marking.gradebook.course import Course
+from grader.marking.journal import Journal
+from grader.marking.progress import printable
 from grader.marking.result import Result
 
 HEADING = re.compile(r"^# +(.+?)\s*$", re.MULTILINE)

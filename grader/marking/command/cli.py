@@ -5,16 +5,16 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from grader.marking.command.journal import Journal
 from grader.marking.command.mark_class import OpenMarker, Outcome, Settings, mark_class
-from grader.marking.command.progress import printable
 from grader.marking.command.summary import summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
+from grader.marking.journal import Journal
 from grader.marking.machines import DaskPool
 from grader.marking.pool import Pool
+from grader.marking.progress import printable
 from grader.marking.whole_file import write_whole
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.

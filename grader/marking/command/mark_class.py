@@ -12,8 +12,6 @@ from typing import Protocol
 
 from grader.marking import secret
 from grader.marking.command.intake import TaskReader, check_release, find_submissions
-from grader.marking.command.journal import Journal, JournalEntry
-from grader.marking.command.progress import Progress
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
@@ -25,6 +23,8 @@ from grader.marking.gradebook.marked_notebooks import (
     write_notebooks,
 )
 from grader.marking.handed_in.submission import load_release
+from grader.marking.journal import Journal, JournalEntry
+from grader.marking.progress import Progress
 from grader.marking.result import Result
 from grader.marking.task import Task
 

@@ -4,8 +4,8 @@ import io
 import textwrap
 from collections.abc import Iterator, Mapping
 
-from grader.marking.command.progress import printable
 from grader.marking.command.summary import Summary, cells, missed_checks
+from grader.marking.progress import printable
 from grader.marking.result import Result
 
 WIDTH = 100

@@ -7,9 +7,9 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-from grader.marking.command.journal import JournalEntry
 from grader.marking.gradebook.course import TIMESTAMP, Course, timestamp
 from grader.marking.handed_in.submission import Release
+from grader.marking.journal import JournalEntry
 from grader.marking.result import Result
 from grader.marking.whole_file import write_whole
 

@@ -8,10 +8,9 @@ import socket
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import monotonic
-from typing import Any
+from typing import Any, Protocol
 
-from grader.cast import RemoteCast
-from grader.exercise import Exercise
+from grader.cast import Cast, RemoteCast
 from grader.marking.errors import StudentProcessGone
 from grader.marking.judge.cell_outputs import CellOutputs, Displays
 from grader.marking.task import TimeLimits
@@ -23,6 +22,15 @@ from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, Wire
 MESSAGE = 8_000_000  # bytes of one message
 MOST_FLAGS = 5  # of one cell
 GRACE = 10.0  # s that a cell has to end after it was interrupted
+
+
+class Judging(Protocol):
+    """Judges nodes that are handed over to it by its name: an Exercise, or what stands in its place."""
+
+    name: str
+
+    def judge(self, cast: Cast, secret: str = "") -> Score:
+        """As `Exercise.judge`."""
 
 
 class DeadlineWire(Wire):
@@ -92,7 +100,7 @@ class LedProcess:
             pass  # nobody has asked for nodes
         self._say_if_late(began, outputs)
 
-    def test(self, source: str, exercise: Exercise, outputs: CellOutputs, secret: str) -> TestRun:
+    def test(self, source: str, exercise: Judging, outputs: CellOutputs, secret: str) -> TestRun:
         """Run a test cell, and judge the nodes that it offers to this exercise. Raises StudentProcessGone.
 
         secret: what private worlds and seeds are made from; "" for the public ones.
@@ -116,7 +124,7 @@ class LedProcess:
         """Nothing is left to do: the process may end."""
         self._wire.close()
 
-    def _grade(self, exercise: Exercise, tested: TestRun, secret: str) -> None:
+    def _grade(self, exercise: Judging, tested: TestRun, secret: str) -> None:
         self._limit(self._time_limits.test)
         remote = Remote(self._wire)
         remote.deadline = self._wire.deadline
@@ -189,7 +197,7 @@ class LedProcess:
         return f"All its cells together took more than {self._time_limits.notebook:g} s."
 
 
-def _refusal(named: str, exercise: Exercise, tested: TestRun) -> str:
+def _refusal(named: str, exercise: Judging, tested: TestRun) -> str:
     if tested.score is not None or tested.error is not None or tested.problem:
         return "graded more than once in one cell; the first time was judged"
     if named != exercise.name:

@@ -12,6 +12,7 @@ from nbformat import NotebookNode
 from grader.marking.errors import Unusable
 from grader.marking.handed_in.rebuild import rebuild_submission
 from grader.marking.handed_in.suspicion import suspicions
+from grader.marking.judge.league_run import LeagueRun
 from grader.marking.judge.marking import Marking, StartStudentProcess, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
@@ -65,7 +66,25 @@ def give_the_rest_nothing(marking: Marking) -> None:
         results += [no_points(cell, marking.exercises[name][cell_name(cell)]) for cell in missed]
 
 
+def choose_last_exercise(marking: Marking) -> None:
+    """A league is played with what the last test cell hands over."""
+    marking.exercises = {
+        name: dict(list(exercises.items())[-1:]) for name, exercises in list(marking.exercises.items())[-1:]
+    }
+
+
+def run_and_play(marking: Marking) -> None:
+    """Run the notebook of the last exercise, and let its programs play."""
+    for name in marking.exercises:
+        marking.cells[name] = []
+        if name in marking.rebuilt.notebooks:
+            LeagueRun(marking, name, marking.task.contest).run_all()
+        else:
+            marking.stops.append(marking.rebuilt.missing[name])
+
+
 STEPS = (rebuild_notebooks, find_exercises, name_tricks, run_and_judge, give_the_rest_nothing)
+LEAGUE = (rebuild_notebooks, find_exercises, name_tricks, choose_last_exercise, run_and_play)
 
 
 def mark_submission(task: Task, secret: str, start_process: StartStudentProcess) -> Result:
@@ -78,7 +97,7 @@ def mark_submission(task: Task, secret: str, start_process: StartStudentProcess)
     began = monotonic()
     marking = Marking(task, secret_of_student(secret, task.student), start_process)
     try:
-        for step in STEPS:
+        for step in LEAGUE if task.contest else STEPS:
             step(marking)
     except Unusable as reason:
         return Result(task.student, task.assignment, task.key, "refused", str(reason))

@@ -2,7 +2,8 @@
 
     python -m grader.marking.release.handout [--to FOLDER]      default: dist
 
-No solutions, no tests, no marking. Equal courses give equal bytes.
+No solutions, no tests, and of marking only what a league of one's own robots needs. Equal courses give equal
+bytes.
 """
 import argparse
 import hashlib
@@ -25,7 +26,8 @@ PARTS = (
     *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "interfaces", ".binder", ".devcontainer"),
 )
-KEPT_BACK = ("grader/marking", "grader/__main__.py", "jupyter/teach", "course/README.md")
+MARKING = ("command", "certificate", "gradebook", "machines", "release", "secret.py")
+KEPT_BACK = (*(f"grader/marking/{part}" for part in MARKING), "jupyter/teach", "course/README.md")
 TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile
 LEFT_BY_TOOLS = {"__pycache__", ".ipynb_checkpoints", "build"}
 LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold

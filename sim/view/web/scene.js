@@ -230,6 +230,7 @@ class Scene {
 
   ways() {
     this.world.bodies.forEach((body, index) => {
+      if (body.kind === "ghost" && this.frame.trails[index]) this.line(this.frame.trails[index], this.look.ghost, 2);
       if (body.kind !== "robot") return;
       if (this.frame.ahead[index]) this.line(this.frame.ahead[index], this.look.ahead, 2);
       if (this.frame.trails[index]) this.line(this.frame.trails[index], this.robot(index), 2.25);

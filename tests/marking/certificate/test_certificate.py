@@ -11,7 +11,7 @@ from nbgrader.api import Gradebook
 from grader.marking.certificate import cli
 from grader.marking.certificate.page import read_page
 from grader.marking.command.cli import main as mark
-from grader.marking.command.journal import Journal
+from grader.marking.journal import Journal
 from grader.marking.version import versions
 from tests.marking.certificate.conftest import ISSUER, marked, number, write_secret
 from tests.marking.classroom import ASSIGNMENT

@@ -8,11 +8,11 @@ import pytest
 import sqlalchemy
 from nbgrader.api import Gradebook
 
-from grader.marking.command.journal import JournalEntry
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.marked_notebooks import marked_notebooks, time_handed_in
+from grader.marking.journal import JournalEntry
 from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
 from grader.marking.result import CellResult

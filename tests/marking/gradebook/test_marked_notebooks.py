@@ -4,7 +4,6 @@ from dataclasses import replace
 import nbformat
 import pytest
 
-from grader.marking.command.journal import JournalEntry
 from grader.marking.gradebook.marked_notebooks import (
     is_shown,
     marked_notebooks,
@@ -12,6 +11,7 @@ from grader.marking.gradebook.marked_notebooks import (
     time_handed_in,
     write_notebooks,
 )
+from grader.marking.journal import JournalEntry
 from tests.marking.classroom import ASSIGNMENT, result, submit, tasks
 
 LOOK = "Your notebook was mended before it was marked. Please check that this is your work:"

@@ -5,8 +5,8 @@ import pytest
 from nbgrader.api import Gradebook
 
 from grader.marking.command.cli import main
-from grader.marking.command.journal import Journal
 from grader.marking.gradebook.course import Course
+from grader.marking.journal import Journal
 from tests.marking.hostile.corpus import ASSIGNMENT, course, submit
 
 POINTS = {"honest_right": 33.0, "linked_secret": 15.0, "missing_notebook": 0.0, "renamed_notebook": 15.0}

@@ -3,8 +3,8 @@ import os
 
 import pytest
 
-from grader.marking.command.journal import Journal
 from grader.marking.errors import CourseError
+from grader.marking.journal import Journal
 from tests.marking.classroom import ASSIGNMENT, result, tasks
 
 

@@ -2,7 +2,7 @@ import io
 
 import pytest
 
-from grader.marking.command.progress import Progress, printable
+from grader.marking.progress import Progress, printable
 from grader.marking.result import CellResult, NotebookResult, Result
 
 

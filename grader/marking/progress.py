@@ -27,9 +27,13 @@ class Progress:
 
     def done(self, result: Result) -> None:
         """Say that a submission is marked."""
-        self._done += 1
         most = sum(cell.max for notebook in result.notebooks for cell in notebook.cells)
-        said = printable(f"{result.student}: {result.points:g} of {most:g} points, {result.verdict}")
+        self.tell(f"{result.student}: {result.points:g} of {most:g} points, {result.verdict}")
+
+    def tell(self, said: str) -> None:
+        """Say that one more is done."""
+        self._done += 1
+        said = printable(said)
         count = f"{self._done} of {self._total}"
         if not self._lively:
             print(f"{count}  {said}", file=self._stream, flush=True)

@@ -1,0 +1,1 @@
+"""`python -m grader league`: capstones in the same warehouses, compared."""

@@ -1,0 +1,94 @@
+"""A league as data that crosses processes: in which warehouses everybody plays, and what one gave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from grader.checks.shift import Shift, shift
+from grader.diagnosis import find_fault, find_flaw
+from grader.exercise import Scenario
+from grader.seeds import private_seed
+from sim import World
+from sim.evidence import Recording, Seconds
+
+
+@dataclass(frozen=True)
+class Contest:
+    """Who plays in it plays in all of these warehouses.
+
+    seed: words that all warehouses are drawn from; "" for the public ones, of the seeds 0, 1, 2 and so on.
+    worlds: how many. seconds: of simulated time in each.
+    """
+
+    seed: str = ""
+    worlds: int = 10
+    seconds: Seconds = 120.0
+
+    def rounds(self) -> Iterator[tuple[Scenario, int]]:
+        """Each warehouse's scenario, with its seed."""
+        scenario = Scenario(lambda seed: World.generate("warehouse", seed=seed), self.seconds)
+        for index in range(self.worlds):
+            yield scenario, private_seed(self.seed, "league", index) if self.seed else index
+
+
+@dataclass(frozen=True)
+class Game:
+    """What one capstone did in one warehouse.
+
+    delivered: orders that count: those that were delivered before a person was touched. orders: all that
+    came. people, contacts: how often it touched a person, and anything else. waited: how long the orders that
+    count took, together (s). way: m. digest: of the recording. replay: from `pack_motion`; "" without any
+    motion. why: what went wrong with its programs, in words that may hold some of theirs; or "".
+    """
+
+    delivered: int
+    orders: int
+    people: int
+    contacts: int
+    waited: Seconds
+    way: float
+    digest: str
+    replay: str
+    why: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        return asdict(self)
+
+
+def game_of(recording: Recording) -> Game:
+    """What happened in a run in a warehouse. Raises ValueError for another run."""
+    from sim.view.beside import pack_motion
+
+    done = shift(recording)
+    took = counted(done)
+    people = done.touched.get("person", 0)
+    return Game(
+        delivered=len(took),
+        orders=len(done.jobs),
+        people=people,
+        contacts=sum(done.touched.values()) - people,
+        waited=round(sum(took), 3),
+        way=round(done.way, 3),
+        digest=recording.digest,
+        replay=pack_motion(recording) if recording.path else "",
+        why=_why(recording, bool(took)),
+    )
+
+
+def counted(done: Shift) -> list[Seconds]:
+    """How long each order took that counts: safety comes first."""
+    return [
+        job.over - job.asked
+        for job in done.delivered
+        if job.over is not None and (done.met_person is None or job.over < done.met_person)
+    ]
+
+
+def _why(recording: Recording, delivers: bool) -> str:
+    fault = find_fault(recording)
+    if fault is not None:
+        return f"{fault.saw}. {fault.hint}"
+    return "" if delivers else find_flaw(recording) or ""

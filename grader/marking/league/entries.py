@@ -1,0 +1,87 @@
+"""Who plays: a class's capstones and the reference, or notebooks that somebody names."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.marking.errors import CourseError, Unusable
+from grader.marking.handed_in.folder import FILE, FolderEntry, read_file
+from grader.marking.handed_in.submission import (
+    LARGEST,
+    SUFFIX,
+    HandedIn,
+    Release,
+    load_release,
+    read_folder,
+    submission_key,
+)
+from grader.marking.league.contest import Contest
+from grader.marking.league.standings import REFERENCE
+from grader.marking.task import Task
+from grader.marking.version import code_version
+
+
+@dataclass(frozen=True)
+class Entries:
+    """What plays for a release. read: reads what each one handed in; it raises nothing."""
+
+    release: Release
+    read: Mapping[str, Callable[[], HandedIn]]
+
+    def tasks(self, contest: Contest, chosen: Iterable[str]) -> Iterable[Task]:
+        """The task of each of the chosen, read when its turn comes."""
+        version = code_version()
+        for student in chosen:
+            handed_in = self.read[student]()
+            key = submission_key(handed_in, self.release, repr(contest), version)
+            yield Task(student, self.release, handed_in, key, contest)
+
+
+def of_class(folder: Path, assignment: str) -> Entries:
+    """All that was handed in, in the course in a folder, and the reference. Raises CourseError."""
+    if importlib.util.find_spec("grader.marking.command") is None:  # this is the handout
+        raise CourseError("only instructors have what a class handed in: name your notebooks")
+    from grader.marking.command.intake import find_submissions
+    from grader.marking.gradebook.course import Course
+
+    course = Course(folder)
+    found = find_submissions(course, assignment)
+    if course.source(assignment).is_dir():
+        found[REFERENCE] = course.source(assignment)
+    release = load_release(course.release(assignment))
+    return Entries(release, {name: functools.partial(read_folder, at, release) for name, at in found.items()})
+
+
+def of_notebooks(folder: Path, assignment: str, notebooks: Iterable[str]) -> Entries:
+    """These versions of the capstone, for the course in a folder. Raises CourseError."""
+    place = folder / "exercises" / assignment
+    if not any(place.glob(f"*{SUFFIX}")):
+        raise CourseError(f"expected the assignment {assignment} in {place.parent}, saw none")
+    release = load_release(place)
+    found: dict[str, Callable[[], HandedIn]] = {}
+    for path in map(Path, notebooks):
+        if path.stem in found:
+            raise CourseError(f"two notebooks are called {path.stem}: give each version a name of its own")
+        if path.suffix != SUFFIX or path.stem.startswith("."):
+            raise CourseError(f"expected a notebook such as my_robot{SUFFIX}, saw {path}")
+        if not path.exists():
+            raise CourseError(f"there is no notebook {path}")
+        found[path.stem] = functools.partial(_handed_in, _content(path), list(release.notebooks)[-1])
+    return Entries(release, found)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return read_file(path.absolute().parent, path.name, LARGEST)
+    except Unusable as reason:
+        raise CourseError(str(reason)) from None
+
+
+def _handed_in(content: bytes, name: str) -> HandedIn:
+    """As if it alone had been handed in, under the name that the assignment gives it."""
+    file = name + SUFFIX
+    return HandedIn((FolderEntry(file, FILE, len(content)),), {file: content})

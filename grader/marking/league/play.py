@@ -1,0 +1,100 @@
+"""Lets everybody play who has not yet, and keeps what came of it, so that a stopped league goes on."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
+from dataclasses import asdict, dataclass, field
+from typing import Any, Protocol
+
+from grader.marking.journal import Journal
+from grader.marking.league.contest import Contest
+from grader.marking.league.entries import Entries
+from grader.marking.progress import Progress
+from grader.marking.result import Result
+from grader.marking.task import Task, TimeLimits
+
+
+class Marker(Protocol):
+    """Marks submissions, or lets them play, in processes of their own."""
+
+    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield the results as they are there."""
+
+
+@dataclass
+class Played:
+    """What is there. total: how many play. fresh: how many have now. interrupted: by Ctrl-C."""
+
+    results: list[Result] = field(default_factory=list)
+    total: int = 0
+    fresh: int = 0
+    interrupted: bool = False
+
+
+def play(
+    entries: Entries,
+    contest: Contest,
+    journal: Journal,
+    open_pool: Callable[[], AbstractContextManager[Marker]],
+) -> Played:
+    """Let all entries play the contest. The caller holds the journal's lock. Raises OSError."""
+    played = Played(total=len(entries.read))
+    waiting: list[str] = []
+    for task in entries.tasks(contest, entries.read):
+        entry = journal.find(task.student, task.key)
+        if entry:
+            played.results.append(entry.result)
+        else:
+            waiting.append(task.student)
+    progress = Progress(len(waiting))
+    try:
+        if waiting:
+            with open_pool() as pool:
+                for result in pool.mark(entries.tasks(contest, waiting)):
+                    played.results.append(journal.keep(result).result)
+                    played.fresh += 1
+                    progress.tell(f"{result.student.lstrip('.')}: {_done(result)}")
+    except KeyboardInterrupt:
+        played.interrupted = True
+    finally:
+        progress.close()
+    return played
+
+
+def _done(result: Result) -> str:
+    games = [game for notebook in result.notebooks for cell in notebook.cells for game in cell.games]
+    return f"{sum(game['delivered'] for game in games)} delivered in {len(games)} warehouses"
+
+
+def time_limits(contest: Contest) -> TimeLimits:
+    """Whose programs are slower than the world's own time are stopped."""
+    usual, whole = TimeLimits(), contest.worlds * contest.seconds
+    return TimeLimits(test=max(usual.test, whole), notebook=usual.notebook + whole)
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A league as it was drawn. key: decides the names of the robots, and is told nobody."""
+
+    contest: Contest
+    key: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        return asdict(self)
+
+
+def draw(
+    journal: Journal, worlds: int | None, seconds: float | None, seed: str | None, *, anew: bool
+) -> Drawing:
+    """The league that was drawn here before, with what is told anew; or a new one.
+
+    seed: what its warehouses are drawn from; without one, and where `anew`, nobody knows it before.
+    """
+    kept = journal.settings() or {}
+    before = Contest(**kept["contest"]) if "contest" in kept else Contest(seed=secrets.token_hex(8))
+    drawn = seed if seed is not None else secrets.token_hex(8) if anew else before.seed
+    contest = Contest(drawn, worlds or before.worlds, seconds or before.seconds)
+    return Drawing(contest, kept.get("key") or secrets.token_hex(16))
