@@ -36,7 +36,7 @@ class Control(Node):
         super().__init__("control")
 """
 ENDS_LATER = IDLE + """
-import os, signal
+import ctypes
 
 class Control(Node):
     made = 0
@@ -45,7 +45,7 @@ class Control(Node):
         super().__init__("control")
         Control.made += 1
         if Control.made == 2:
-            os.kill(os.getpid(), signal.SIGKILL)
+            ctypes.string_at(0)
 """
 
 
