@@ -1,0 +1,29 @@
+"""The exercises of 13_delivery, the delivery robot: from the graph on paper to one that drives."""
+
+from grader.exercises.delivery.deciding import decide
+from grader.exercises.delivery.desk import desk
+from grader.exercises.delivery.floor import (
+    KEPT,
+    Floor,
+    far_from,
+    flat,
+    listed,
+    points_of,
+    seconds,
+    stamped,
+    steer,
+)
+
+__all__ = [
+    "KEPT",
+    "Floor",
+    "decide",
+    "desk",
+    "far_from",
+    "flat",
+    "listed",
+    "points_of",
+    "seconds",
+    "stamped",
+    "steer",
+]
