@@ -13,6 +13,8 @@ from grader.exercises.delivery.floor import (
     stamped,
     steer,
 )
+from grader.exercises.delivery.gating import gate
+from grader.exercises.delivery.partners import floor_of, partners
 
 __all__ = [
     "KEPT",
@@ -21,7 +23,10 @@ __all__ = [
     "desk",
     "far_from",
     "flat",
+    "floor_of",
+    "gate",
     "listed",
+    "partners",
     "points_of",
     "seconds",
     "stamped",

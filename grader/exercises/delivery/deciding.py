@@ -12,6 +12,7 @@ from sim.evidence import Heard, Recording, Seconds
 GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
 SAME = 0.02  # m
+SILENT = "Publish both each time the timer calls, also where nothing has changed, and wait for nothing."
 
 decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
 
@@ -71,7 +72,8 @@ def _compare(run: Recording, about: str, hint: str) -> None:
         goals, states = (_said(run, topic, begin, end) for topic in (GOAL, STATE))
         expected = f"“{one.state}” and {_place(one.place)} from {begin:.3g} s on, as {one.told}"
         if not (goals and states):
-            raise Missed(expected, f"no word from {begin:.3g} s to {one.end:.3g} s", hint, picture="topics")
+            saw = f"no word from {begin:.3g} s to {one.end:.3g} s"
+            raise Missed(expected, saw, SILENT, picture="topics")
         for state, goal in zip(states, goals, strict=False):
             if state.message.data != one.state or not _is_there(goal, one):
                 there = goal.message.pose.position

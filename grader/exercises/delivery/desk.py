@@ -6,7 +6,7 @@ import functools
 import math
 import random
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
@@ -19,6 +19,7 @@ from sim.evidence import Seconds, since_start
 
 LEAST, PER_METRE = 20.0, 4.0  # s, and s for each metre from pickup to delivery: what an order takes
 AMPLE = 200.0  # s
+WELL = 0.9  # how full the battery is where that isn't tried
 SPELL = 2.2, 2.8  # s; how long a situation lasts
 
 
@@ -50,8 +51,8 @@ class Situation:
     end: Seconds
     state: str
     place: Point
-    orders: list[tuple[Job, int]] = field(default_factory=list)
-    share: float = 0.6
+    share: float
+    orders: list[tuple[Job, int]]
 
 
 class Script:
@@ -82,9 +83,9 @@ class Script:
         self, about: str, told: str, state: str, place: Point, *orders: tuple[Job, int], **more: float
     ) -> None:
         end = self.begin + more.get("lasts", self.draw.uniform(*SPELL))
-        share = more.get("share", 0.6)
+        share = more.get("share", WELL)
         self.situations.append(
-            Situation(about, told, self.begin, end, state, place, list(orders), round(share, 2))
+            Situation(about, told, self.begin, end, state, place, round(share, 2), list(orders))
         )
         self.begin = end
 
@@ -152,7 +153,7 @@ class Desk(Node):
         self.script = Script(seed)
         self.ahead = list(self.script.situations)
         self.deadlines: dict[int, Duration] = {}
-        self.share = 0.6
+        self.share = WELL
         self.orders = self.create_publisher(Order, "/orders", KEPT)
         self.battery = self.create_publisher(BatteryState, "/battery_state", 10)
         self.docks = self.create_publisher(PoseStamped, "/dock_pose", KEPT)
