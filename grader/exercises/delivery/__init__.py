@@ -15,20 +15,33 @@ from grader.exercises.delivery.floor import (
 )
 from grader.exercises.delivery.gating import gate
 from grader.exercises.delivery.partners import floor_of, partners
+from grader.exercises.delivery.perceiving import perceive
+from grader.exercises.delivery.plan import Camera, hall, hears, says, sketch
+from grader.exercises.delivery.planning import blueprint
+from grader.exercises.delivery.sights import crossing, turner
 
 __all__ = [
     "KEPT",
+    "Camera",
     "Floor",
+    "blueprint",
+    "crossing",
     "decide",
     "desk",
     "far_from",
     "flat",
     "floor_of",
     "gate",
+    "hall",
+    "hears",
     "listed",
     "partners",
+    "perceive",
     "points_of",
+    "says",
     "seconds",
+    "sketch",
     "stamped",
     "steer",
+    "turner",
 ]

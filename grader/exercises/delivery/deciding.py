@@ -12,6 +12,7 @@ from sim.evidence import Heard, Recording, Seconds
 GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
 SAME = 0.02  # m
+PAST = "Hear /orders with KEPT, and keep orders by their id: a later message replaces an earlier one."
 SILENT = "Publish both each time the timer calls, also where nothing has changed, and wait for nothing."
 
 decide = Exercise("decide", "Decide: what next?", seconds=39, companions=desk, seeds=(1, 2))
@@ -28,7 +29,7 @@ def decides(run: Recording) -> None:
 @decide.check(3, after=decides)
 def knows_the_past(run: Recording) -> None:
     """It knows what was published before it began: the last word on each order counts."""
-    _compare(run, "past", "Keep orders by their id, so that a later message replaces an earlier one.")
+    _compare(run, "past", PAST)
 
 
 @decide.check(2, after=knows_the_past)

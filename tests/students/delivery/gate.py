@@ -191,3 +191,10 @@ class StraightOn(Control):
 
     def plan(self):
         self.way = [self.goal] if self.goal else []
+
+
+class Creeps(Control):
+    """So slow that no fault meets it."""
+
+    def allowed(self, nearest):
+        return min(0.14, super().allowed(nearest))
