@@ -23,7 +23,7 @@ POSE, PEOPLE, OBSTACLES, GOAL = "/robot_pose", "/people", "/obstacles", "/goal_p
 LASTS = 2.5  # s; each fault, and each person who is only told of
 CLOSE, FARTHER = 1.1, 2.0  # m; where these persons are
 ALONE = 2.8  # m; nobody is nearer when a fault begins
-DRIVES = 0.8  # s of driving before the next fault
+DRIVES, FAST = 0.8, 0.2  # s and m/s of driving before the next fault
 FAULTS = "silent", "stale", "no people", "close", "farther"
 
 
@@ -107,7 +107,7 @@ class Seer(Located):
                 self.fault, self.driven = "", 0
             return
         alone = all(math.dist(self.pose[:2], person) > ALONE for person in people)
-        self.driven = self.driven + 1 if alone and self.speed > 0.15 else 0
+        self.driven = self.driven + 1 if alone and self.speed > FAST else 0
         if self.faults and self.driven >= DRIVES * 10:
             self.fault, self.begin = self.faults.pop(), now
 

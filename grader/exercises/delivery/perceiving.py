@@ -133,7 +133,7 @@ def _must_not_be_boxes(heard: Heard, boxes: list[Point]) -> None:
     points = _points(heard)
     for box in boxes:
         if any(math.dist(point, box) < BOX for point in points):
-            hint = "What has stood there all the time doesn't walk: compare with the scan of half a second before."
+            hint = "What has stood there all the time doesn't walk: compare with half a second before."
             saw = f"the box at {_place(box)} among them at {heard.stamp:.3g} s"
             raise Missed("no box on /people that has stood there for six seconds", saw, hint)
 

@@ -40,14 +40,14 @@ def says(topic: str, type: Any, profile: QoSProfile | int = 10) -> Mouth:
     return Mouth(topic, type, profile)
 
 
-def sketch(plan: Mapping[str, Sequence[Ear | Mouth]]) -> Callable[[], None]:
-    """A program with a node for each name of the plan, which has its subscriptions and its publishers."""
+def sketch(plan: Mapping[str, Callable[[], Sequence[Ear | Mouth]]]) -> Callable[[], None]:
+    """A program with a node for each name of the plan, and its ends: what the function of that name lists."""
 
     def main() -> None:
         rclpy.init()
         executor = SingleThreadedExecutor()
-        for name, ends in plan.items():
-            executor.add_node(_node(name, ends))
+        for name, lines in plan.items():
+            executor.add_node(_node(name, lines()))
         executor.spin()
 
     return main

@@ -15,7 +15,7 @@ from grader.exercises.delivery import KEPT, hears, says, sketch
 SCAN = hears("/scan", LaserScan, qos_profile_sensor_data)
 PEOPLE, OBSTACLES = ("/people", PoseArray), ("/obstacles", PoseArray)
 POSE, GOAL, COMMANDS = ("/robot_pose", PoseStamped), ("/goal_pose", PoseStamped), ("/cmd_vel", Twist)
-PARTS = ("hears", "says", "sketch", "plan", "drawn")
+PARTS = ("hears", "says", "sketch", "plan", "paper", "drawn")
 
 
 def plan(**changes):
@@ -49,6 +49,11 @@ def plan(**changes):
     return right | changes
 
 
+def paper(lines):
+    """Run a plan, given as lists."""
+    sketch({name: lambda ends=ends: ends for name, ends in lines.items()})()
+
+
 def drawn(more=(), less=(), other=None):
     """The right plan; more: (program, line) to be added; less: (program, topic) to be left out."""
     right = plan()
@@ -57,7 +62,7 @@ def drawn(more=(), less=(), other=None):
     for program, line in more:
         right[program] = [*right[program], line]
     right.update(other or {})
-    sketch({name: lines for name, lines in right.items() if lines})()
+    paper({name: lines for name, lines in right.items() if lines})
 
 
 def right():
@@ -101,7 +106,7 @@ def with_nodes_of_its_own():
 
 def god_node():
     lines = [line for lines in plan().values() for line in lines]
-    sketch({"robot": lines})()
+    paper({"delivery_robot": lines})
 
 
 def without_a_reader():
@@ -157,9 +162,9 @@ def map_as_it_comes():
     drawn(less=[("control", "/map")], more=[("control", hears("/map", OccupancyGrid))])
 
 
-def reliable_scan():
-    drawn(less=[("perception", "/scan")], more=[("perception", hears("/scan", LaserScan))])
+def reliable_picture():
+    drawn(less=[("reader", "/image")], more=[("reader", hears("/image", Image))])
 
 
 def empty_plan():
-    sketch({})()
+    paper({})
