@@ -73,7 +73,7 @@ class Script:
         return round(self.draw.uniform(left, left + 2.0), 2), round(self.draw.uniform(0.0, 9.0), 2)
 
     def _job(self, left: Seconds = AMPLE, way: float = 5.0) -> Job:
-        """An order; left: more than it takes, where `way` (m) is given as something else."""
+        """An order with so many seconds left; way: from pickup to delivery, m."""
         self.count += 1
         pickup, angle = self._point(4.0), self.draw.uniform(-1.0, 1.0)
         delivery = pickup[0] - way * math.cos(angle), pickup[1] + way * math.sin(angle)

@@ -31,7 +31,7 @@ ARRAY = "geometry_msgs/msg/PoseArray"
 PLACED, TURNED = 0.05, 0.06  # m, rad
 REACH = 0.5  # m from somebody's or a box's middle to a point of theirs
 BOX = 0.25  # m from a box's middle to its points, mostly
-EACH = 3  # message is judged
+EACH = 3  # every third message is judged: what is in view takes time to compute
 MAPPED = 0.1  # m; what is nearer to the map than this isn't strange
 WALKS, STANDS = 0.4, 0.05  # m/s
 

@@ -7,7 +7,6 @@ from geometry_msgs.msg import PoseArray, PoseStamped
 from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
-from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 from tf2_ros import Buffer, TransformException, TransformListener
 
@@ -109,15 +108,6 @@ class LidarInTheMiddle(Perception):
 
     def lidar(self, stamp):
         return self.place("base_link", stamp)
-
-
-class PlaceOfNow(Perception):
-    """The newest transform there is, and a pose from before."""
-
-    def place(self, frame, stamp):
-        found = super().place(frame, Time())
-        last, self.last = getattr(self, "last", found), found
-        return last
 
 
 class StampsOfNow(Perception):
