@@ -26,7 +26,7 @@ gate = Exercise("gate", "Control, behind a gate", world=floor_of, seconds=45, co
 @gate.check(2)
 def listens(run: Recording) -> None:
     """The node hears /robot_pose, /people and /goal_pose, and publishes Twist messages on /cmd_vel."""
-    with hinting(guess="Leave the subscriptions as they are, and publish at the end of drive, in every case."):
+    with hinting(guess="Leave the subscriptions as they are, and publish at the end of drive."):
         for topic in (POSE, PEOPLE, GOAL):
             subscribes(run, topic)
         publishes(run, OUT, TWIST, at_least=10)
