@@ -1,7 +1,8 @@
-"""A graph on paper, and the programs that have its ends and nothing behind them."""
+"""A graph on paper, and the programs that have its ends, and only empty messages to say."""
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -41,7 +42,10 @@ def says(topic: str, type: Any, profile: QoSProfile | int = 10) -> Mouth:
 
 
 def sketch(plan: Mapping[str, Callable[[], Sequence[Ear | Mouth]]]) -> Callable[[], None]:
-    """A program with a node for each name of the plan, and its ends: what the function of that name lists."""
+    """A program with a node for each name of the plan, and its ends: what the function of that name lists.
+
+    The nodes publish empty messages, five times a second.
+    """
 
     def main() -> None:
         rclpy.init()
@@ -59,7 +63,8 @@ def _node(name: str, ends: Sequence[Ear | Mouth]) -> Node:
         if isinstance(end, Ear):
             node.create_subscription(end.type, end.topic, lambda message: None, end.profile)
         else:
-            node.create_publisher(end.type, end.topic, end.profile)
+            publisher = node.create_publisher(end.type, end.topic, end.profile)
+            node.create_timer(0.2, functools.partial(publisher.publish, end.type()))
     return node
 
 
