@@ -206,11 +206,3 @@ class DeafToPeople(Control):
     """Hears of people on a topic of its own."""
 
     people_topic = "/who_walks"
-
-
-class OneGoalOnly(Control):
-    """Goes to the first place, and stays there."""
-
-    def on_goal(self, goal):
-        if self.goal is None:
-            super().on_goal(goal)
