@@ -15,6 +15,7 @@ from tests.exercises.evidence import Evidence
 from tests.exercises.score_tables import students
 from tests.exercises.test_actions import TestActions as Actions
 from tests.exercises.test_control import TestControl as Control
+from tests.exercises.test_delivery import TestDelivery as Delivery
 from tests.exercises.test_frames import TestFrames as Frames
 from tests.exercises.test_joints import TestJoints as Joints
 from tests.exercises.test_navigator import TestNavigator as Navigator
@@ -28,7 +29,7 @@ from tests.exercises.test_topics import TestTopics as Topics
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence),
-    *(Joints, Frames, Control, Packages, Safety),
+    *(Joints, Frames, Control, Packages, Safety, Delivery),
 )
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 SECRET = "an instructor's"

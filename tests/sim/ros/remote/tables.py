@@ -20,7 +20,7 @@ from tests.sim.ros.remote.apart import Apart
 
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "actions", "sensing"),
-    *("navigator", "silence", "joints", "frames", "control", "packages", "safety"),
+    *("navigator", "silence", "joints", "frames", "control", "packages", "safety", "delivery"),
 )
 # They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")

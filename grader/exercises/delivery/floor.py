@@ -1,0 +1,146 @@
+"""What a delivery robot computes with, given to students: poses, what the map doesn't explain, ways.
+
+It is what lesson 13 has beside its notebook, with types.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Pose, PoseArray, PoseStamped
+from nav_msgs.msg import OccupancyGrid
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import LaserScan
+
+Point = tuple[float, float]  # m, in map
+Place = tuple[float, float, float]  # x, y (m) and yaw (rad)
+Cell = tuple[int, int]  # column, row
+
+KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # also for latecomers
+CELL = 0.1  # m; the width of a cell in which ways are searched
+CLEAR = 0.2  # m from the middle of the robot to what is solid
+
+
+def seconds(stamp: Time) -> float:
+    """A stamp in a message, in s."""
+    return stamp.sec + stamp.nanosec / 1e9
+
+
+def flat(pose: Pose) -> Place:
+    """Where a Pose is: x (m), y (m) and yaw (rad)."""
+    return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
+
+
+def stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
+    """A PoseStamped in map."""
+    message = PoseStamped()
+    message.header.stamp, message.header.frame_id = stamp, "map"
+    message.pose.position.x, message.pose.position.y = float(x), float(y)
+    message.pose.orientation.z, message.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return message
+
+
+def listed(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
+    """A PoseArray in map, of points (x, y)."""
+    message = PoseArray(poses=[stamped(stamp, *point).pose for point in points])
+    message.header.stamp, message.header.frame_id = stamp, "map"
+    return message
+
+
+def points_of(scan: LaserScan, pose: Place) -> np.ndarray:
+    """The points (x, y) in map that the rays met, as rows; pose: x, y and yaw of the lidar."""
+    ranges = np.array(scan.ranges)
+    rays = np.flatnonzero(np.isfinite(ranges))
+    angles = pose[2] + scan.angle_min + rays * scan.angle_increment
+    return np.column_stack((pose[0] + ranges[rays] * np.cos(angles), pose[1] + ranges[rays] * np.sin(angles)))
+
+
+def far_from(
+    points: Iterable[Sequence[float]], others: Iterable[Sequence[float]], reach: float
+) -> list[Sequence[float]]:
+    """Those points that are farther than `reach` (m) from all the others."""
+    return [point for point in points if all(math.dist(point, other) > reach for other in others)]
+
+
+def thinned(points: Iterable[Sequence[float]], gap: float = 0.1) -> list[Sequence[float]]:
+    """Some of the points, so that each of them is near (m) to one that is kept."""
+    kept = []
+    for point in points:
+        kept += far_from([point], kept, gap)
+    return kept
+
+
+def steer(pose: Place, point: Sequence[float], speed: float = 0.5) -> tuple[float, float]:
+    """The speed (m/s) and the turn (rad/s) that lead to a point."""
+    distance = math.dist(pose[:2], point)
+    off = math.remainder(math.atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2], math.tau)
+    forward = min(speed, 2 * distance) * math.cos(off) ** 3 if abs(off) < 0.8 else 0.0
+    return forward, 3.0 * off
+
+
+class Floor:
+    """The map of the warehouse: an OccupancyGrid, as one can ask it."""
+
+    def __init__(self, grid: OccupancyGrid) -> None:
+        self.info = grid.info
+        self.left, self.bottom = grid.info.origin.position.x, grid.info.origin.position.y
+        self.solid = np.array(grid.data).reshape(grid.info.height, grid.info.width) > 50
+        step = round(CELL / grid.info.resolution)
+        self.known = self.near(0.15)
+        self.closed = self.near(CLEAR - CELL / 2)[::step, ::step]
+
+    def near(self, reach: float) -> np.ndarray:
+        """The cells of the map that are at most `reach` (m), along each axis, from something solid."""
+        found = self.solid.copy()
+        for _ in range(round(reach / self.info.resolution)):
+            found[1:] |= found[:-1].copy()
+            found[:-1] |= found[1:].copy()
+            found[:, 1:] |= found[:, :-1].copy()
+            found[:, :-1] |= found[:, 1:].copy()
+        return found
+
+    def strange(self, points: np.ndarray) -> list[Sequence[float]]:
+        """The points (rows) that lie more than 0.15 m from everything on the map."""
+        column = ((points[:, 0] - self.left) / self.info.resolution).astype(int).clip(0, self.info.width - 1)
+        row = ((points[:, 1] - self.bottom) / self.info.resolution).astype(int).clip(0, self.info.height - 1)
+        return thinned(points[~self.known[row, column]].tolist())
+
+    def way(
+        self, start: Sequence[float], goal: Sequence[float], obstacles: Iterable[Sequence[float]] = ()
+    ) -> list[Point]:
+        """Points from start to goal, clear of the map and the obstacles, by A*; [] where there is no way."""
+        closed = self.closed.copy()
+        for point in obstacles:
+            column, row = self.cell(point)
+            closed[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3] = True
+        first, last = self.cell(start), self.cell(goal)
+        closed[last[1], last[0]] = False
+        came = search(closed.tolist(), first, last)
+        cells = [last]
+        while came.get(cells[-1]):
+            cells.append(came[cells[-1]])
+        middle = [(self.left + (x + 0.5) * CELL, self.bottom + (y + 0.5) * CELL) for x, y in cells[1:-1]]
+        return [*middle[::-1], tuple(goal)] if last in came else []
+
+    def cell(self, point: Sequence[float]) -> Cell:
+        """The cell (column, row) of a point."""
+        return int((point[0] - self.left) / CELL), int((point[1] - self.bottom) / CELL)
+
+
+def search(closed: list[list[bool]], first: Cell, last: Cell) -> dict[Cell, Cell | None]:
+    """From which cell each cell is reached soonest, until the last one is: A* over rows of cells."""
+    queue, came, cost = [(0.0, first)], {first: None}, {first: 0.0}
+    while queue:
+        _, here = heapq.heappop(queue)
+        if here == last:
+            break
+        for right, up in ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)):
+            there, far = (here[0] + right, here[1] + up), cost[here] + math.hypot(right, up)
+            if not closed[there[1]][there[0]] and far < cost.get(there, math.inf):
+                came[there], cost[there] = here, far
+                heapq.heappush(queue, (far + math.dist(there, last), there))
+    return came

@@ -1,0 +1,204 @@
+"""An exercise on perception: where am I, what stands here, who walks?"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from grader.checks import Missed, hinting, publishes
+from grader.checks.silence import silence
+from grader.exercise import Exercise
+from grader.exercises.delivery.floor import Point, flat
+from grader.exercises.delivery.sights import (
+    CLOSE,
+    FAR,
+    SETTLED,
+    at,
+    boxes_of,
+    crossing,
+    in_view,
+    person_of,
+    speed_at,
+    turner,
+)
+from sim.evidence import Heard, Recording, Seconds, since_start
+from sim.world.clearance import clearance
+
+POSE, PEOPLE, OBSTACLES = "/robot_pose", "/people", "/obstacles"
+ARRAY = "geometry_msgs/msg/PoseArray"
+PLACED, TURNED = 0.05, 0.06  # m, rad
+REACH = 0.5  # m from somebody's or a box's middle to a point of theirs
+BOX = 0.25  # m from a box's middle to its points, mostly
+EACH = 3  # every third message is judged: what is in view takes time to compute
+MAPPED = 0.1  # m; what is nearer to the map than this isn't strange
+WALKS, STANDS = 0.4, 0.05  # m/s
+
+perceive = Exercise(
+    "perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner, seeds=(1,)
+)
+
+
+@perceive.check(2)
+def tells(run: Recording) -> None:
+    """The node publishes a PoseStamped on /robot_pose, and PoseArrays on /people and /obstacles."""
+    with hinting(
+        guess="It needs /map (with KEPT), /scan and a tf2 listener, and tells with each other scan."
+    ):
+        publishes(run, POSE, "geometry_msgs/msg/PoseStamped", at_least=20)
+        publishes(run, PEOPLE, ARRAY, at_least=20)
+        publishes(run, OBSTACLES, ARRAY, at_least=20)
+
+
+@perceive.check(4, after=tells)
+def knows_its_place(run: Recording) -> None:
+    """/robot_pose is where base_link was at its stamp, in map."""
+    hint = (
+        "Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's stamp."
+    )
+    for heard in _said(run, POSE):
+        x, y, yaw = flat(heard.message.pose)
+        true = at(run.path, _when(heard))
+        off = math.dist((x, y), true[1:3]), abs(math.remainder(yaw - true.yaw, math.tau))
+        if not (off[0] < PLACED and off[1] < TURNED):
+            expected = f"the robot at {true.x:.2f}, {true.y:.2f}, turned by {true.yaw:.2f} rad"
+            saw = f"{x:.2f}, {y:.2f} and {math.remainder(yaw, math.tau):.2f} rad at {heard.stamp:.3g} s"
+            raise Missed(expected, saw, hint)
+
+
+@perceive.check(3, after=knows_its_place)
+def stamps_by_the_scan(run: Recording) -> None:
+    """All three carry the stamp of the scan that they come from, and the frame map, five times a second."""
+    stamps = {_nanoseconds(heard) for heard in run.messages("/scan") if heard.ours}
+    hint = "Pass scan.header.stamp on, and not the time of now."
+    for topic in (POSE, PEOPLE, OBSTACLES):
+        said = _said(run, topic)
+        wrong = next((one for one in said if _nanoseconds(one) not in stamps), None)
+        if wrong:
+            saw = f"{_when(wrong):.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
+            raise Missed("the stamps of scans", saw, hint)
+        if any(one.message.header.frame_id != "map" for one in said):
+            raise Missed(f"the frame map on {topic}", f"“{said[0].message.header.frame_id}”", hint)
+        if len({_nanoseconds(one) for one in said}) < 4 * run.ended.stamp:
+            raise Missed(f"five scans or more each second on {topic}", f"{len(said)} messages", hint)
+
+
+@perceive.check(4, after=knows_its_place)
+def finds_what_stands(run: Recording) -> None:
+    """/obstacles has points of the boxes in view, and none of what is on the map."""
+    boxes = _boxes_in_view(run)
+    for heard in _said(run, OBSTACLES)[::EACH]:
+        points = _points(heard)
+        hint = "Floor.strange gives the points that the map doesn't explain; publish them all."
+        for box in boxes if not _somebody_is_in_view(run, _when(heard)) else []:
+            if not _has(points, box):
+                expected = f"a point of the box at {_place(box)}"
+                raise Missed(expected, f"none within {REACH} m of it at {heard.stamp:.3g} s", hint)
+        mapped = _mapped(run, points)
+        if mapped:
+            saw = f"{_place(mapped[0])} at {heard.stamp:.3g} s, which is on the map"
+            raise Missed("points that the map doesn't explain", saw, hint)
+
+
+@perceive.check(5, after=knows_its_place)
+def finds_who_walks(run: Recording) -> None:
+    """/people has a point of whoever walks in view, and of no box that stands there from the beginning."""
+    track, boxes, judged = person_of(run), _boxes_in_view(run), 0
+    for heard in _said(run, PEOPLE)[::EACH]:
+        when = _when(heard)
+        if when > SETTLED and not judged:
+            _must_not_be_boxes(heard, boxes)
+        if _is_seen(run, when, 1.0) and speed_at(track, when, 1.0) > WALKS:
+            judged += 1
+            hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
+            _must_be_told(run, heard, "somebody who walks", hint)
+    _must_have(run, judged, "somebody who walks")
+
+
+@perceive.check(4, after=finds_who_walks)
+def remembers_who_stops(run: Recording) -> None:
+    """Whoever walked, and stops, is told of for some seconds more."""
+    track, judged = person_of(run), 0
+    for heard in _said(run, PEOPLE)[::EACH]:
+        when = _when(heard)
+        if _is_seen(run, when, 1.2) and speed_at(track, when, 1.2) < STANDS:
+            judged += 1
+            hint = "Keep the points that moved, each with its time, for five seconds."
+            _must_be_told(run, heard, "somebody who walked here, and stands now", hint)
+    _must_have(run, judged, "somebody who stands")
+
+
+def _must_not_be_boxes(heard: Heard, boxes: list[Point]) -> None:
+    points = _points(heard)
+    for box in boxes:
+        if any(math.dist(point, box) < BOX for point in points):
+            hint = "What has stood there all the time doesn't walk: compare with half a second before."
+            saw = f"the box at {_place(box)} among them at {heard.stamp:.3g} s"
+            raise Missed("no box on /people that has stood there for six seconds", saw, hint)
+
+
+def _must_be_told(run: Recording, heard: Heard, whom: str, hint: str) -> None:
+    there = at(person_of(run), _when(heard))[1:3]
+    if not _has(_points(heard), there):
+        saw = f"no point of /people within {REACH} m of that at {heard.stamp:.3g} s"
+        raise Missed(f"{whom}, at {_place(there)}", saw, hint)
+    if len(_points(heard)) > 300:
+        raise Missed("points of people", f"{len(_points(heard))} points at {heard.stamp:.3g} s", hint)
+
+
+def _must_have(run: Recording, judged: int, whom: str) -> None:
+    if judged < 5:
+        raise silence(run, f"messages on {PEOPLE} with {whom} in view", f"{judged}", [])
+
+
+def _is_seen(run: Recording, when: Seconds, lasting: Seconds) -> bool:
+    """Whether the person has been in view for a while."""
+    there = [at(person_of(run), when - back)[1:3] for back in (lasting, lasting / 2, 0.0)]
+    return all(in_view(run.world, _here(run), place, FAR - 0.5) for place in there)
+
+
+def _somebody_is_in_view(run: Recording, when: Seconds, reach: float = FAR) -> bool:
+    return in_view(run.world, _here(run), at(person_of(run), when)[1:3], reach, 0.0)
+
+
+def _mapped(run: Recording, points: list[Point]) -> list[Point]:
+    """Those that are on the map."""
+    if not points:
+        return []
+    gaps = clearance(run.world, *np.array(points).T)
+    return [point for point, gap in zip(points, gaps, strict=True) if gap < MAPPED]
+
+
+def _boxes_in_view(run: Recording) -> list[Point]:
+    here, world = _here(run), run.world
+    return [box for box in boxes_of(run) if math.dist(here, box) > CLOSE and in_view(world, here, box, FAR)]
+
+
+def _has(points: list[Point], there: Point) -> bool:
+    return any(math.dist(point, there) < REACH for point in points)
+
+
+def _points(heard: Heard) -> list[Point]:
+    return [flat(pose)[:2] for pose in heard.message.poses]
+
+
+def _here(run: Recording) -> Point:
+    return run.world.start[:2]
+
+
+def _said(run: Recording, topic: str) -> list[Heard]:
+    return [heard for heard in run.messages(topic) if not heard.ours]
+
+
+def _when(heard: Heard) -> Seconds:
+    return since_start(heard.message.header.stamp)
+
+
+def _nanoseconds(heard: Heard) -> tuple[Any, Any]:
+    stamp = heard.message.header.stamp
+    return stamp.sec, stamp.nanosec
+
+
+def _place(place: Point) -> str:
+    return f"{place[0]:.2f}, {place[1]:.2f}"

@@ -1,0 +1,173 @@
+"""Plans of a delivery robot: right ones in three styles, and wrong ones, each named by its defect."""
+
+from functools import partial
+
+import rclpy
+from geometry_msgs.msg import PoseArray, PoseStamped, Twist
+from nav_msgs.msg import OccupancyGrid
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from sensor_msgs.msg import BatteryState, Image, LaserScan
+from std_msgs.msg import String
+from warehouse_msgs.msg import Order
+
+from grader.exercises.delivery import KEPT, hears, says, sketch
+
+SCAN = hears("/scan", LaserScan, qos_profile_sensor_data)
+PEOPLE, OBSTACLES = ("/people", PoseArray), ("/obstacles", PoseArray)
+POSE, GOAL, COMMANDS = ("/robot_pose", PoseStamped), ("/goal_pose", PoseStamped), ("/cmd_vel", Twist)
+PARTS = ("partial", "hears", "says", "sketch", "plan", "paper", "drawn")
+
+
+def plan(**changes):
+    """The right plan, with other lines for some programs."""
+    right = {
+        "perception": [
+            SCAN,
+            hears("/map", OccupancyGrid, KEPT),
+            says(*POSE),
+            says(*PEOPLE),
+            says(*OBSTACLES),
+        ],
+        "reader": [hears("/image", Image, qos_profile_sensor_data), says("/label", String)],
+        "decision": [
+            hears("/orders", Order, KEPT),
+            hears("/battery_state", BatteryState),
+            hears("/dock_pose", PoseStamped, KEPT),
+            hears("/label", String),
+            says(*GOAL),
+            says("/state", String),
+        ],
+        "control": [
+            hears("/map", OccupancyGrid, KEPT),
+            hears(*POSE),
+            hears(*PEOPLE),
+            hears(*OBSTACLES),
+            hears(*GOAL),
+            says(*COMMANDS),
+        ],
+    }
+    return right | changes
+
+
+def paper(lines):
+    """Run a plan, given as lists."""
+    sketch({name: lambda ends=ends: ends for name, ends in lines.items()})()
+
+
+def drawn(more=(), less=(), other=None):
+    """The right plan; more: (program, line) to be added; less: (program, topic) to be left out."""
+    right = plan()
+    for program, topic in less:
+        right[program] = [line for line in right[program] if line.topic != topic]
+    for program, line in more:
+        right[program] = [*right[program], line]
+    right.update(other or {})
+    paper({name: lines for name, lines in right.items() if lines})
+
+
+def right():
+    drawn()
+
+
+def with_names_of_its_own():
+    """Relative names, and profiles that were made by hand."""
+    late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    reader = [hears("image", Image, qos_profile_sensor_data), says("label", String, 1)]
+    control = [hears("map", OccupancyGrid, late), *plan()["control"][1:]]
+    drawn(other={"reader": reader, "control": control})
+
+
+class Part(Node):
+    """A node that is given its ends."""
+
+    def __init__(self, name, lines):
+        super().__init__(name)
+        for line in lines:
+            if type(line) is type(SCAN):
+                self.create_subscription(line.type, line.topic, lambda message: None, line.profile)
+            else:
+                publisher = self.create_publisher(line.type, line.topic, line.profile)
+                self.create_timer(0.25, partial(publisher.publish, line.type()))
+
+
+PARTS = (*PARTS, "Part")
+
+
+def with_nodes_of_its_own():
+    rclpy.init()
+    executor = MultiThreadedExecutor()
+    for name, lines in plan().items():
+        lines = [line for line in lines if line.topic != "/scan"]
+        node = Part(name, lines)
+        if name == "perception":
+            node.create_subscription(LaserScan, "/scan", lambda scan: None, qos_profile_sensor_data)
+        executor.add_node(node)
+    executor.spin()
+
+
+def god_node():
+    lines = [line for lines in plan().values() for line in lines]
+    paper({"delivery_robot": lines})
+
+
+def without_a_reader():
+    drawn(other={"reader": []})
+
+
+def two_drivers():
+    drawn(more=[("decision", says(*COMMANDS))])
+
+
+def decision_hears_the_lidar():
+    drawn(more=[("decision", SCAN)])
+
+
+def decision_reads_labels():
+    """The picture goes to decision, and the reader has its answer for nobody."""
+    drawn(more=[("decision", hears("/image", Image, qos_profile_sensor_data))])
+
+
+def control_knows_orders():
+    drawn(more=[("control", hears("/orders", Order, KEPT))])
+
+
+def safety_through_decision():
+    """Decision hears of people, and tells control whether it may drive."""
+    drawn(
+        more=[
+            ("decision", hears(*PEOPLE)),
+            ("decision", says("/stop", String)),
+            ("control", hears("/stop", String)),
+        ],
+        less=[("control", "/people")],
+    )
+
+
+def one_topic_more():
+    drawn(more=[("decision", says("/where_to", PoseStamped))])
+
+
+def nobody_says_where_to():
+    drawn(less=[("decision", "/goal_pose")])
+
+
+def a_pose_too_few():
+    """Another type for the same topic."""
+    drawn(
+        less=[("perception", "/people"), ("control", "/people")],
+        more=[("perception", says("/people", PoseStamped))],
+    )
+
+
+def map_as_it_comes():
+    drawn(less=[("control", "/map")], more=[("control", hears("/map", OccupancyGrid))])
+
+
+def reliable_picture():
+    drawn(less=[("reader", "/image")], more=[("reader", hears("/image", Image))])
+
+
+def empty_plan():
+    paper({})

@@ -1,0 +1,165 @@
+"""Perceptions of a delivery robot: right ones, and wrong ones named by their defect."""
+
+import math
+
+import rclpy
+from geometry_msgs.msg import PoseArray, PoseStamped
+from nav_msgs.msg import OccupancyGrid
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import LaserScan
+from tf2_ros import Buffer, TransformException, TransformListener
+
+from grader.exercises.delivery import KEPT, Floor, far_from, listed, points_of, seconds, stamped
+
+
+class Perception(Node):
+    """As one would write it; the wrong ones change one thing each."""
+
+    map_profile, frame, keeps = KEPT, "base_link", 5.0
+
+    def __init__(self):
+        super().__init__("perception")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.floor, self.seen, self.walked, self.scans = None, [], [], 0
+        self.create_subscription(OccupancyGrid, "/map", self.on_map, self.map_profile)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
+        self.pose_pub = self.create_publisher(PoseStamped, "/robot_pose", 10)
+        self.people_pub = self.create_publisher(PoseArray, "/people", 10)
+        self.obstacles_pub = self.create_publisher(PoseArray, "/obstacles", 10)
+
+    def on_map(self, grid):
+        self.floor = Floor(grid)
+
+    def place(self, frame, stamp):
+        there = self.buffer.lookup_transform("map", frame, stamp).transform
+        return there.translation.x, there.translation.y, 2 * math.atan2(there.rotation.z, there.rotation.w)
+
+    def on_scan(self, scan):
+        self.scans += 1
+        if self.floor is None or self.scans % 2:
+            return
+        try:
+            robot, lidar = self.place(self.frame, scan.header.stamp), self.lidar(scan.header.stamp)
+        except TransformException:
+            return
+        strange = self.strange(points_of(scan, lidar))
+        self.tell(self.stamp(scan), robot, strange)
+
+    def lidar(self, stamp):
+        return self.place("base_scan", stamp)
+
+    def strange(self, points):
+        return self.floor.strange(points)
+
+    def stamp(self, scan):
+        return scan.header.stamp
+
+    def moved(self, now, strange):
+        before = [points for when, points in self.seen if now - when > 0.4]
+        self.seen = [*((when, points) for when, points in self.seen if now - when < 1.0), (now, strange)]
+        return far_from(strange, before[0] if before else [], 0.25)
+
+    def tell(self, stamp, robot, strange):
+        now = seconds(stamp)
+        moved = self.moved(now, strange)
+        self.walked = [(when, point) for when, point in self.walked if now - when < self.keeps]
+        self.walked += [(now, point) for point in moved]
+        self.obstacles_pub.publish(listed(stamp, strange))
+        self.people_pub.publish(listed(stamp, far_from([point for _, point in self.walked], [], 0.0)))
+        self.pose_pub.publish(stamped(stamp, *robot))
+
+
+class ForgetsWhereSomebodyWalksNow(Perception):
+    """As in the lesson: an old point near a new one goes."""
+
+    def moved(self, now, strange):
+        moved = super().moved(now, strange)
+        self.walked = [(when, point) for when, point in self.walked if far_from([point], moved, 0.2)]
+        return moved
+
+
+class KeepsLonger(Perception):
+    """A second more, and another half second for comparison."""
+
+    keeps = 5.4
+
+    def moved(self, now, strange):
+        self.seen = [(when, points) for when, points in self.seen if now - when < 0.75]
+        before = self.seen[0][1] if self.seen and now - self.seen[0][0] > 0.45 else []
+        self.seen.append((now, strange))
+        return far_from(strange, before, 0.3)
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Perception())
+
+
+class PlaceOfTheLidar(Perception):
+    """As in the lesson: where the lidar is."""
+
+    frame = "base_scan"
+
+
+class LidarInTheMiddle(Perception):
+    """Rays from base_link."""
+
+    def lidar(self, stamp):
+        return self.place("base_link", stamp)
+
+
+class StampsOfNow(Perception):
+    """Stale data look fresh."""
+
+    def stamp(self, scan):
+        return (self.get_clock().now() - rclpy.duration.Duration(seconds=0.003)).to_msg()
+
+
+class AllIsStrange(Perception):
+    """What is on the map, too."""
+
+    def strange(self, points):
+        return points[::4].tolist()
+
+
+class NothingIsStrange(Perception):
+    """An empty list."""
+
+    def strange(self, points):
+        return []
+
+
+class EverythingWalks(Perception):
+    """In doubt on the safe side."""
+
+    def moved(self, now, strange):
+        return strange
+
+
+class NobodyWalks(Perception):
+    """Boxes all of them."""
+
+    def moved(self, now, strange):
+        return []
+
+
+class ForgetsAtOnce(Perception):
+    """Who walks is told of while walking."""
+
+    keeps = 0.5
+
+
+class ComparesWithTheLastScan(Perception):
+    """A tenth of a second isn't enough to move by 25 cm."""
+
+    def moved(self, now, strange):
+        before, self.seen = self.seen, strange
+        return far_from(strange, before, 0.25)
+
+
+class MapTooLate(Perception):
+    """Subscribes to the map as to any other topic."""
+
+    map_profile = 10
