@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.model import Model, Wanted, positive, within
+from sim.world.model import Model, Wanted, at_least, positive, within
 from sim.world.robot import Pose
 
 _POSE = "[x, y, yaw] (metres and radians)"
@@ -18,7 +18,8 @@ class WarehouseModel(Model):
 
     An order comes every `interval` on average and has to be delivered within `patience`; of all orders the
     share `canceled` is taken back before that. A robot that stands at a place for `handling` gets the load or
-    hands it over, and it carries one at a time.
+    hands it over, and it carries one at a time. At each moment of `withdrawn` (s) an order is canceled, too:
+    what is being carried, or else the oldest one.
     """
 
     pickups: Annotated[tuple[Pose, ...], Wanted(_POSES, bool)]
@@ -27,3 +28,4 @@ class WarehouseModel(Model):
     patience: Annotated[float, positive("seconds", 100_000)] = 150.0
     canceled: Annotated[float, within(0, 1)] = 0.1
     handling: Annotated[float, within(0.1, 1000, "seconds")] = 1.0
+    withdrawn: tuple[Annotated[float, at_least(0, "seconds")], ...] = ()

@@ -1,0 +1,42 @@
+"""A program that is killed in the middle of a run and started again, as a launch file with `respawn` does."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from typing import Any
+
+from sim.nanoseconds import SECOND
+from sim.ros.engine.program import Process, program_name
+from sim.ros.fibers.exceptions import RunOver
+from sim.ros.fibers.scheduler import engine
+
+
+def respawned(program: Any, earliest: float, latest: float, delay: float) -> Callable[[], None]:
+    """This program, killed at a moment (s) between two that chance decides, and back after `delay` (s)."""
+    spec = program if isinstance(program, Process) else Process(program)
+
+    def lives() -> None:
+        run = engine()
+        first = run.start(spec, ours=run.current.process.ours)
+        _pass(random.uniform(earliest, latest))
+        kill(run, first)
+        _pass(delay)
+        second = run.start(spec, ours=first.ours)
+        while run.lives(second):
+            _pass(0.1)
+
+    lives.__name__ = program_name(spec.target)
+    return lives
+
+
+def kill(run: Any, process: Any) -> None:
+    """End a program of the run at once, as SIGKILL does."""
+    for fiber in run.fibers:
+        if fiber.process is process and not fiber.done:
+            fiber.thrown = RunOver()
+
+
+def _pass(seconds: float) -> None:
+    run = engine()
+    run.wait("time", until=run.now + round(seconds * SECOND))
