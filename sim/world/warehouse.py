@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.model import Model, Wanted, at_least, positive, within
+from sim.world.model import Model, Wanted, positive, within
 from sim.world.robot import Pose
 
 _POSE = "[x, y, yaw] (metres and radians)"
 _POSES = f"a list of one or more poses {_POSE}"
+
+
+def _are_moments(stamps: tuple[float, ...]) -> bool:
+    return all(stamp >= 0 for stamp in stamps)
 
 
 @dataclass(frozen=True)
@@ -28,4 +32,4 @@ class WarehouseModel(Model):
     patience: Annotated[float, positive("seconds", 100_000)] = 150.0
     canceled: Annotated[float, within(0, 1)] = 0.1
     handling: Annotated[float, within(0.1, 1000, "seconds")] = 1.0
-    withdrawn: tuple[Annotated[float, at_least(0, "seconds")], ...] = ()
+    withdrawn: Annotated[tuple[float, ...], Wanted("a list of moments (s), 0 or later", _are_moments)] = ()

@@ -11,20 +11,22 @@ from grader.checks import Missed, shift, travelled
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
 from grader.exercises.delivery.floors import floor
+from grader.exercises.navigator.measures import stood_still
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 
 SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
 WASTED = 1  # orders whose time may run out while they are carried: somebody may stand in the way
+GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody who walks by it takes 10 at most
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 
 
 def _over(run: Recording) -> bool:
-    """An order was delivered, or a person was touched: nothing more is to be seen."""
+    """An order was delivered, a person was touched, or the robot stands for good: nothing more is to be seen."""
     orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.ours]
     met = any(contact.what == "person" for contact in run.contacts[-1:])
-    return met or any(order.status == order.DELIVERED for order in orders)
+    return met or any(order.status == order.DELIVERED for order in orders) or stood_still(run, GIVEN_UP)
 
 
 def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
