@@ -23,7 +23,7 @@ SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m
 
 
 def _over(run: Recording) -> bool:
-    """An order was delivered, a person was touched, or the robot stands for good: nothing more is to be seen."""
+    """An order was delivered, a person was touched, or the robot stands for good."""
     orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.ours]
     met = any(contact.what == "person" for contact in run.contacts[-1:])
     return met or any(order.status == order.DELIVERED for order in orders) or stood_still(run, GIVEN_UP)
