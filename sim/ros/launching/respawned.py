@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable
 from typing import Any
 
@@ -11,15 +10,22 @@ from sim.ros.engine.program import Process, program_name
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.fibers.scheduler import engine
 
+_GOLDEN = 0.618034  # its multiples, without their whole parts, are never near each other
+
 
 def respawned(program: Any, earliest: float, latest: float, delay: float) -> Callable[[], None]:
-    """This program, killed at a moment (s) between two that chance decides, and back after `delay` (s)."""
+    """This program, killed at a moment (s) between two, and back after `delay` (s).
+
+    Of several programs of a run each has a moment of its own, and it is the same in every run.
+    """
     spec = program if isinstance(program, Process) else Process(program)
 
     def lives() -> None:
         run = engine()
-        first = run.start(spec, ours=run.current.process.ours)
-        _pass(random.uniform(earliest, latest))
+        here = run.current.process
+        number = [process for process in run.processes if process.ours == here.ours].index(here)
+        first = run.start(spec, ours=here.ours)
+        _pass(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
         kill(run, first)
         _pass(delay)
         second = run.start(spec, ours=first.ours)

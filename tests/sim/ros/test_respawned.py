@@ -6,9 +6,11 @@ import itertools
 from rclpy.node import Node
 from std_msgs.msg import Int32
 
-from grader.cast import LocalCast
+from grader.cast import LocalCast, RemoteCast
+from grader.exercise import Scenario
 from sim import Process, run
 from sim.ros.launching.respawned import respawned
+from tests.sim.ros.remote.apart import Apart
 
 
 class Counter(Node):
@@ -59,3 +61,12 @@ def test_a_program_that_comes_to_its_end_by_itself_ends():
     recording = run(respawned(Quitter, 0.3, 0.5, 0.1), seconds=5)
     assert counts(recording)[-1] == 8
     assert recording.gone is not None and recording.gone < 2.0
+
+
+def test_a_program_in_another_process_is_killed_at_the_same_moment():
+    scenario = Scenario(None, 5.0, prepare=functools.partial(respawned, 1.0, 2.0, 0.5))
+    apart = Apart()
+    with apart.serving(__name__, "Counter") as remote:
+        there = counts(scenario.run(RemoteCast(remote), 0))
+    apart.close()
+    assert there == counts(scenario.run(LocalCast([Counter]), 0))
