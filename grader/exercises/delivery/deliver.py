@@ -22,15 +22,20 @@ GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody wh
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 
 
+def _met(run: Recording) -> bool:
+    """A person was touched."""
+    return any(contact.what == "person" for contact in run.contacts[-1:])
+
+
 def _over(run: Recording) -> bool:
     """An order was delivered, a person was touched, or the robot stands for good."""
     orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.ours]
-    met = any(contact.what == "person" for contact in run.contacts[-1:])
-    return met or any(order.status == order.DELIVERED for order in orders) or stood_still(run, GIVEN_UP)
+    delivered = any(order.status == order.DELIVERED for order in orders)
+    return delivered or _met(run) or stood_still(run, GIVEN_UP)
 
 
 def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
-    until = None if kind == "shift" else _over
+    until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
     world = functools.partial(floor, kind)
     return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind)
@@ -152,8 +157,8 @@ def comes_back(run: Recording) -> None:
 def _one_delivered(run: Recording, hint: str) -> None:
     jobs = shift(run).jobs
     if not any(job.status == "delivered" for job in jobs):
-        saw = "; ".join(map(_told, jobs)) or "no order came"
-        raise Missed(f"a delivered order within {LONGEST:.0f} s", saw, _why_idle(run) or hint, picture="path")
+        saw = f"after {run.stamp:.0f} s: {'; '.join(map(_told, jobs))}"
+        raise Missed("a delivered order", saw, _why_idle(run) or hint, picture="path")
 
 
 def _told(job: Job) -> str:

@@ -1,5 +1,7 @@
 """Delivery robots: right ones in three styles, and wrong ones named by their defect."""
 
+import math
+
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from rclpy.time import Time
@@ -13,7 +15,7 @@ from tests.bench.delivery.perception import Perception
 from tests.students.teams import Team
 
 PARTS = (
-    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Careless", "Repeating", "Sulking", "Restless"),
+    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
     *("Hopeful", "Forgetful", "ByTheMap", "Faithful", "Tight"),
 )
 
@@ -99,13 +101,23 @@ class Clerk(Decision):
 OneNodePerSkill = Team(Control, Charger, Clerk, Perception)
 
 
-class Careless(Control):
+class Chaser(Control):
+    """Whoever walks near is where it wants to go."""
+
+    def on_goal(self, goal):
+        pass
+
+    def on_obstacles(self, obstacles):
+        pass
+
     def on_people(self, people):
         super().on_people(people)
-        self.people = []
+        places, self.people = self.people, []
+        if places and (self.goal is None or math.dist(self.goal, places[0]) > 0.5):
+            self.goal, self.way = places[0], []
 
 
-ForgetsPeople = Team(Perception, Decision, Careless)
+TakesPeopleForGoals = Team(Perception, Decision, Chaser)
 
 
 class Repeating(Control):
@@ -201,4 +213,4 @@ class Tight(Control):
 
 ScrapesShelves = Team(Perception, Decision, Tight)
 
-WithoutControl = Team(Perception, Decision)
+OnlyControl = Team(Control)
