@@ -157,7 +157,7 @@ def comes_back(run: Recording) -> None:
 def _one_delivered(run: Recording, hint: str) -> None:
     jobs = shift(run).jobs
     if not any(job.status == "delivered" for job in jobs):
-        saw = f"after {run.stamp:.0f} s: {'; '.join(map(_told, jobs))}"
+        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_told, jobs)])
         raise Missed("a delivered order", saw, _why_idle(run) or hint, picture="path")
 
 
