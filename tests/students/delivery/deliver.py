@@ -4,7 +4,6 @@ import math
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
-from rclpy.time import Time
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Bool
 from warehouse_msgs.msg import Order
@@ -15,8 +14,8 @@ from tests.bench.delivery.perception import Perception
 from tests.students.teams import Team
 
 PARTS = (
-    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
-    *("Hopeful", "Forgetful", "ByTheMap", "Faithful", "Tight"),
+    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating"),
+    *("Forgetful", "ByTheMap", "Faithful"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -136,41 +135,6 @@ class Repeating(Control):
 DrivesBlind = Team(Perception, Decision, Repeating)
 
 
-class Sulking(Control):
-    """Stands for ever when it was without news once."""
-
-    def on_pose(self, message):
-        stamp = Time.from_msg(message.header.stamp).nanoseconds
-        self.sulks = getattr(self, "sulks", False) or stamp - getattr(self, "before", stamp) > 1e9
-        self.before = stamp
-        if self.sulks:
-            self.publisher.publish(Twist())
-        else:
-            super().on_pose(message)
-
-
-NeverGoesOn = Team(Perception, Decision, Sulking)
-
-
-class Restless(Decision):
-    low = -1.0
-
-
-NeverCharges = Team(Perception, Restless, Control)
-
-
-class Hopeful(Decision):
-    """Begins with the order whose time is over first."""
-
-    least = 0.0
-
-    def way(self, place):
-        return next(order.id for order in self.orders.values() if order.pickup == place)
-
-
-BeginsWithWhatCannotBeMade = Team(Perception, Hopeful, Control)
-
-
 class Forgetful(Decision):
     """Hears orders that come while it is there, and no other."""
 
@@ -206,11 +170,5 @@ class Faithful(Decision):
 
 KeepsToACanceledOrder = Team(Perception, Faithful, Control)
 
-
-class Tight(Control):
-    clear = 0.1
-
-
-ScrapesShelves = Team(Perception, Decision, Tight)
 
 OnlyControl = Team(Control)
