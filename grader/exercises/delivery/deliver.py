@@ -17,7 +17,6 @@ from sim.ros.launching.respawned import respawned
 
 SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
-WASTED = 1  # orders whose time may run out while they are carried: somebody may stand in the way
 GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody who walks by it takes 10 at most
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 
@@ -67,7 +66,7 @@ def touches_nobody(run: Recording) -> None:
         raise Missed("no contact with a person", f"one at {moment:.3g} s", hint, picture="path", unsafe=True)
 
 
-@deliver.check(8, after=touches_nobody, only="shift")
+@deliver.check(10, after=touches_nobody, only="shift")
 def delivers(run: Recording) -> None:
     """In a shift of 150 s at least two orders are delivered."""
     done = shift(run)
@@ -78,25 +77,13 @@ def delivers(run: Recording) -> None:
         raise Missed(f"{ENOUGH} delivered orders", saw, _why_idle(run), credit=credit, picture="path")
 
 
-@deliver.check(3, after=delivers, only="shift")
+@deliver.check(4, after=delivers, only="shift")
 def charges(run: Recording) -> None:
-    """The battery never runs empty, though it is 30 % full at first."""
+    """The battery never runs empty, though it is 20 % full at first."""
     empty = next((stamp for stamp, share in shift(run).battery if share <= 0.0), None)
     if empty is not None:
         hint = "Below a third, drive to /dock_pose, and leave it when the battery is nearly full."
         raise Missed("a battery that is charged in time", f"it is empty at {empty:.0f} s", hint)
-
-
-@deliver.check(3, after=delivers, only="shift")
-def chooses_well(run: Recording) -> None:
-    """It begins with orders that can be made: of those that it carries, one at most runs out of time."""
-    late = [job for job in shift(run).jobs if job.picked_up is not None and job.status == "expired"]
-    if len(late) > WASTED:
-        first = late[0]
-        left = first.deadline - first.picked_up
-        hint = "Leave an order that has too little time: from the shelf to the desk takes up to 30 s."
-        saw = f"{len(late)}; order {first.id} had {left:.0f} s left as it was picked up"
-        raise Missed(f"{WASTED} of them at most", saw, hint)
 
 
 @deliver.check(2, after=delivers, only="shift")

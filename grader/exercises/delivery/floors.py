@@ -15,7 +15,7 @@ from sim.world import MovableBox, World
 from sim.world.clearance import clearance
 
 NEVER = 10_000.0  # s; an order in such an interval is the only one of a run
-TIRED = 0.3  # of the battery's capacity
+TIRED = 0.2  # of the battery's capacity
 EVERY, PATIENCE = 15.0, 75.0  # s; of many orders; carrying one out takes 25 to 60
 BOX, MASS, ROOM = 0.8, 50.0, 0.3  # m and kg of what is in the way; m that are free beside another way
 APART = 1.0  # m from its middle to where a robot or somebody begins, and to where things are fetched

@@ -4,6 +4,7 @@ import math
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Bool
 from warehouse_msgs.msg import Order
@@ -14,8 +15,8 @@ from tests.bench.delivery.perception import Perception
 from tests.students.teams import Team
 
 PARTS = (
-    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating"),
-    *("Forgetful", "ByTheMap", "Faithful"),
+    *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
+    *("Forgetful", "ByTheMap", "Faithful", "Tight"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -135,6 +136,29 @@ class Repeating(Control):
 DrivesBlind = Team(Perception, Decision, Repeating)
 
 
+class Sulking(Control):
+    """Stands for ever when it was without news once."""
+
+    def on_pose(self, message):
+        stamp = Time.from_msg(message.header.stamp).nanoseconds
+        self.sulks = getattr(self, "sulks", False) or stamp - getattr(self, "before", stamp) > 1e9
+        self.before = stamp
+        if self.sulks:
+            self.publisher.publish(Twist())
+        else:
+            super().on_pose(message)
+
+
+NeverGoesOn = Team(Perception, Decision, Sulking)
+
+
+class Restless(Decision):
+    low = -1.0
+
+
+NeverCharges = Team(Perception, Restless, Control)
+
+
 class Forgetful(Decision):
     """Hears orders that come while it is there, and no other."""
 
@@ -169,6 +193,13 @@ class Faithful(Decision):
 
 
 KeepsToACanceledOrder = Team(Perception, Faithful, Control)
+
+
+class Tight(Control):
+    clear = 0.1
+
+
+ScrapesShelves = Team(Perception, Decision, Tight)
 
 
 OnlyControl = Team(Control)
