@@ -7,9 +7,14 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from lidar_rays import ffi, lib
 
-from sim.world.model import Angle, Length, Model, at_least, within
+from sim.world.model import Angle, Length, Model, Wanted, at_least, within
 
 Place = tuple[float, float, float]  # x, y (m), yaw (rad)
+Span = tuple[float, float]  # s; from when on, and before when
+
+
+def _are_spans(spans: tuple[Span, ...]) -> bool:
+    return all(0 <= begin < end for begin, end in spans)
 
 
 @dataclass(frozen=True)
@@ -18,6 +23,7 @@ class LidarModel(Model):
 
     `dropouts` is the probability that a ray comes back with no measurement. `x`, `y` (m) and `yaw` (rad) say
     where it sits on the robot, which is base_scan in base_link; by default in the middle, looking ahead.
+    `silent` are spans of time [begin, end] (s) in which it gives no scans.
     """
 
     rays: Annotated[int, within(1, 10_000)] = 360
@@ -28,6 +34,7 @@ class LidarModel(Model):
     x: Annotated[float, within(-1, 1, "metres")] = 0.0
     y: Annotated[float, within(-1, 1, "metres")] = 0.0
     yaw: Angle = 0.0
+    silent: Annotated[tuple[Span, ...], Wanted("a list of spans [begin, end] (s)", _are_spans)] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -38,6 +45,10 @@ class LidarModel(Model):
     def angle_increment(self) -> float:
         """Angle between two rays, rad."""
         return math.tau / self.rays
+
+    def works(self, time: float) -> bool:
+        """Whether it gives a scan at this time (s)."""
+        return not any(begin <= time < end for begin, end in self.silent)
 
     def place(self, robot: Place) -> Place:
         """Where the lidar is when its robot is there, in the same frame."""

@@ -87,6 +87,11 @@ class MobileRobot(Drive):
         if self.battery.is_empty:
             super().command(0.0, 0.0)
 
+    @property
+    def sees(self) -> bool:
+        """Whether its lidar works now."""
+        return self._around.world.lidar.works(self._around.time)
+
     def scan(self) -> np.ndarray:
         """One new lidar scan from where the lidar truly is: float32, shape (rays,), m; counter-clockwise.
 

@@ -24,6 +24,7 @@ from tests.exercises.score_tables import (
     students,
 )
 from tests.exercises.seeds import fallen_short, right_nodes
+from tests.students.teams import programs_of
 
 PRIVATE = 8  # other seeds, as students get them when a class is marked; tests.exercises.seeds tries more
 LONG = 15.0  # s of simulated time, of all runs of an exercise
@@ -118,14 +119,14 @@ class Assignment:
     def test_a_node_earns_its_points_and_words(self, exercise, node, program):
         """In its first run, or else in all of them; `make solutions` has all runs of a right one."""
         judge = self.judge(exercise)
-        score = first_run(judge).grade(program)
+        score = first_run(judge).grade(*programs_of(program))
         if shown(node, score) != page(self.topic(), exercise).get(node):
-            score = judge.grade(program)
+            score = judge.grade(*programs_of(program))
         self.check_words(exercise, node, score)
 
     @pytest.mark.soak
     def test_no_run_shows_more_than_a_page_says(self, exercise, node, program):
-        self.check_words(exercise, node, self.judge(exercise).grade(program))
+        self.check_words(exercise, node, self.judge(exercise).grade(*programs_of(program)))
 
     def check_words(self, exercise: str, node: str, score: Score) -> None:
         """It is what the page says; and to a right node the first look says that there is no error."""
@@ -146,7 +147,7 @@ class Assignment:
         program = next(filter(None, programs), None)
         if program is None:
             return  # its right answers are whole programs, whose spinning can't be held up
-        score = judge.grade(program)
+        score = judge.grade(*programs_of(program))
         assert score.broken == []
         assert times != "never" or score < judge.points
 

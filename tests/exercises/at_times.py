@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import rclpy
@@ -14,6 +14,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from sim import Process
+from tests.students.teams import Team
 
 # name: the parts of a run's time from which and until which the node is spun
 TIMES = {"never": (1.0, 0.0), "at first": (0.0, 0.25), "at last": (0.75, 1.0)}
@@ -24,6 +25,8 @@ def spun_until(target: Any, end: float) -> Any:
 
     None where it is no class of a node, whose spinning one could end.
     """
+    if isinstance(target, Team):
+        return _team(spun_until(program, end) for program in target.programs)
     if isinstance(target, Process):
         inner = spun_until(target.target, end)
         return inner and dataclasses.replace(target, target=inner)
@@ -46,6 +49,8 @@ def working(target: Any, times: str, seconds: float) -> Any:
 
     None where it is no class of a node, whose spinning one could hold up.
     """
+    if isinstance(target, Team):
+        return _team(working(program, times, seconds) for program in target.programs)
     if isinstance(target, Process):
         inner = working(target.target, times, seconds)
         return inner and dataclasses.replace(target, target=inner)
@@ -53,6 +58,11 @@ def working(target: Any, times: str, seconds: float) -> Any:
         return None
     begin, end = (part * seconds for part in TIMES[times])
     return _program(target, begin, end)
+
+
+def _team(programs: Iterable[Any]) -> Team | None:
+    found = tuple(programs)
+    return Team(*found) if all(found) else None
 
 
 def _program(make: Callable[[], Node], begin: float, end: float) -> Callable[..., None]:

@@ -29,6 +29,7 @@ from grader.marking.release.run_notebooks import notebook_client
 from sim import Process
 from tests.exercises.builds import kept_builds
 from tests.exercises.evidence import Evidence
+from tests.students.teams import Team, programs_of
 
 ROOT = Path(__file__).parents[2]
 # What one Python says of an error, and another one: a student reads the words of the one that runs.
@@ -67,7 +68,7 @@ def students(assignment: str, exercise: str) -> dict[str, Any]:
     found = {
         name: item
         for name, item in vars(module).items()
-        if isinstance(item, Process) or getattr(item, "__module__", "") == module.__name__
+        if isinstance(item, Process | Team) or getattr(item, "__module__", "") == module.__name__
     }
     return {name: item for name, item in found.items() if name not in getattr(module, "PARTS", ())}
 
@@ -82,7 +83,8 @@ def write_page(assignment: str, exercise: str) -> None:
     """Grade every node of an exercise, and write down what it gets."""
     judge = getattr(importlib.import_module(f"grader.exercises.{assignment}"), exercise)
     with kept_builds():
-        blocks = [shown(name, judge.grade(node)) for name, node in students(assignment, exercise).items()]
+        nodes = students(assignment, exercise)
+        blocks = [shown(name, judge.grade(*programs_of(node))) for name, node in nodes.items()]
     _file(assignment, exercise).write_text("\n\n".join(blocks) + "\n", encoding="utf-8")
 
 

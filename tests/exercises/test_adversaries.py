@@ -26,6 +26,7 @@ from tests.exercises.test_sensing import TestSensing as Sensing
 from tests.exercises.test_services import TestServices as Services
 from tests.exercises.test_silence import TestSilence as Silence
 from tests.exercises.test_topics import TestTopics as Topics
+from tests.students.teams import programs_of
 
 ASSIGNMENTS: tuple[type[Assignment], ...] = (
     *(Nodes, Topics, Services, Actions, Sensing, Navigator, Silence),
@@ -77,7 +78,7 @@ def card_of(assignment, name, monkeypatch):
     with monkeypatch.context() as patched:
         patched.setattr("sim.run", evidence.keeping(f"{name}-{right}"))
         judge = first_run(assignment.judge(name))
-        return Card(judge.grade(students(assignment.topic(), name)[right]).recordings[0])
+        return Card(judge.grade(*programs_of(students(assignment.topic(), name)[right])).recordings[0])
 
 
 def done_at(run):
@@ -87,7 +88,7 @@ def done_at(run):
 
 
 def earned(exercise, program):
-    score = first_run(exercise).judge(LocalCast([program]), SECRET)
+    score = first_run(exercise).judge(LocalCast(programs_of(program)), SECRET)
     assert score.broken == []
     return score
 

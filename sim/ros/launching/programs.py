@@ -9,13 +9,14 @@ import re
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 from sim.ros.engine.program import Process
 from sim.ros.fibers.exceptions import RunOver
+from sim.ros.launching.respawned import kill
 from sim.ros.packages import brought_command, executable, forget_modules
 
 PYTHON = re.compile(r"python(3(\.\d+)?)?")
@@ -93,11 +94,7 @@ class RunProcess:
             self._process.main.thrown = KeyboardInterrupt()
             return
         self._killed = number
-        for fiber in self._fibers():
-            fiber.thrown = RunOver()
-
-    def _fibers(self) -> Iterator[Any]:
-        return (fiber for fiber in self._run.fibers if fiber.process is self._process and not fiber.done)
+        kill(self._run, self._process)
 
     def _go(self) -> None:
         status = 1

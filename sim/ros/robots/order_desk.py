@@ -49,6 +49,7 @@ class OrderDesk(Node):
         self.load: dict[str, int] = {}  # the id of what each robot carries
         self.since: dict[tuple[str, int], float] = {}  # since when a robot stands there for an order
         self.count, self.next = 0, self.now() + FIRST
+        self.withdrawals = [self.now() + stamp for stamp in sorted(self.model.withdrawn)]
         self.publisher = self.create_publisher(Order, "/orders", LATCHED)
         self.create_timer(LOOKS, self.look)
 
@@ -61,6 +62,8 @@ class OrderDesk(Node):
         now = self.now()
         if now >= self.next:
             self.take_in(now)
+        if self.withdrawals and now >= self.withdrawals[0]:
+            self.withdraw()
         for number, task in list(self.open.items()):
             if now >= task.end:
                 self.change(number, task.ending)
@@ -85,6 +88,13 @@ class OrderDesk(Node):
         ending = Order.CANCELED if canceled else Order.EXPIRED
         self.open[self.count] = Task(order, now + model.patience * (early if canceled else 1.0), ending)
         self.change(self.count, Order.WAITING)
+
+    def withdraw(self) -> None:
+        """Cancel an order, as the world's model says."""
+        del self.withdrawals[0]
+        number = next(iter((*self.load.values(), *self.open)), None)
+        if number is not None:
+            self.change(number, Order.CANCELED)
 
     def change(self, number: int, status: int) -> None:
         """Give an order another status, and tell."""

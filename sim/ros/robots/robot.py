@@ -137,7 +137,8 @@ class Robot(Node):
         self.odom_pub.publish(self.odom.fill(*stamp, *pose, v, w))
         self.tf_pub.publish(self.tf.fill(*stamp, *pose))
         self.joint_pub.publish(self.joints.fill(*stamp, *robot.wheels))
-        self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
+        if robot.sees:
+            self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
         self.bumper_pub.publish(self.bumper[bool(robot.bumper)])
 
     def _warn_of_flood(self) -> None:

@@ -1,6 +1,7 @@
 """A warehouse in a run: its orders, its map, its charger, and a robot that comes for them."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
@@ -183,3 +184,28 @@ def test_which_orders_come_is_decided_by_world_and_seed(served):
 
     assert orders(FLOOR, 1) == orders(FLOOR, 1) != orders(FLOOR, 2)
     assert orders(FLOOR, 1) != orders(dataclasses.replace(FLOOR, name="another"), 1)
+
+
+def test_an_order_that_is_carried_can_be_withdrawn_and_else_the_oldest_one():
+    floor = dataclasses.replace(FLOOR.warehouse, withdrawn=(30, 9))
+    world = dataclasses.replace(FLOOR, warehouse=floor)
+    recording = run(Shuttle, world=world, seconds=31)
+    canceled = [item for item in recording.messages("/orders") if item.message.status == CANCELED]
+    assert [item.stamp for item in canceled] == [9.0, 30.0]
+    carried = [
+        item.message.id
+        for item in recording.during(0.0, 9.0).messages("/orders")
+        if item.message.status == PICKED_UP
+    ]
+    assert canceled[0].message.id == carried[-1]
+    left = run(world=world, seconds=31).messages("/orders")
+    assert [item.message.id for item in left if item.message.status == CANCELED] == [1, 2]
+
+
+def test_a_lidar_can_be_silent_for_a_while():
+    lidar = dataclasses.replace(FLOOR.lidar, silent=((1, 2.5), (4, 5)))
+    recording = run(world=dataclasses.replace(FLOOR, lidar=lidar), seconds=6)
+    stamps = [item.stamp for item in recording.messages("/scan")]
+    pauses = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > 0.1]
+    assert pauses == [(0.95, 2.5), (3.95, 5.0)]
+    assert len(recording.messages("/odom")) == 121

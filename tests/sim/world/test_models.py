@@ -15,6 +15,7 @@ from sim.world import (
     OtherRobot,
     RobotModel,
     Simulation,
+    WarehouseModel,
     World,
 )
 
@@ -53,6 +54,9 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (LidarModel, {"x": 2}, "x is 2; write a number from -1 to 1 (metres)."),
     (LidarModel, {"yaw": math.inf}, "yaw is inf; write a finite number (radians)."),
     (LidarModel, {"dropouts": 1.5}, "dropouts is 1.5; write a number from 0 to 1."),
+    (LidarModel, {"silent": [[4, 2]]}, "silent is [[4, 2]]; write a list of spans [begin, end] (s)."),
+    (WarehouseModel, {"pickups": [[1, 0, 0]], "desk": [0, 0, 0], "withdrawn": [-1]},
+     "withdrawn is [-1]; write a list of moments (s), 0 or later."),
     (ImuModel, {"rate": 200}, "rate is 200; write a number from 1 to 100 (Hz)."),
     (ImuModel, {"gyro_bias": -1}, "gyro_bias is -1; write a number from 0 to 1000000 (rad/s)."),
     (ImuModel, {"accel_noise": None}, "accel_noise is None; write a number from 0 to 1000000 (m/s^2)."),

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sim.ros.remote import Remote, Wire, WireClosed, serve
+from tests.students.teams import programs_of
 
 ROOT = Path(__file__).parents[4]
 
@@ -60,7 +61,8 @@ def main() -> None:
         while True:
             order = wire.receive()
             module = importlib.import_module(order["module"])
-            serve(wire, [getattr(module, name) for name in order["names"]])
+            entries = [getattr(module, name) for name in order["names"]]
+            serve(wire, [program for entry in entries for program in programs_of(entry)])
     except WireClosed:
         pass
 

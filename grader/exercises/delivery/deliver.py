@@ -1,0 +1,175 @@
+"""The project: a robot of several programs that delivers, whatever happens in its warehouse."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+from typing import Any
+
+from grader.checks import Missed, shift, travelled
+from grader.checks.shift import Job
+from grader.exercise import Exercise, Scenario
+from grader.exercises.delivery.floors import floor
+from grader.exercises.navigator.measures import stood_still
+from sim.evidence import Recording
+from sim.ros.launching.respawned import respawned
+
+SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
+ENOUGH = 2  # orders of a shift; who does the work well often delivers three
+GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody who walks by it takes 10 at most
+SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
+
+
+def _met(run: Recording) -> bool:
+    """A person was touched."""
+    return any(contact.what == "person" for contact in run.contacts[-1:])
+
+
+def _over(run: Recording) -> bool:
+    """An order was delivered, a person was touched, or the robot stands for good."""
+    orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.ours]
+    delivered = any(order.status == order.DELIVERED for order in orders)
+    return delivered or _met(run) or stood_still(run, GIVEN_UP)
+
+
+def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
+    until = _met if kind == "shift" else _over
+    seconds = SHIFT if kind == "shift" else LONGEST
+    world = functools.partial(floor, kind)
+    return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind)
+
+
+deliver = Exercise(
+    "deliver",
+    "The delivery robot",
+    scenarios=[
+        _scenario("shift", 3),
+        _scenario("blind", 5),
+        _scenario("blocked", 6),
+        _scenario("canceled", 7),
+        # Every program is killed between 5 and 12 s, each at another moment, and is back 2 s later.
+        _scenario("restarted", 8, functools.partial(respawned, 5.0, 12.0, 2.0)),
+    ],
+)
+
+
+@deliver.check(1, lasts=True)
+def touches_nobody(run: Recording) -> None:
+    """In no run the robot touches a person. If it does, nothing else is earned in that run."""
+    moment = shift(run).met_person
+    if moment is not None:
+        hint = (
+            "Control stands while somebody walks near, whatever it was told, and while it doesn't know. "
+            "The replay shows what it did before the touch."
+        )
+        raise Missed("no contact with a person", f"one at {moment:.3g} s", hint, picture="path", unsafe=True)
+
+
+@deliver.check(5, after=touches_nobody, only="shift")
+def delivers(run: Recording) -> None:
+    """In a shift of 150 s at least two orders are delivered."""
+    done = shift(run)
+    count = len(done.delivered)
+    if count < ENOUGH:
+        saw = f"{count} of {len(done.jobs)}"
+        credit = 0.8 * count / ENOUGH
+        raise Missed(f"{ENOUGH} delivered orders", saw, _why_idle(run), credit=credit, picture="path")
+
+
+@deliver.check(2, after=delivers, only="shift")
+def charges(run: Recording) -> None:
+    """The battery never runs empty, though it is 20 % full at first."""
+    empty = next((stamp for stamp, share in shift(run).battery if share <= 0.0), None)
+    if empty is not None:
+        hint = "Below a third, drive to /dock_pose, and leave it when the battery is nearly full."
+        raise Missed("a battery that is charged in time", f"it is empty at {empty:.0f} s", hint)
+
+
+@deliver.check(1, after=delivers, only="shift")
+def touches_nothing(run: Recording) -> None:
+    """In the shift the robot touches no shelf, no wall and no box."""
+    touched = shift(run).touched
+    if touched:
+        saw = ", ".join(f"{what}: {count}" for what, count in touched.items())
+        hint = "Keep 0.2 m from the robot's middle to the map's walls and to what the lidar sees."
+        raise Missed("no contact", saw, hint, picture="path")
+
+
+@deliver.check(3, after=touches_nobody, only="blind")
+def stands_blind(run: Recording) -> None:
+    """Whenever the lidar falls silent, the robot stands within 1 s."""
+    drove = False
+    for begin, end in run.world.lidar.silent:
+        if begin + SETTLING > run.stamp:
+            break
+        drove |= _fastest(run.during(begin - SETTLING, begin))[0] > STANDING
+        speed, stamp = _fastest(run.during(begin + SETTLING, end))
+        if speed > STANDING:
+            expected = f"the robot standing from {begin + SETTLING:.3g} to {end:.3g} s: no scan comes"
+            hint = "How old is what control knows? Older than half a second: zeros. Compare header.stamp."
+            raise Missed(expected, f"{speed:.2f} m/s at {stamp:.3g} s", hint, picture="topics")
+    if not drove:
+        raise Missed("a robot that drives when the lidar falls silent", "it stood before", _why_idle(run))
+
+
+@deliver.check(1, after=stands_blind, only="blind")
+def sees_again(run: Recording) -> None:
+    """When the scans come again it goes on, and delivers the order."""
+    _one_delivered(run, "The scans are back, and so should be poses and plans: nothing may wait for ever.")
+
+
+@deliver.check(3, after=touches_nobody, only="blocked")
+def goes_round(run: Recording) -> None:
+    """When a box blocks its way that no map shows, it finds another way, and delivers the order."""
+    _one_delivered(run, "Plan anew once a second, with what the lidar sees as solid as a wall.")
+
+
+@deliver.check(2, after=touches_nobody, only="canceled")
+def takes_another(run: Recording) -> None:
+    """When its order is canceled under way, it carries out another one."""
+    _one_delivered(run, "An order that is canceled is published once more: its status says so. Choose again.")
+
+
+@deliver.check(2, after=touches_nobody, only="restarted")
+def comes_back(run: Recording) -> None:
+    """Each program is killed once, and started again 2 s later: the order is delivered all the same."""
+    hint = (
+        "A program that comes back hears old orders, the map and the dock only if it asks for them: "
+        "durability TRANSIENT_LOCAL. What it hasn't heard yet must not end it."
+    )
+    _one_delivered(run, hint)
+
+
+def _one_delivered(run: Recording, hint: str) -> None:
+    jobs = shift(run).jobs
+    if not any(job.status == "delivered" for job in jobs):
+        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_told, jobs)])
+        raise Missed("a delivered order", saw, _why_idle(run) or hint, picture="path")
+
+
+def _told(job: Job) -> str:
+    if job.over is None and job.picked_up is not None:
+        return f"order {job.id} was picked up at {job.picked_up:.0f} s and not delivered"
+    if job.over is not None:
+        return f"order {job.id} was {job.status} at {job.over:.0f} s"
+    return f"order {job.id} is {job.status}"
+
+
+def _fastest(run: Recording) -> tuple[float, float]:
+    """The greatest speed (m/s), and when that was (s)."""
+    pairs = itertools.pairwise(run.path)
+    speeds = [(math.dist(a[1:3], b[1:3]) / (b.stamp - a.stamp), b.stamp) for a, b in pairs]
+    return max(speeds, default=(0.0, 0.0))
+
+
+def _why_idle(run: Recording) -> str:
+    """The usual reasons for a robot that doesn't deliver at all; nothing where none of them holds."""
+    if not any(not heard.ours for heard in run.messages("/cmd_vel")):
+        return "None of your programs publishes on /cmd_vel. Hand in all of them: grade(Perception, ...)."
+    if travelled(run) < 0.1:
+        return "The robot never moves. Run each program alone, and look at what it publishes, and when."
+    if run.contacts:
+        touch = run.contacts[0]
+        return f"It drove into a {touch.what} at {touch.stamp:.3g} s, and its odometry has been wrong since."
+    return ""
