@@ -20,6 +20,7 @@ from grader.exercises.delivery.perceiving import perceive
 from grader.exercises.delivery.plan import Camera, hall, hears, says, sketch
 from grader.exercises.delivery.planning import blueprint
 from grader.exercises.delivery.sights import crossing, turner
+from grader.exercises.delivery.warehouses import warehouse
 
 __all__ = [
     "KEPT",
@@ -46,4 +47,5 @@ __all__ = [
     "stamped",
     "steer",
     "turner",
+    "warehouse",
 ]

@@ -10,7 +10,7 @@ from typing import Any
 from grader.checks import Missed, shift, travelled
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
-from grader.exercises.delivery.floors import floor
+from grader.exercises.delivery.warehouses import warehouse
 from grader.exercises.navigator.measures import stood_still
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
@@ -36,7 +36,7 @@ def _over(run: Recording) -> bool:
 def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
     until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
-    world = functools.partial(floor, kind)
+    world = functools.partial(warehouse, kind)
     return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind)
 
 

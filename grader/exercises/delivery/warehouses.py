@@ -22,7 +22,7 @@ APART = 1.0  # m from its middle to where a robot or somebody begins, and to whe
 
 
 @functools.lru_cache(maxsize=32)
-def floor(kind: str, seed: int) -> World:
+def warehouse(kind: str, seed: int) -> World:
     """The warehouse of a scenario.
 
     shift: many orders, and a tired battery. blind: one order, and a lidar that falls silent. blocked: one
