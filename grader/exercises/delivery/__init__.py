@@ -1,7 +1,7 @@
 """The exercises of 13_delivery, the delivery robot: from the graph on paper to one that drives."""
 
 from grader.exercises.delivery.deciding import decide
-from grader.exercises.delivery.deliver import deliver
+from grader.exercises.delivery.deliver import deliver, programs
 from grader.exercises.delivery.desk import desk
 from grader.exercises.delivery.floor import (
     KEPT,
@@ -41,6 +41,7 @@ __all__ = [
     "partners",
     "perceive",
     "points_of",
+    "programs",
     "says",
     "seconds",
     "sketch",

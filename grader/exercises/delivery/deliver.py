@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from grader.checks import Missed, shift, travelled
@@ -52,6 +53,17 @@ deliver = Exercise(
         _scenario("restarted", 8, functools.partial(respawned, 5.0, 12.0, 2.0)),
     ],
 )
+
+
+def programs(robot: Callable[[], Iterable[Any]]) -> tuple[Any, ...]:
+    """The programs of a robot, as `run` and `grade` take them: what this function of the student's lists.
+
+    Where it fails, it is the program: so its error is told as any program's.
+    """
+    try:
+        return tuple(robot())
+    except Exception:
+        return (robot,)
 
 
 @deliver.check(1, lasts=True)

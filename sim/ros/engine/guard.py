@@ -106,7 +106,7 @@ class Guard:
         return f"{fiber.name}() at t = {now:g} s"
 
     def _look(self, number: int, frame: FrameType | None) -> None:
-        fiber, stretch, computed = self._student_code(), self.engine.limits.work, self._computed()
+        fiber, stretch, computed = self._student_code(), self._work(), self._computed()
         now = monotonic()
         passed, self._looked = min(now - self._looked, LOOK_EVERY), now  # what stops the machine is no wait
         second = self.engine.now // SECOND
@@ -124,6 +124,10 @@ class Guard:
         seen, self._seen = self._seen, thread_time()
         self._total += self._seen - seen
         return self._seen - seen
+
+    def _work(self) -> int:
+        """Changes whenever control passes on. Who sends goes on, too: too much of that ends by its number."""
+        return self.engine.limits.work + self.engine.recorder.sent
 
     def _begin_stretch(self, stretch: int, busy: bool = False) -> None:
         self._stretch, self._asked = stretch, 0
@@ -177,7 +181,7 @@ class Guard:
             fiber.busy = False
         fiber.calls.update(calls)
         self._computed()
-        self._begin_stretch(engine.limits.work, busy=True)
+        self._begin_stretch(self._work(), busy=True)
         return True
 
     def _describe(self, fiber: Fiber, frame: FrameType | None, stuck: bool) -> str:

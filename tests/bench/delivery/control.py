@@ -22,6 +22,7 @@ class Control(Node):
         super().__init__("control")
         self.solid = self.pose = self.goal = None
         self.people, self.obstacles, self.heard, self.way = [], [], -math.inf, []
+        self.placed = -math.inf
         self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
         self.create_subscription(PoseArray, "/people", self.on_people, 10)
         self.create_subscription(PoseArray, "/obstacles", self.on_obstacles, 10)
@@ -29,6 +30,7 @@ class Control(Node):
         self.create_subscription(PoseStamped, "/robot_pose", self.on_pose, 10)
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_timer(1.0, self.look_again)
+        self.create_timer(0.1, self.stand)
 
     def on_map(self, grid):
         self.origin = grid.info.origin.position.x, grid.info.origin.position.y
@@ -54,7 +56,13 @@ class Control(Node):
         if self.way and any(math.dist(a, b) < self.clear for a in self.way for b in self.obstacles):
             self.way = []
 
+    def stand(self):
+        """Nobody says any more where the robot is: say so to the motors, again and again."""
+        if self.get_clock().now().nanoseconds - self.placed > 0.5e9:
+            self.publisher.publish(Twist())
+
     def on_pose(self, message):
+        self.placed = self.get_clock().now().nanoseconds
         x, y = message.pose.position.x, message.pose.position.y
         late = Time.from_msg(message.header.stamp).nanoseconds - self.heard > 0.5e9
         person = any(math.dist((x, y), place) < self.away for place in self.people)

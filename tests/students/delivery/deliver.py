@@ -132,6 +132,9 @@ class Repeating(Control):
     def publish(self, command):
         self.last = command
 
+    def stand(self):
+        pass
+
 
 DrivesBlind = Team(Perception, Decision, Repeating)
 
