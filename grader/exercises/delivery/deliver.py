@@ -178,7 +178,7 @@ def _fastest(run: Recording) -> tuple[float, float]:
 def _why_idle(run: Recording) -> str:
     """The usual reasons for a robot that doesn't deliver at all; nothing where none of them holds."""
     if not any(not heard.ours for heard in run.messages("/cmd_vel")):
-        return "None of your programs publishes on /cmd_vel. Hand in all of them: grade(Perception, ...)."
+        return "None of your programs publishes on /cmd_vel. Does your list hold all of them?"
     if travelled(run) < 0.1:
         return "The robot never moves. Run each program alone, and look at what it publishes, and when."
     if run.contacts:

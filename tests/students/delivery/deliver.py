@@ -206,3 +206,4 @@ ScrapesShelves = Team(Perception, Decision, Tight)
 
 
 OnlyControl = Team(Control)
+OnlyPerception = Team(Perception)
