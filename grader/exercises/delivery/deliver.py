@@ -12,7 +12,7 @@ from grader.checks import Missed, shift, travelled
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
 from grader.exercises.delivery.warehouses import warehouse
-from grader.exercises.navigator.measures import stood_still
+from grader.exercises.navigator.measures import after_a_touch, stood_still
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 
@@ -181,7 +181,4 @@ def _why_idle(run: Recording) -> str:
         return "None of your programs publishes on /cmd_vel. Does your list hold all of them?"
     if travelled(run) < 0.1:
         return "The robot never moves. Run each program alone, and look at what it publishes, and when."
-    if run.contacts:
-        touch = run.contacts[0]
-        return f"It drove into a {touch.what} at {touch.stamp:.3g} s, and its odometry has been wrong since."
-    return ""
+    return after_a_touch(run)

@@ -41,6 +41,14 @@ def stood_still(run: Recording, seconds: Seconds) -> bool:
     return all(math.dist((x, y), place[1:3]) < 1e-3 for place in places)
 
 
+def after_a_touch(run: Recording) -> str:
+    """Why a robot goes astray that has touched something; nothing where it hasn't."""
+    if not run.contacts:
+        return ""
+    touch = run.contacts[0]
+    return f"It drove into a {touch.what} at {touch.stamp:.3g} s, and its odometry has been wrong since."
+
+
 def is_hopeless(run: Recording, patience: Seconds) -> bool:
     """Whether a run can be ended early: the robot never moves, or it has touched something long ago.
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from grader.checks import Missed, cancels, series, serves_action, travelled
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.measures import is_hopeless, keeps_off, tenths
+from grader.exercises.navigator.measures import after_a_touch, is_hopeless, keeps_off, tenths
 from grader.exercises.navigator.partners import GoalClient, bringup, made_for
 from grader.exercises.navigator.progress import (
     ACTION,
@@ -216,10 +216,8 @@ def _why_not_there(run: Recording, goal: Goal, left: float) -> str:
         return f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}."
     if travelled(run) < 0.05:
         return "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop."
-    if run.contacts:
-        touch = run.contacts[0]
-        return f"It drove into a {touch.what} at {touch.stamp:.3g} s, and its odometry has been wrong since."
-    return "The picture shows where it stopped. Compare it with the last message on /plan."
+    picture = "The picture shows where it stopped. Compare it with the last message on /plan."
+    return after_a_touch(run) or picture
 
 
 def _too_early(run: Recording, left: float) -> str:
