@@ -1,5 +1,6 @@
 """Reads the imports and holds the layers of the map apart."""
 import ast
+import functools
 import json
 import re
 from collections.abc import Iterator
@@ -35,13 +36,16 @@ ROOMS = (
 )
 
 
-def imports(source: str) -> Iterator[str]:
-    """Yield the full name of every module that the source imports, wherever the statement stands."""
+@functools.cache
+def imports(source: str) -> tuple[str, ...]:
+    """The full name of every module that the source imports, wherever the statement stands."""
+    found: list[str] = []
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
-            yield from (name.name for name in node.names)
+            found += [name.name for name in node.names]
         elif isinstance(node, ast.ImportFrom) and not node.level:
-            yield node.module or ""
+            found.append(node.module or "")
+    return tuple(found)
 
 
 def modules() -> Iterator[tuple[str, str]]:
