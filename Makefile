@@ -76,8 +76,9 @@ $(VENV)/.interfaces: $(VENV)/.requirements $(INTERFACES)
 wheels: setup  ## collect all that set-up installs in wheels/: then it needs no network and no compiler
 	@$(BIN)/python .ci/wheels
 
+# Left out: jsonschema takes more than a second to import it, and checks with it what no notebook has.
 COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
-    --no-emit-index-url --no-emit-find-links --custom-compile-command 'make lock'
+    --no-emit-index-url --no-emit-find-links --no-emit-package rfc3987-syntax --custom-compile-command 'make lock'
 lock: tools  ## take the newest versions into requirements.lock and its like
 	$(COMPILE) --group build pyproject.toml --output-file requirements.lock
 	$(COMPILE) --group tools --constraint requirements.lock --output-file .ci/tools.lock

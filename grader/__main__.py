@@ -6,8 +6,6 @@ import importlib
 import importlib.util
 import sys
 
-# jsonschema, below nbgrader, would load this to check web addresses: more than a second, for nothing.
-sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
 COMMANDS = {  # module and function, and how it is used
     "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
     "league": ("grader.marking.league.cli", "main", "[NOTEBOOK ...]"),

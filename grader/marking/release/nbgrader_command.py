@@ -6,18 +6,11 @@ from pathlib import Path
 from grader.marking.errors import CommandFailed
 
 ERROR_LINES = 12
-# As `python -m nbgrader`, without what jsonschema takes a second to import, for a kind of address.
-START = """\
-import sys
-sys.modules["rfc3987_syntax"] = None
-from nbgrader.apps.nbgraderapp import main
-main()
-"""
 
 
 def nbgrader(course: Path, *arguments: str) -> None:
     """Run `nbgrader ARGUMENTS` in the folder `course`, beside its configuration. Raises CommandFailed."""
-    command = [sys.executable, "-c", START, *arguments]
+    command = [sys.executable, "-m", "nbgrader", *arguments]
     done = subprocess.run(command, cwd=course, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         raise failure(course, " ".join(arguments), done.stdout)
