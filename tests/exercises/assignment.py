@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import re
 from types import ModuleType
 from typing import Any, ClassVar
@@ -89,6 +90,7 @@ class Assignment:
         return right_nodes(cls.topic(), exercise)
 
     @classmethod
+    @functools.cache
     def telling(cls, exercise: str) -> list[str]:
         """A right node, and as many wrong ones as miss every sentence of the page."""
         names, missed = cls.right(exercise)[:1], set()

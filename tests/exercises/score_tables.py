@@ -73,6 +73,7 @@ def students(assignment: str, exercise: str) -> dict[str, Any]:
     return {name: item for name, item in found.items() if name not in getattr(module, "PARTS", ())}
 
 
+@functools.cache
 def page(assignment: str, exercise: str) -> dict[str, str]:
     """Name to what the exercise's page says of the node: points, and the red lines."""
     text = _file(assignment, exercise).read_text(encoding="utf-8")
@@ -86,6 +87,7 @@ def write_page(assignment: str, exercise: str) -> None:
         nodes = students(assignment, exercise)
         blocks = [shown(name, judge.grade(*programs_of(node))) for name, node in nodes.items()]
     _file(assignment, exercise).write_text("\n\n".join(blocks) + "\n", encoding="utf-8")
+    page.cache_clear()
 
 
 def _file(assignment: str, exercise: str) -> Path:
