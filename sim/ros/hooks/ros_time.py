@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.clock import Clock, JumpHandle, ROSClock
+from rclpy.clock import Clock, JumpHandle, JumpThreshold, ROSClock, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
@@ -14,14 +14,19 @@ from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
-from sim.nanoseconds import EPOCH, Nanoseconds
+from sim.nanoseconds import EPOCH, SECOND, Nanoseconds
+from sim.ros.engine.clock_switch import ClockSwitch
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
+
+# So long before the start of a run the computer was switched on: a steady clock has shown times before now.
+UP: Nanoseconds = 3600 * SECOND
+ON_SWITCH = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
 
 
 def _offset(clock: Clock) -> Nanoseconds:
     """What a clock shows at the start of a run."""
-    return 0 if clock.clock_type is ClockType.STEADY_TIME else EPOCH
+    return UP if clock.clock_type is ClockType.STEADY_TIME else EPOCH
 
 
 @hook(
@@ -35,6 +40,7 @@ def new_clock(original: Callable) -> Callable:
         run = engine()
         if run is not None and clock.clock_type is ClockType.ROS_TIME:
             run.time.adopt(clock)
+            clock._sim = ClockSwitch()
         return clock
 
     return __new__
@@ -58,28 +64,56 @@ def attach_clock(original: Callable) -> Callable:
         if engine() is None or not isinstance(clock, ROSClock):
             original(self, clock)
         else:
+            clock._set_ros_time_is_active(self.ros_time_is_active)
             self._associated_clocks.add(clock)
 
     return attach_clock
 
 
-@hook(ROSClock, "_set_ros_time_is_active", "simulated time can't be switched off in a run")
+@hook(ROSClock, "_set_ros_time_is_active", "who asked to be told is told, and time stays the run's")
 def set_ros_time_is_active(original: Callable) -> Callable:
     def _set_ros_time_is_active(self: ROSClock, enabled: bool) -> None:
-        if engine() is None:
+        switch = self.__dict__.get("_sim")
+        if engine() is None or switch is None:
             original(self, enabled)
+        else:
+            switch.turn(enabled)
 
     return _set_ros_time_is_active
 
 
+@hook(ROSClock, "ros_time_is_active", "rcl's own answer is yes for each clock that shows the run's time")
+def ros_time_is_active(original: property) -> property:
+    def ros_time_is_active(self: ROSClock) -> bool:
+        switch = self.__dict__.get("_sim")
+        return original.fget(self) if engine() is None or switch is None else switch.on
+
+    return property(ros_time_is_active)
+
+
 @hook(JumpHandle, "__init__", "in a run time passes, as on a robot, and never jumps, however it is moved on")
 def jump_handle_init(original: Callable) -> Callable:
-    def __init__(self: JumpHandle, **keywords: Any) -> None:
-        original(self, **keywords)
+    def __init__(self: JumpHandle, *, clock: Clock, threshold: JumpThreshold, **callbacks: Any) -> None:
+        original(self, clock=clock, threshold=threshold, **callbacks)
         if engine() is not None:
             self.unregister()  # rcl would call it from outside the student's code, and even when it is gone
+            switch = clock.__dict__.get("_sim")
+            if switch is not None and threshold.on_clock_change:
+                switch.tell(self)
+                self._sim = switch
 
     return __init__
+
+
+@hook(JumpHandle, "unregister", "whoever is told of a switch is told by the run")
+def unregister(original: Callable) -> Callable:
+    def unregister(self: JumpHandle) -> None:
+        switch = self.__dict__.pop("_sim", None)
+        if switch is not None:
+            switch.forget(self)
+        original(self)
+
+    return unregister
 
 
 @hook(Clock, "now", "steady and system clocks show simulated time too, and waiting in a busy loop takes time")
@@ -106,9 +140,11 @@ def sleep_until(original: Callable) -> Callable:
         if until.clock_type != self.clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         wake = until.nanoseconds - _offset(self)
-        if run.now < wake:
-            run.wait("a clock's sleep", ready=lambda: not context.ok(), until=wake)
-        return run.now >= wake
+        switched: list[TimeJump] = []
+        with self.create_jump_callback(ON_SWITCH, post_callback=switched.append):
+            if run.now < wake:
+                run.wait("a clock's sleep", ready=lambda: switched or not context.ok(), until=wake)
+        return run.now >= wake and not switched
 
     return sleep_until
 

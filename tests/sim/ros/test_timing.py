@@ -61,11 +61,12 @@ def test_all_clocks_show_simulated_time():
 def test_a_second_before_the_start_there_was_time_too():
     """All clocks that show what time it is agree, from the first moment on."""
     expected = []
-    for stamp, nanoseconds, seconds in [
-        (0.0, 1_735_689_599_000_000_000, 1735689599.0),
-        (0.25, 1_735_689_599_250_000_000, 1735689599.25),
+    for stamp, nanoseconds, seconds, steady in [
+        (0.0, 1_735_689_599_000_000_000, 1735689599.0, 3_599_000_000_000),
+        (0.25, 1_735_689_599_250_000_000, 1735689599.25, 3_599_250_000_000),
     ]:
         expected += [(stamp, f"{clock} {nanoseconds}") for clock in ("node", "ros", "system")]
+        expected.append((stamp, f"steady {steady}"))
         expected.append((stamp, f"time {nanoseconds} {seconds}"))
     assert stamps(timing.looks_back, 0.25) == expected
 
@@ -112,3 +113,20 @@ def test_time_passes_and_never_jumps_for_clocks_that_are_gone_or_kept():
         (1.0, "tick 1735689601000000000"),
         (1.5, "tick 1735689601500000000"),
     ]
+
+
+def test_a_switch_of_use_sim_time_is_told_and_time_goes_on():
+    assert stamps(timing.SwitchesTime, 2) == [
+        (0.5, "kept before: False"), (0.5, "kept after: True, ROS_TIME_ACTIVATED"),
+        (0.5, "1735689600500000000"), (1.0, "1735689601000000000"),
+        (1.5, "kept before: True"), (1.5, "kept after: False, ROS_TIME_DEACTIVATED"),
+        (1.5, "1735689601500000000"),
+    ]  # fmt: skip
+
+
+def test_a_switch_of_use_sim_time_ends_a_sleep():
+    assert stamps(timing.switch_ends_a_sleep, 3) == [(0.5, "False"), (2.5, "True")]
+
+
+def test_a_clock_goes_by_the_switch_of_its_time_source():
+    assert [text for _, text in stamps(timing.clock_of_a_time_source, 1)] == ["True", "False"]

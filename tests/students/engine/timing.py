@@ -1,15 +1,18 @@
 """Nodes that wait, each in its own way, and say in their log when they went on."""
 
+import threading
 import time
 from datetime import UTC, datetime
 from time import monotonic, sleep
 
 import rclpy
-from rclpy.clock import Clock, ClockType, JumpThreshold, ROSClock
+from rclpy.clock import Clock, ClockChange, ClockType, JumpThreshold, ROSClock
 from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.task import Future
+from rclpy.time_source import TimeSource
 from std_msgs.msg import Header
 
 
@@ -86,8 +89,6 @@ def early_bound_sleep():
 
 def rate_in_a_thread():
     """The usual recipe: spin in a thread, a rate in main."""
-    import threading
-
     rclpy.init()
     node = Node("rated")
     thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
@@ -160,7 +161,7 @@ def all_clocks():
         "monotonic": time.monotonic(),
         "perf_counter": time.perf_counter(),
         "node": node.get_clock().now().nanoseconds / 1e9 - 1_735_689_600,
-        "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9,
+        "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9 - 3600,
         "system": Clock().now().nanoseconds / 1e9 - 1_735_689_600,
     }
     for name, value in seconds.items():
@@ -168,10 +169,14 @@ def all_clocks():
 
 
 def looks_back():
-    """A second before the start there was time, too: ROS's, the system's and Python's, all the same."""
+    """A second before the start there was time, too: ROS's, the system's and Python's, all the same.
+
+    The steady clock has its own: it counts from when the computer was switched on.
+    """
     rclpy.init()
     node = Node("historian")
-    clocks = {"node": node.get_clock(), "ros": ROSClock(), "system": Clock()}
+    steady = Clock(clock_type=ClockType.STEADY_TIME)
+    clocks = {"node": node.get_clock(), "ros": ROSClock(), "system": Clock(), "steady": steady}
 
     def tell():
         for name, clock in clocks.items():
@@ -249,3 +254,59 @@ class JumpCallbacks(Node):
     def tell_jumps(self, clock, callback):
         threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
         return clock.create_jump_callback(threshold, post_callback=callback)
+
+
+class SwitchesTime(Node):
+    """Sets `use_sim_time` at 0.5 s and at 1 s, and takes it back at 1.5 s; its clock tells before and after.
+
+    Nobody keeps the handle of the second, and the third is unregistered. The fourth asks for jumps alone.
+    """
+
+    def __init__(self):
+        super().__init__("switches")
+        self.values = iter([True, True, False])
+        self.kept = self.tell("kept")
+        self.tell("gone")
+        self.tell("unregistered").unregister()
+        self.fourth = self.tell("jumps", min_forward=Duration(nanoseconds=1), on_clock_change=False)
+        self.timer = self.create_timer(0.5, self.switch)
+
+    def tell(self, name, min_forward=None, on_clock_change=True):
+        say = self.get_logger().info
+        clock = self.get_clock()
+        return clock.create_jump_callback(
+            JumpThreshold(min_forward=min_forward, min_backward=None, on_clock_change=on_clock_change),
+            pre_callback=lambda: say(f"{name} before: {clock.ros_time_is_active}"),
+            post_callback=lambda jump: say(
+                f"{name} after: {clock.ros_time_is_active}, {ClockChange(jump.clock_change).name}"
+            ),
+        )
+
+    def switch(self):
+        value = next(self.values, None)
+        if value is None:
+            self.timer.cancel()
+        else:
+            self.set_parameters([Parameter("use_sim_time", value=value)])
+            self.get_logger().info(f"{self.get_clock().now().nanoseconds}")
+
+
+def switch_ends_a_sleep():
+    """The time that was slept for loses its meaning: the sleep ends, and says that it did not get there."""
+    rclpy.init()
+    node = Node("sleeper")
+    node.create_timer(0.5, lambda: node.set_parameters([Parameter("use_sim_time", value=True)]))
+    threading.Thread(target=rclpy.spin, args=[node], daemon=True).start()
+    for _ in range(2):
+        node.get_logger().info(str(node.get_clock().sleep_for(Duration(seconds=2))))
+
+
+def clock_of_a_time_source():
+    """What is attached to a time source goes by its switch."""
+    rclpy.init()
+    node = Node("source")
+    source, clock = TimeSource(node=node), ROSClock()
+    for value in (True, False):
+        node.set_parameters([Parameter("use_sim_time", value=value)])
+        source.attach_clock(clock)
+        node.get_logger().info(str(clock.ros_time_is_active))
