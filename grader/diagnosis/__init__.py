@@ -25,6 +25,7 @@ DIAGNOSES = (
     names.service_slip,
     parameters.unknown_parameter,
     connections.incompatible_qos,
+    connections.publisher_for_each_message,
     connections.said_too_early,
     services.nobody_offers,
     services.asked_nobody,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from itertools import product
 
 from sim.evidence import Recording, Unheard
@@ -21,6 +22,24 @@ def incompatible_qos(recording: Recording) -> str:
                 f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
                 f"{offer(policy, offered)}, {subscription.node} asks for {wanted}, so nothing arrives. "
                 f"Use the same {policy} at both ends."
+            )
+    return ""
+
+
+def publisher_for_each_message(recording: Recording, topic: str | None = None) -> str:
+    """A publisher that is made for one message, which comes before anybody has found it. topic: or of all."""
+    made = Counter(
+        (end.node, end.name)
+        for end in recording.graph.publishers(topic)
+        if not end.ours and end.qos.get("durability") != "transient_local"
+    )
+    for (node, name), publishers in made.items():
+        messages = len(recording.messages(name, node))
+        if publishers >= messages > 1:
+            return (
+                f"{node} made {publishers} publishers on {name} for {messages} messages. Two programs need a"
+                " moment to discover each other, and what a new publisher sends at once is lost: make it"
+                " once, in __init__, and publish with it again and again."
             )
     return ""
 

@@ -106,6 +106,23 @@ class SaysItAgain(TalksInItsConstructor):
         self.create_timer(1.0, lambda: self.publisher.publish(String(data="hello")))
 
 
+class NewPublisherEachTime(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.create_publisher(String, "/chatter", 10).publish(String(data="hello"))
+
+
+class NewPublisherThatLatches(NewPublisherEachTime):
+    """What it says is there for all who come later; nothing is wrong with it."""
+
+    def tick(self):
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.create_publisher(String, "/chatter", latched).publish(String(data="hello"))
+
+
 class RateForPeriod(Node):
     """Meant to talk 100 times a second."""
 

@@ -58,6 +58,14 @@ def test_publishes_misses_another_type():
     )
 
 
+def test_a_rate_misses_messages_that_nobody_can_hear():
+    recorded = run(misfits.NewPublisherEachTime, seconds=5, quiet=True)
+    assert len(publishes(recorded, "/chatter")) == 5
+    miss = missed(rate, recorded, "/chatter", 1.0)
+    assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that nobody can hear")
+    assert miss.hint.startswith("/talker made 5 publishers on /chatter for 5 messages. Two programs need")
+
+
 def test_publishes_misses_a_publisher_that_says_nothing():
     miss = missed(publishes, run(misfits.SilentTalker, seconds=2, quiet=True), "/chatter")
     assert (miss.expected, miss.saw) == ("messages on /chatter", "a publisher, but no message")

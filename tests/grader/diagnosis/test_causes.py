@@ -49,6 +49,11 @@ CAUSES = {
     "to discover each other, and what is sent before that is lost. Make the publisher once, in __init__, and publish "
     "from a timer; or latch it (durability transient_local at both ends).",
     (
+        misfits.NewPublisherEachTime,
+    ): "/talker made 10 publishers on /chatter for 10 messages. Two programs need a moment to discover each "
+    "other, and what a new publisher sends at once is lost: make it once, in __init__, and publish with it again "
+    "and again.",
+    (
         misfits.SilentTalker,
     ): "/talker has a publisher on /chatter, but never publishes. Call publish(msg) on it in "
     "the timer's callback.",
@@ -111,6 +116,7 @@ def test_a_cause_is_explained(students, sentence):
         ((misfits.Talker,), None),
         ((misfits.Talker, misfits.Listener), None),
         ((misfits.Listener, misfits.SaysItAgain), None),
+        ((misfits.NewPublisherThatLatches,), None),
         ((misfits.Listener, misfits.Talker), "yard"),
         ((misfits.Talker,), "room"),
         ((services.Adder, services.done_callback), "yard"),

@@ -82,6 +82,12 @@ class SleepsASecondMore(Thermometer):
         super().measure()
 
 
+class NewPublisherEachTime(Thermometer):
+    def measure(self):
+        self.publisher = self.create_publisher(self.type, self.topic, 10)
+        super().measure()
+
+
 class TooWarm(Thermometer):
     def read(self):
         return random.uniform(20.0, 30.0)
