@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 import os
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -13,7 +14,7 @@ from typing import Any
 import numpy.random
 
 from sim.nanoseconds import EPOCH, SECOND, nanoseconds
-from sim.ros.fibers.scheduler import engine
+from sim.ros.fibers.scheduler import engine, outside_student_code
 from sim.ros.hooks.table import hook
 
 
@@ -133,6 +134,15 @@ def exit_now(original: Callable) -> Callable:
         raise SystemExit(status)
 
     return _exit
+
+
+@hook(subprocess.Popen, "_wait", "another process works in wall time, which takes no simulated time")
+def wait_for_child(original: Callable) -> Callable:
+    def _wait(self: subprocess.Popen, timeout: float | None) -> int:
+        with outside_student_code():  # it sleeps between two looks, and its time-out is by the wall's clock
+            return original(self, timeout)
+
+    return _wait
 
 
 def _ignored(name: str, reason: str, result: Any) -> None:

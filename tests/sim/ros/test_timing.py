@@ -46,11 +46,18 @@ def test_ticks_stay_exact_for_ten_minutes():
     (timing.rate_in_a_thread, [(0.25, "rate"), (0.5, "rate"), (0.75, "rate"), (1.0, "rate")]),
     (timing.rate_in_a_parallel_callback, [(1.0, "rate"), (1.5, "rate"), (2.0, "rate")]),
     (timing.clock_sleeps, [(1.5, "for"), (4.0, "until"), (4.5, "system")]),
+    (timing.selects, [
+        (0.5, "0 ready"), (0.75, "0 ready"), (0.75, "0 ready"), (1.5, "1 ready"), (1.5, "1 ready"),
+    ]),
     (timing.busy_wait, [(1.0, "over")]),
     (timing.busy_wait_on_the_node_clock, [(1.0, "over")]),
 ], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
 def test_waiting_takes_simulated_time(program, expected):
     assert stamps(program, 5) == expected
+
+
+def test_another_process_takes_no_simulated_time():
+    assert stamps(timing.waits_for_children) == [(0.0, "0"), (0.0, "too slow")]
 
 
 def test_all_clocks_show_simulated_time():

@@ -1,8 +1,11 @@
 """Nodes that wait, each in its own way, and say in their log when they went on."""
 
+import os
+import subprocess
 import threading
 import time
 from datetime import UTC, datetime
+from select import select
 from time import monotonic, sleep
 
 import rclpy
@@ -129,6 +132,30 @@ def clock_sleeps():
     node.get_logger().info("until")
     Clock().sleep_for(Duration(seconds=0.5))
     node.get_logger().info("system")
+
+
+def selects():
+    """Waits for files until one can be read, some seconds at most, or for no file at all."""
+    rclpy.init()
+    node = Node("selects")
+    reading, writing = os.pipe()
+    threading.Timer(1.5, os.write, [writing, b"!"]).start()
+    for files, timeout in ([], 0.5), ([reading], 0.25), ([reading], 0), ([reading], None), ([reading], 5):
+        ready, _, _ = select(files, [], [], timeout)
+        node.get_logger().info(f"{len(ready)} ready")
+    os.close(reading)
+    os.close(writing)
+
+
+def waits_for_children():
+    """Runs another program, and one that is too slow."""
+    rclpy.init()
+    node = Node("parent")
+    node.get_logger().info(str(subprocess.run(["true"], timeout=60).returncode))
+    try:
+        subprocess.run(["sleep", "60"], timeout=0.01)
+    except subprocess.TimeoutExpired:
+        node.get_logger().info("too slow")
 
 
 def busy_wait():
