@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import builtins
+import multiprocessing.connection
 import os
+import sched
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy.random
@@ -16,6 +18,8 @@ import numpy.random
 from sim.nanoseconds import EPOCH, SECOND, nanoseconds
 from sim.ros.fibers.scheduler import engine, outside_student_code
 from sim.ros.hooks.table import hook
+
+CALENDAR = time.CLOCK_REALTIME, time.CLOCK_TAI  # the numbers of those that count from 1970
 
 
 @hook(time, "sleep", "sleeping takes simulated time")
@@ -51,6 +55,23 @@ for _name in ("time", "monotonic", "perf_counter"):
     _epoch = EPOCH if _name == "time" else 0
     _clock(_name, _epoch, lambda nanoseconds: nanoseconds / SECOND)
     _clock(f"{_name}_ns", _epoch, int)
+
+
+def _clock_by_number(name: str, convert: Callable[[int], Any]) -> None:
+    @hook(time, name, "Python's clocks show simulated time")
+    def clock(original: Callable) -> Callable:
+        def read(number: int, /) -> Any:
+            run = engine()
+            if run is None:
+                return original(number)
+            run.called("looks at a clock")
+            return convert(run.now + (EPOCH if number in CALENDAR else 0))
+
+        return read
+
+
+_clock_by_number("clock_gettime", lambda nanoseconds: nanoseconds / SECOND)
+_clock_by_number("clock_gettime_ns", int)
 
 
 def _computing_time(name: str) -> None:
@@ -143,6 +164,25 @@ def wait_for_child(original: Callable) -> Callable:
             return original(self, timeout)
 
     return _wait
+
+
+@hook(multiprocessing.connection, "wait", "another process works in wall time, which takes no simulated time")
+def wait_for_connections(original: Callable) -> Callable:
+    def wait(object_list: Iterable[Any], timeout: float | None = None) -> list[Any]:
+        with outside_student_code():
+            return original(object_list, timeout)
+
+    return wait
+
+
+@hook(sched.scheduler, "__init__", "it bound its clock and its sleep before there were hooks")
+def scheduler_init(original: Callable) -> Callable:
+    def __init__(
+        self: sched.scheduler, timefunc: Callable | None = None, delayfunc: Callable | None = None
+    ) -> None:
+        original(self, timefunc or time.monotonic, delayfunc or time.sleep)  # noqa: TID251 (the hook)
+
+    return __init__
 
 
 def _ignored(name: str, reason: str, result: Any) -> None:

@@ -49,6 +49,7 @@ def test_ticks_stay_exact_for_ten_minutes():
     (timing.selects, [
         (0.5, "0 ready"), (0.75, "0 ready"), (0.75, "0 ready"), (1.5, "1 ready"), (1.5, "1 ready"),
     ]),
+    (timing.goes_by_a_schedule, [(0.5, "after 0.5"), (1.5, "after 1.5")]),
     (timing.busy_wait, [(1.0, "over")]),
     (timing.busy_wait_on_the_node_clock, [(1.0, "over")]),
 ], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
@@ -57,11 +58,14 @@ def test_waiting_takes_simulated_time(program, expected):
 
 
 def test_another_process_takes_no_simulated_time():
-    assert stamps(timing.waits_for_children) == [(0.0, "0"), (0.0, "too slow")]
+    assert stamps(timing.waits_for_children) == [
+        (0.0, "0"), (0.0, "too slow"), (0.0, "alive: True"), (0.0, "alive: False"),
+    ]  # fmt: skip
 
 
 def test_all_clocks_show_simulated_time():
-    names = ["time", "time_ns", "monotonic", "perf_counter", "node", "steady", "system"]
+    names = ["time", "time_ns", "gettime", "gettime_ns"]
+    names += ["monotonic", "perf_counter", "node", "steady", "system"]
     assert stamps(timing.all_clocks) == [(2.5, f"{name} 2.5") for name in names]
 
 

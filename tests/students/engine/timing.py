@@ -1,6 +1,9 @@
 """Nodes that wait, each in its own way, and say in their log when they went on."""
 
+import multiprocessing
 import os
+import sched
+import signal
 import subprocess
 import threading
 import time
@@ -147,8 +150,17 @@ def selects():
     os.close(writing)
 
 
+def goes_by_a_schedule():
+    rclpy.init()
+    node = Node("scheduled")
+    plan = sched.scheduler()
+    for delay in (1.5, 0.5):
+        plan.enter(delay, 1, node.get_logger().info, [f"after {delay}"])
+    plan.run()
+
+
 def waits_for_children():
-    """Runs another program, and one that is too slow."""
+    """Runs another program, one that is too slow, and a copy of itself."""
     rclpy.init()
     node = Node("parent")
     node.get_logger().info(str(subprocess.run(["true"], timeout=60).returncode))
@@ -156,6 +168,13 @@ def waits_for_children():
         subprocess.run(["sleep", "60"], timeout=0.01)
     except subprocess.TimeoutExpired:
         node.get_logger().info("too slow")
+    child = multiprocessing.get_context("fork").Process(target=signal.pause)
+    child.start()
+    child.join(0.01)
+    node.get_logger().info(f"alive: {child.is_alive()}")
+    child.kill()
+    child.join()
+    node.get_logger().info(f"alive: {child.is_alive()}")
 
 
 def busy_wait():
@@ -185,6 +204,8 @@ def all_clocks():
     seconds = {
         "time": time.time() - 1_735_689_600,
         "time_ns": time.time_ns() / 1e9 - 1_735_689_600,
+        "gettime": time.clock_gettime(time.CLOCK_REALTIME) - 1_735_689_600,
+        "gettime_ns": time.clock_gettime_ns(time.CLOCK_MONOTONIC) / 1e9,
         "monotonic": time.monotonic(),
         "perf_counter": time.perf_counter(),
         "node": node.get_clock().now().nanoseconds / 1e9 - 1_735_689_600,
