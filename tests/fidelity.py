@@ -47,7 +47,6 @@ KNOWN = {
     "test_clock.py::TestClock::test_clock_now": NO_COMPUTING,
     "test_executor.py::TestExecutor::test_multi_threaded_executor_num_threads": FOUR_THREADS,
     "test_init_shutdown.py::test_signal_handlers": NO_SIGNALS,
-    "test_lifecycle.py::test_lifecycle_publisher": TESTS_BEFORE,
     "test_lifecycle.py::test_lifecycle_services": TESTS_BEFORE,
     "test_logging.py::TestLogging::test_log_throttle_ros_clock": ONE_TIME,
     "test_time_source.py::TestTimeSource::test_time_source_using_sim_time": ONE_TIME,
