@@ -29,9 +29,9 @@ class Cast(Protocol):
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
 
-    def package(self, name: str) -> Package | Fault:
-        """The package of this name in the workspace that was handed over, built anew and installed where its
-        programs live; or why there is none.
+    def package(self, name: str, build_type: str) -> Package | Fault:
+        """The package of this name and type in the workspace that was handed over, built anew and installed
+        where its programs live; or why there is none.
         """
 
     def leave(self) -> None:
@@ -57,9 +57,9 @@ class LocalCast:
             return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
         return [prepare.func(node, *prepare.args) for node in self._nodes]
 
-    def package(self, name: str) -> Package | Fault:
+    def package(self, name: str, build_type: str) -> Package | Fault:
         """As Cast."""
-        made = make_package(name, place.told_sources(self._nodes, name), self._build)
+        made = make_package(name, place.told_sources(self._nodes, name), self._build, build_type)
         if isinstance(made, Package):
             place.install(made.built.files, made.built.programs)
         return made
@@ -96,9 +96,10 @@ class RemoteCast:
         self._remote.preparation = [_name(function), *words] if function is not None else []
         return [self._remote]
 
-    def package(self, name: str) -> Package | Fault:
+    def package(self, name: str, build_type: str) -> Package | Fault:
         """As Cast; the other process is asked for the sources, and told what to install."""
-        made = make_package(name, self._remote.ask(_name(place.told_sources), name), self._build)
+        told = self._remote.ask(_name(place.told_sources), name)
+        made = make_package(name, told, self._build, build_type)
         if isinstance(made, Package):
             self._remote.ask(_name(place.installed), *place.told(made.built))
         return made

@@ -15,6 +15,7 @@ from grader.diagnosis.fault import Fault
 from grader.quiet import quiet_stderr
 from grader.score import Score
 from grader.slips import in_what_was_sent, mended, retyped, slips_of, with_half
+from grader.workspace.description import PYTHON
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
 from sim.network import Network
@@ -33,6 +34,7 @@ class CompanionError(Exception):
 class Scenario:
     """One run of the student's nodes.
 
+    seconds: how long it lasts; 0 where nothing is run, and only the package is looked at.
     world: the name of a world, or None for a run without a robot; or a function of the seed that gives a
         World, such as `lambda seed: World.generate("maze", seed=seed)`.
     companions: nodes of ours that run alongside, as for sim.run; or a function of the seed that gives them.
@@ -56,6 +58,8 @@ class Scenario:
 
         Raises CompanionError when one of ours raised.
         """
+        if not self.seconds:
+            return Recording(seed=seed)
         from sim import run
 
         recording = run(
@@ -98,6 +102,7 @@ class Exercise:
     may_end: its programs come to their end when they are done; else the time after that is not earned.
     package: the name of the package that is built and run. `grade` then takes the folder of a workspace,
         `prepare` of each scenario says which of its programs runs, and checks are given a `PackageRun`.
+    build_type: that of the package; one of "ament_cmake" has interfaces, and is read in place of being built.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -114,6 +119,7 @@ class Exercise:
     may_end: bool = False
     network: Network | None = None
     package: str = ""
+    build_type: str = PYTHON
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -190,7 +196,7 @@ class Exercise:
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
         with quiet_stderr():
-            found = cast.package(self.package) if self.package else cast.refusal()
+            found = cast.package(self.package, self.build_type) if self.package else cast.refusal()
             if isinstance(found, Fault):
                 reason = "Not judged: there is nothing to run."
                 verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]

@@ -21,6 +21,7 @@ COLCON = (
     *("--log-base", "/dev/null", "build", "--merge-install", "--executor", "sequential"),
     *("--event-handlers", "console_stderr+", "console_direct-"),
 )
+NOT_TAKEN = "What was installed can't be taken."
 TOO_LONG = f"colcon build did not end within {SECONDS:g} s."
 
 
@@ -66,7 +67,7 @@ def build_in(folder: Path, sources: Sources) -> Built:
     try:
         files = read_files(install, "install", INSTALLED)
     except Refused as reason:
-        return Built(said=said, problem=f"What was installed can't be taken. {reason}")
+        return Built(said=said, problem=f"{NOT_TAKEN} {reason}")
     programs = frozenset(path for path in files if os.access(install / path, os.X_OK))
     return Built(files, programs, said)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
@@ -9,18 +11,24 @@ from grader.workspace.sources import Refused, Sources
 
 FILE = "package.xml"
 NEEDED = ("depend", "exec_depend", "run_depend")  # what has to be there where it runs
-TYPES = ("ament_python",)
+PYTHON, CMAKE = "ament_python", "ament_cmake"
+BUILT_BY = {PYTHON: "setup.py", CMAKE: "CMakeLists.txt"}
 
 
 @dataclass(frozen=True)
 class Description:
-    """A package's name, and the packages that it says it needs where it runs."""
+    """A package's name, and the texts of each tag below <package>: tag to texts."""
 
     name: str
-    needs: frozenset[str]
+    tags: Mapping[str, frozenset[str]]
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """The packages that it says it needs where it runs."""
+        return frozenset().union(*(self.tags.get(tag, ()) for tag in NEEDED))
 
 
-def describe(sources: Sources, package: str) -> Description:
+def describe(sources: Sources, package: str, build_type: str = PYTHON) -> Description:
     """What the package in the folder of this name says of itself.
 
     Raises Refused where colcon would not build it, or under another name.
@@ -36,16 +44,17 @@ def describe(sources: Sources, package: str) -> Description:
     if name != package:
         raise Refused(f"{place}/{FILE} says that its name is {name[:60]!r}. Expected is {package}.")
     kind = (root.findtext("export/build_type") or "").strip()
-    if kind not in TYPES:
+    if kind != build_type:
         saw = f"says {kind[:60]!r} as its build type" if kind else "has no build type"
         raise Refused(
-            f"{place}/{FILE} {saw}. In <export> it has to say <build_type>ament_python</build_type>."
+            f"{place}/{FILE} {saw}. In <export> it has to say <build_type>{build_type}</build_type>."
         )
-    if f"{package}/setup.py" not in sources:
-        raise Refused(f"There is no {place}/setup.py. It says what is installed.")
-    return Description(
-        name, frozenset((item.text or "").strip() for tag in NEEDED for item in root.findall(tag))
-    )
+    if f"{package}/{BUILT_BY[build_type]}" not in sources:
+        raise Refused(f"There is no {place}/{BUILT_BY[build_type]}. It says what is installed.")
+    tags: dict[str, set[str]] = defaultdict(set)
+    for item in root:
+        tags[item.tag].add((item.text or "").strip())
+    return Description(name, {tag: frozenset(texts) for tag, texts in tags.items()})
 
 
 def _parsed(data: bytes, place: str) -> ElementTree.Element:

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.workspace.building import Build, Built
-from grader.workspace.description import Description, describe
+from grader.workspace.description import CMAKE, PYTHON, Description, describe
 from grader.workspace.reasons import why
 from grader.workspace.sources import Refused, Sources, checked
 from sim.evidence import Recording
@@ -20,7 +20,10 @@ MOST_TEXT = 500  # characters of what another process says
 
 @dataclass(frozen=True)
 class Package:
-    """A package that was built: its sources, what it says of itself, and what was installed."""
+    """A package that was built: its sources, what it says of itself, and what was installed.
+
+    One of interfaces is only read: to build it takes most of a minute, and its sources tell what is in it.
+    """
 
     sources: Sources
     description: Description
@@ -40,8 +43,11 @@ class PackageRun(Recording):
         return cls(**told, package=package)
 
 
-def make_package(name: str, told: Any, build: Build) -> Package | Fault:
-    """The package of what `told_sources` has told; or why there is none, in words for the student."""
+def make_package(name: str, told: Any, build: Build, build_type: str = PYTHON) -> Package | Fault:
+    """The package of what `told_sources` has told; or why there is none, in words for the student.
+
+    build_type: that of its package.xml.
+    """
     if told is None:
         return _not_started(f"the cell above, about {name}")
     if isinstance(told, str):
@@ -50,8 +56,8 @@ def make_package(name: str, told: Any, build: Build) -> Package | Fault:
         sources = checked(_decoded(told), f"ws/src/{name}")
         if any(STUB in data for data in sources.values()):
             return _not_started("ws/src/" + next(path for path, data in sources.items() if STUB in data))
-        description = describe(sources, name)
-        built = build(sources)
+        description = describe(sources, name, build_type)
+        built = Built() if build_type == CMAKE else build(sources)
     except Refused as reason:
         return _fault("a package that can be built", str(reason))
     if built.problem:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from grader.workspace.building import Built
+from grader.workspace.building import NOT_TAKEN, Built
 
 LINES = 6  # of what colcon said, where the cause isn't known
 LONGEST = 300  # characters of one of them
@@ -43,7 +43,12 @@ RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
 
 
 def why(built: Built) -> tuple[str, str]:
-    """What was seen in place of a finished build, and what to do next."""
+    """What was seen in place of a finished build, and what to do next.
+
+    No hint where colcon came to its end: then the problem says it all.
+    """
+    if built.problem.startswith(NOT_TAKEN):
+        return built.problem, ""
     for pattern, words in RULES:
         found = re.search(pattern, built.said, re.M)
         if found:

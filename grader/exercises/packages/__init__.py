@@ -1,6 +1,7 @@
 """The exercises of 11_packages, from a package out of nothing to a broken one."""
 
 from grader.exercises.packages.bench import see
+from grader.exercises.packages.defining import crates
 from grader.exercises.packages.launching import LANES, convoy
 from grader.exercises.packages.making import greeter
 from grader.exercises.packages.mending import broken, mended, patrol
@@ -13,6 +14,7 @@ __all__ = [
     "Weather",
     "broken",
     "convoy",
+    "crates",
     "gauge",
     "greeter",
     "mended",

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import textwrap
 
 from grader.cast import LocalCast
+from grader.checks import Missed
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.exercise import Exercise
+from grader.exercises.packages.definitions import PARTS, read_definition
 from grader.tell import BEGIN, tell
 from grader.workspace.building import NotHere
+from grader.workspace.package import Package
 from sim.evidence import Recording
 
 
@@ -16,13 +20,16 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
     """Build the package of an exercise anew, and run one of its scenarios.
 
     workspace: the folder with src/ in it. What goes wrong is printed; the recording of a package that can't
-    be built is empty. No points are given.
+    be built is empty. No points are given. A package of interfaces is not built: what it defines is printed.
     """
     cast = LocalCast((workspace,))
     try:
-        found = cast.package(exercise.package)
+        found = cast.package(exercise.package, exercise.build_type)
         if isinstance(found, Fault):
             print(BEGIN if found.sentence == NOT_STARTED else f"{found.saw}\nHint: {found.hint}")
+            return Recording()
+        if not found.built.files:
+            _tell_definitions(found)
             return Recording()
         chosen, seed = exercise.runs()[scenario]
         recording = chosen.run(cast, seed)
@@ -33,3 +40,18 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         return Recording()
     finally:
         cast.leave()
+
+
+def _tell_definitions(package: Package) -> None:
+    """What rosidl reads in the definitions, in the form of `ros2 interface show`; or why it reads nothing."""
+    name = package.description.name
+    for path, data in package.sources.items():
+        stem, _, kind = path.rpartition(".")
+        if kind in PARTS:
+            print(stem)
+            try:
+                parts = read_definition(path.removeprefix(f"{name}/"), data, name).values()
+                text = "\n---\n".join(map(str, parts))
+            except Missed as missed:
+                text = f"{missed.saw}\nHint: {missed.hint}"
+            print(textwrap.indent(text, "    "))

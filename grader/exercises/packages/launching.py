@@ -43,7 +43,7 @@ convoy = Exercise(
 
 
 @convoy.check(
-    6,
+    5,
     guess="It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.",
 )
 def drives_both(run: PackageRun) -> None:
@@ -61,19 +61,19 @@ def leaves_the_third_alone(run: PackageRun) -> None:
         raise Missed("a middle robot that stands", f"{way:.2f} m", hint, picture="path")
 
 
-@convoy.check(4, after=drives_both)
+@convoy.check(3, after=drives_both)
 def right_keeps_its_distance(run: PackageRun) -> None:
     """The right robot stops 1 m before the wall, whatever is asked for."""
     _stops(run, "right", GAPS["right"], 'Its Node has parameters=[{"gap": 1.0}].')
 
 
-@convoy.check(4, after=drives_both, only="plain")
+@convoy.check(3, after=drives_both, only="plain")
 def left_keeps_its_distance(run: PackageRun) -> None:
     """The left robot stops 0.5 m before the wall if nothing else is asked for."""
     _stops(run, "left", GAPS["left"], 'DeclareLaunchArgument("gap", default_value="0.5") says so.')
 
 
-@convoy.check(4, after=drives_both, only="asked")
+@convoy.check(3, after=drives_both, only="asked")
 def left_obeys_the_argument(run: PackageRun) -> None:
     """With the argument gap:=0.8 the left robot stops 0.8 m before the wall."""
     _stops(run, "left", ASKED, 'Its Node has parameters=[{"gap": LaunchConfiguration("gap")}].')

@@ -20,7 +20,7 @@ greeter = Exercise(
 )
 
 
-@greeter.check(6, guess="Compare the topic's name with the task, letter by letter.")
+@greeter.check(5, guess="Compare the topic's name with the task, letter by letter.")
 def says_hello(run: PackageRun) -> None:
     """`ros2 run greeter hello` publishes String messages on /greeting."""
     publishes(run, TOPIC, "std_msgs/msg/String")
@@ -32,7 +32,7 @@ def twice_a_second(run: PackageRun) -> None:
     rate(run, TOPIC, 2.0)
 
 
-@greeter.check(3, after=says_hello)
+@greeter.check(2, after=says_hello)
 def counts(run: PackageRun) -> None:
     """The greetings are hello 1, hello 2, hello 3 and so on."""
     for number, heard in enumerate(run.messages(TOPIC), 1):
@@ -44,13 +44,13 @@ def counts(run: PackageRun) -> None:
             )
 
 
-@greeter.check(4)
+@greeter.check(3)
 def names_its_needs(run: PackageRun) -> None:
     """package.xml names each ROS package that the program imports."""
     names_what_it_imports(run)
 
 
-@greeter.check(4)
+@greeter.check(3)
 def brings_its_description(run: PackageRun) -> None:
     """setup.py installs package.xml, and the marker by which ROS finds the package."""
     installs_by_itself(run)

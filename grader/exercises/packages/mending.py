@@ -80,20 +80,20 @@ def _mend(workspace: Place, file: str, old: str, new: str) -> None:
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
-@patrol.check(6, only="program")
+@patrol.check(5, only="program")
 def program_runs(run: PackageRun) -> None:
     """`ros2 run patrol patrol` publishes Twist messages on /cmd_vel, at 0.2 m/s."""
     publishes(run, "/cmd_vel", TWIST)
     _drives_at(run, "/cmd_vel", ALONE, "patrol/speeds.py has the speed.")
 
 
-@patrol.check(6, only="launch")
+@patrol.check(5, only="launch")
 def launch_file_runs(run: PackageRun) -> None:
     """`ros2 launch patrol patrol.launch.py` starts it for a robot: Twist messages on /scout/cmd_vel."""
     publishes(run, "/scout/cmd_vel", TWIST)
 
 
-@patrol.check(4, after=launch_file_runs, only="launch")
+@patrol.check(3, after=launch_file_runs, only="launch")
 def settings_hold(run: PackageRun) -> None:
     """There it drives at 0.15 m/s, as config/patrol.yaml says."""
     hint = "The file begins with the node's name or /**, then comes ros__parameters with two underscores."

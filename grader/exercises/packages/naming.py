@@ -51,14 +51,14 @@ station = Exercise(
 )
 
 
-@station.check(6, only="sensor")
+@station.check(5, only="sensor")
 def measures(run: PackageRun) -> None:
     """`ros2 run station sensor` starts the sensor: a Float32 on /temperature, five times a second."""
     publishes(run, HEARD, "std_msgs/msg/Float32")
     rate(run, HEARD, 5.0)
 
 
-@station.check(6, only="display")
+@station.check(5, only="display")
 def shows(run: PackageRun) -> None:
     """`ros2 run station display` starts the display: each /temperature comes on /display as a text."""
     publishes(run, SHOWN, "std_msgs/msg/String")
@@ -73,7 +73,7 @@ def shows(run: PackageRun) -> None:
             raise Missed(f"a text with {text} within {SOON:g} s", saw, "Start what was there, unchanged.")
 
 
-@station.check(6)
+@station.check(5)
 def has_these_commands(run: PackageRun) -> None:
     """The package has these two commands and no other."""
     programs = package_of(run).built.programs

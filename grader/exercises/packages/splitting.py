@@ -53,13 +53,13 @@ gauge = Exercise(
 )
 
 
-@gauge.check(4, guess="Compare the topic's name with the task, letter by letter.")
+@gauge.check(3, guess="Compare the topic's name with the task, letter by letter.")
 def publishes_degrees(run: PackageRun) -> None:
     """`ros2 run gauge gauge` publishes Float32 messages on /celsius."""
     publishes(run, DEGREES, "std_msgs/msg/Float32")
 
 
-@gauge.check(6, after=publishes_degrees)
+@gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
     """Each voltage becomes 100 degrees for each volt, less 50; and none comes for one outside 0 to 3.3 V."""
     heard = [one for one in run.messages(VOLTS) if one.ours and one.stamp + SOON < run.seconds]
@@ -79,7 +79,7 @@ def converts(run: PackageRun) -> None:
             raise Missed(f"{wanted:.1f} for {volts:.3f} V", saw, "celsius(volts) is 100 * volts - 50.")
 
 
-@gauge.check(6)
+@gauge.check(5)
 def has_a_module(run: PackageRun) -> None:
     """The conversion is the function celsius in gauge/convert.py, and the node's module imports it."""
     sources = package_of(run).sources
@@ -99,7 +99,7 @@ def has_a_module(run: PackageRun) -> None:
         raise Missed(f"an import of {MODULE}", saw, BY_ITS_NAME)
 
 
-@gauge.check(4, after=has_a_module)
+@gauge.check(3, after=has_a_module)
 def module_is_plain(run: PackageRun) -> None:
     """gauge/convert.py knows nothing of ROS: whoever tests it needs no robot."""
     found = [name for name in imports(package_of(run).sources[PLACE]) if ROS.fullmatch(name.split(".")[0])]

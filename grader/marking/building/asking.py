@@ -7,7 +7,7 @@ import binascii
 import socket
 from collections.abc import Callable
 
-from grader.workspace.building import SECONDS, Built, checked_built
+from grader.workspace.building import NOT_TAKEN, SECONDS, Built, checked_built
 from grader.workspace.sources import Refused, Sources
 from sim.ros.remote import Wire, WireError
 
@@ -35,4 +35,4 @@ def build_there(sock: socket.socket, sources: Sources, ending: Callable[[], str]
     except (KeyError, AttributeError, TypeError, ValueError, binascii.Error):
         return Built(problem=f"{BROKE_OFF} It gave an answer that makes no sense.")
     except Refused as reason:
-        return Built(problem=f"What was installed can't be taken. {reason}")
+        return Built(problem=f"{NOT_TAKEN} {reason}")

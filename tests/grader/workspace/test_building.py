@@ -65,6 +65,12 @@ def test_a_reason_is_put_in_a_beginners_words(said, hint):
     assert why(Built(said=said, problem="colcon build failed.")) == ("colcon build failed.", hint)
 
 
+def test_where_what_was_installed_is_refused_that_says_it_all():
+    problem = "What was installed can't be taken. It is too much. Leave it out."
+    built = Built(said="error: no matter\nFinished <<< greeter [1s]\n", problem=problem)
+    assert why(built) == (built.problem, "")
+
+
 def test_without_a_known_reason_the_last_lines_are_told():
     built = Built(said="one\n\n two\n", problem="colcon build failed.")
     assert why(built)[0] == "colcon build failed. It said last: one / two"

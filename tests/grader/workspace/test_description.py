@@ -2,8 +2,9 @@
 
 import pytest
 
-from grader.workspace.description import describe
+from grader.workspace.description import CMAKE, describe
 from grader.workspace.sources import Refused
+from tests.students.packages import crates
 from tests.students.packages.greeter import RIGHT
 
 XML = RIGHT["greeter/package.xml"]
@@ -18,6 +19,13 @@ def test_a_package_says_its_name_and_its_needs():
     told = described(XML.replace("<depend>rclpy</depend>", "<exec_depend>\nrclpy </exec_depend>").encode())
     assert (told.name, told.needs) == ("greeter", {"rclpy", "std_msgs"})
     assert described("\ufeff".encode() + XML.encode()).name == "greeter"
+
+
+def test_a_package_of_interfaces_says_how_it_is_built_and_in_which_group_it_is():
+    sources = {path: text.encode() for path, text in crates.RIGHT.items()}
+    told = describe(sources, "crate_interfaces", CMAKE)
+    assert told.needs == {"geometry_msgs", "rosidl_default_runtime"}
+    assert told.tags["member_of_group"] == {"rosidl_interface_packages"}
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ def release() -> Release:
     cells = [
         nbformat.v4.new_code_cell("from grader.exercises import packages", id="setup"),
         answer("greeter", "# yours"),
-        grade("greeter-points", 20, 'packages.greeter.grade("ws")'),
+        grade("greeter-points", 16, 'packages.greeter.grade("ws")'),
     ]
     return Release("11_tiny", {"tiny": nbformat.v4.new_notebook(cells=cells)})
 
@@ -60,11 +60,11 @@ def text(result: Result) -> str:
 
 
 def test_packages_beside_the_notebook_are_built_and_run(results):
-    assert (results["right"].points, results["right"].repairs, results["right"].flags) == (20.0, [], [])
+    assert (results["right"].points, results["right"].repairs, results["right"].flags) == (16.0, [], [])
 
 
 def test_what_a_cell_writes_goes_before_what_was_handed_in(results):
-    assert results["cell"].points == 17.0
+    assert results["cell"].points == 13.0
     assert "1 Hz (6 messages in 6 s)" in text(results["cell"])
 
 
@@ -82,9 +82,9 @@ def test_without_a_package_it_is_said(results):
 
 
 def test_what_a_setup_writes_is_gone_with_its_sandbox(results):
-    assert results["reaches"].points == 20.0
+    assert results["reaches"].points == 16.0
 
 
 def test_nothing_can_be_built_in_the_students_own_process(results):
-    assert results["builds"].points == 20.0
+    assert results["builds"].points == 16.0
     assert "NotHere" in text(results["builds"])

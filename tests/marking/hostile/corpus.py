@@ -121,8 +121,13 @@ def block(result: Result) -> str:
 
 def page() -> dict[str, str]:
     """Name to what the page says of a submission."""
-    blocks = PAGE.read_text(encoding="utf-8").strip().split("\n\n")
-    return {text.split(":")[0]: text for text in blocks}
+    return blocks(PAGE)
+
+
+def blocks(file: Path) -> dict[str, str]:
+    """Name to what a page of such a class says of a submission."""
+    found = file.read_text(encoding="utf-8").strip().split("\n\n")
+    return {text.split(":")[0]: text for text in found}
 
 
 # -- tricks with the notebook, and damage -----------------------------------------------------------
