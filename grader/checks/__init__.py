@@ -36,6 +36,7 @@ from grader.checks.motion import (
     until_a_touch,
 )
 from grader.checks.nodes import has_timer, named, no_errors
+from grader.checks.questions import Question, questions
 from grader.checks.services import calls, responds, serves
 from grader.checks.shift import Job, Program, Shift, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
@@ -45,6 +46,7 @@ __all__ = [
     "Job",
     "Missed",
     "Program",
+    "Question",
     "Said",
     "Shift",
     "Verdict",
@@ -78,6 +80,7 @@ __all__ = [
     "passes",
     "places",
     "publishes",
+    "questions",
     "rate",
     "rejects",
     "responds",
