@@ -2,10 +2,10 @@
 
 from whole import Control, Decision, Perception
 
-from grader.checks import shift
+from grader.checks import questions, shift
 from sim import Recording, World, run
 
-__all__ = ["SEED", "WAREHOUSE", "goal", "shift"]
+__all__ = ["SEED", "WAREHOUSE", "goal", "questions", "shift"]
 
 SEED = 2
 WAREHOUSE = World.generate("warehouse", seed=SEED)

@@ -14,7 +14,7 @@ from sim.evidence import Pose, Recording, Seconds
 MOST, LEAST = 5, 2
 MOVES, TURNS = 0.02, 0.05  # m/s and rad/s; a robot that is slower in both stands
 DRIVES = 0.1  # m/s; a robot that is slower comes to a stand
-LOADED, IDLE = 2.0, 3.0  # s; what is handed over, or comes in while the robot looks about, takes less
+LONG = 2.5  # s; to take a load or to hand it over, and to see where to go then, takes less
 NEAR = 2.0  # m from the robot's middle to a person
 ROUND, MORE = 1.5, 2.0  # times the straight line, and m more than it
 WAY = 5.0  # m; a robot that drove less has gone nowhere
@@ -37,10 +37,10 @@ def questions(recording: Recording) -> list[Question]:
     pauses = list(_pauses(recording, done))
     found = [
         _near_a_person(recording),
-        _stood(recording, (pause for pause in pauses if pause.aboard), LOADED),
+        _stood(recording, (pause for pause in pauses if pause.aboard), LONG),
         _given_up(done),
         _battery(recording, done),
-        _stood(recording, (pause for pause in pauses if not pause.aboard), IDLE),
+        _stood(recording, (pause for pause in pauses if not pause.aboard), LONG),
         _went_round(recording, done),
         _took_longest(done),
     ]
@@ -194,7 +194,7 @@ def _battery(recording: Recording, done: Shift) -> Question | None:
 
 def _waited(done: Shift, charge: _Charge) -> list[Job]:
     """The orders that waited for the end of it."""
-    waited = (job for job in done.jobs if job.asked + IDLE < charge.end)
+    waited = (job for job in done.jobs if job.asked + LONG < charge.end)
     return [job for job in waited if charge.end <= (job.picked_up or job.over or math.inf)]
 
 

@@ -1,5 +1,6 @@
 """The exercises of 13_delivery, the delivery robot: from the graph on paper to one that drives."""
 
+from grader.checks import questions
 from grader.exercises.delivery.deciding import decide
 from grader.exercises.delivery.deliver import deliver, programs
 from grader.exercises.delivery.desk import desk
@@ -19,6 +20,7 @@ from grader.exercises.delivery.partners import floor_of, partners
 from grader.exercises.delivery.perceiving import perceive
 from grader.exercises.delivery.plan import Camera, hall, hears, says, sketch
 from grader.exercises.delivery.planning import blueprint
+from grader.exercises.delivery.report import shift_of
 from grader.exercises.delivery.sights import crossing, turner
 from grader.exercises.delivery.warehouses import warehouse
 
@@ -42,8 +44,10 @@ __all__ = [
     "perceive",
     "points_of",
     "programs",
+    "questions",
     "says",
     "seconds",
+    "shift_of",
     "sketch",
     "stamped",
     "steer",

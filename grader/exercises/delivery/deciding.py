@@ -26,7 +26,17 @@ def decides(run: Recording) -> None:
         publishes(run, STATE, "std_msgs/msg/String")
 
 
-@decide.check(3, after=decides)
+@decide.check(1, after=decides)
+def says_in_which_frame(run: Recording) -> None:
+    """Where to go is said in the frame map, as /dock_pose and the orders do."""
+    for goal in _said(run, GOAL, 0.0, math.inf):
+        frame = goal.message.header.frame_id
+        if frame != "map":
+            hint = "Publish the pose of the order or the dock as it came: header.frame_id is in it."
+            raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
+
+
+@decide.check(2, after=decides)
 def knows_the_past(run: Recording) -> None:
     """It knows what was published before it began: the last word on each order counts."""
     _compare(run, "past", PAST)
@@ -88,7 +98,7 @@ def _said(run: Recording, topic: str, begin: Seconds, end: Seconds) -> list[Hear
 
 def _is_there(goal: Heard, one: Situation) -> bool:
     there = goal.message.pose.position
-    return goal.message.header.frame_id == "map" and math.dist((there.x, there.y), one.place) < SAME
+    return math.dist((there.x, there.y), one.place) < SAME
 
 
 def _place(place: tuple[float, float]) -> str:

@@ -179,7 +179,7 @@ def test_at_most_five_in_the_order_of_time(eventful):
         "and was that right?",
         "From 17.4 to 25.1 s it stood while order 3 waited, 0.1 m from the desk: for what?",
         "At 26.9 s it drove at 0.50 m/s, 0.9 m from somebody: what did it know of this person?",
-        "From 28.0 to 31.0 s it charged, from 31% to 35%, while 5 orders waited: why then, and why so long?",
+        "From 28.0 to 31.0 s it charged, from 31% to 35%, while 6 orders waited: why then, and why so long?",
     ]
 
 

@@ -79,3 +79,10 @@ def test_the_cells_that_look_are_left_out_of_every_assignment(path):
     found = {cells[place].id for place in looking_cells([cell.source for cell in cells], ours)}
     assert {cell.id for cell in cells if cell.id.endswith("-see")} <= found
     assert not any(name in found for name in ("setup", *(f"{cell.id}-given" for cell in cells)))
+
+
+def test_what_a_shift_asks_is_there_for_whoever_reads_the_answers():
+    cells = nbformat.read(ROOT / "solutions" / "13_delivery" / "delivery.ipynb", 4).cells
+    code = [cell for cell in cells if cell.cell_type == "code"]
+    found = {code[place].id for place in looking_cells([cell.source for cell in code], set(range(len(code))))}
+    assert {"report-shift", "report-questions"} <= {cell.id for cell in code} - found

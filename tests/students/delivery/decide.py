@@ -258,6 +258,13 @@ class Waits(Decision):
         time.sleep(4.0)
 
 
+class SomeFrame(Decision):
+    """Makes a pose of its own, with the place and without the frame."""
+
+    def say(self, place):
+        super().say(PoseStamped(pose=place.pose))
+
+
 class SwapsPlaces(Decision):
     """Goes to the delivery first."""
 

@@ -181,6 +181,18 @@ class NeverGoesOn(Control):
         return 0.0 if self.stopped else limit
 
 
+class RestsWhereItStopped(NeverGoesOn):
+    """The same, once it has been at the first place."""
+
+    places = 0
+
+    def on_goal(self, goal):
+        before = self.goal
+        super().on_goal(goal)
+        self.places += self.goal != before
+        self.stopped = self.stopped and self.places > 1
+
+
 class NeverMoves(Control):
     """Safe."""
 
