@@ -142,6 +142,7 @@ class Player {
   }
 
   play(playing) {
+    cancelAnimationFrame(this.frame); // whoever plays again in the same frame would be twice as fast
     this.playing = playing;
     this.toggle.show(playing ? "pause" : "play", playing ? "Pause" : "Play");
     if (!playing) return;
@@ -153,9 +154,9 @@ class Player {
       last = now;
       this.show();
       if (this.time >= this.run.end) this.play(false);
-      else requestAnimationFrame(tick);
+      else this.frame = requestAnimationFrame(tick);
     };
-    requestAnimationFrame(tick);
+    this.frame = requestAnimationFrame(tick);
   }
 
   seek(time) {
