@@ -131,15 +131,11 @@ def _stood(recording: Recording, pauses: Iterable[_Pause], least: Seconds) -> Qu
 
 
 def _place(recording: Recording, stamp: Seconds) -> str:
-    """How far the robot was then from what has a name."""
-    world = recording.world
-    assert world is not None and world.warehouse is not None  # or there would be no shift
-    named = {"the desk": world.warehouse.desk[:2]}
-    if world.battery is not None:
-        named["the charger"] = world.battery.charger
+    """How far the robot was then from what has a name in the picture."""
     here = recording.pose_at(stamp)[1:3]
-    away, name = min((math.dist(here, there), name) for name, there in named.items())
-    return f"{away:.1f} m from {name}"
+    places = recording.world.places() if recording.world else {}
+    away, name = min((math.dist(here, there[:2]), name) for name, there in places.items())
+    return f"{away:.1f} m from {name}" if "_" in name else f"{away:.1f} m from the {name}"
 
 
 def _given_up(done: Shift) -> Question | None:

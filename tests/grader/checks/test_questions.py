@@ -54,7 +54,7 @@ def asked(recording: Recording) -> list[str]:
             {"parts": (STAYS, FORWARD)},
             [
                 "Order 1 came at 2.0 s and took 10.4 s: how much of that was driving?",
-                "From 3.0 to 8.1 s it stood with order 1 aboard, 1.5 m from the desk: for what?",
+                "From 3.0 to 8.1 s it stood with order 1 aboard, 0.0 m from shelf_1: for what?",
             ],
             id="stands with a load",
         ),
@@ -78,7 +78,7 @@ def asked(recording: Recording) -> list[str]:
         pytest.param(
             {"parts": ((3, 0, 0), (20, 0.5, 0)), "people": (AWAY, BESIDE), "seconds": 8},
             [
-                "From 2.0 to 3.0 s it stood while order 1 waited, 1.5 m from the desk: for what?",
+                "From 2.0 to 3.0 s it stood while order 1 waited, 0.0 m from shelf_1: for what?",
                 "At 4.8 s it drove at 0.50 m/s, 0.9 m from somebody: what did it know of this person?",
             ],
             id="comes near somebody",
@@ -97,14 +97,14 @@ def asked(recording: Recording) -> list[str]:
             [
                 "Order 1 came at 2.0 s and expired at 7.0 s; it was aboard from 3.0 s on: "
                 "where did the time go?",
-                "From 3.0 to 7.0 s it stood with order 1 aboard, 1.5 m from the desk: for what?",
+                "From 3.0 to 7.0 s it stood with order 1 aboard, 0.0 m from shelf_1: for what?",
             ],
             id="is too late",
         ),
         pytest.param(
             {"parts": (), "orders": {"withdrawn": (5.0,)}, "seconds": 9},
             [
-                "From 3.0 to 5.0 s it stood with order 1 aboard, 1.5 m from the desk: for what?",
+                "From 3.0 to 5.0 s it stood with order 1 aboard, 0.0 m from shelf_1: for what?",
                 "At 5.0 s order 1 was canceled, and it was aboard: what did the robot do then, "
                 "and was that right?",
             ],
@@ -122,8 +122,8 @@ def asked(recording: Recording) -> list[str]:
         pytest.param(
             {"parts": (CIRCLES,), "battery": BatteryModel((-1, 0), capacity=0.001)},
             [
-                "From 8.9 to 14.0 s it stood while order 1 waited, 2.0 m from the charger: for what?",
-                "At 9.0 s the battery was empty, 2.0 m from the charger: "
+                "From 8.9 to 14.0 s it stood while order 1 waited, 2.0 m from shelf_1: for what?",
+                "At 9.0 s the battery was empty, 2.0 m from shelf_1: "
                 "when should the robot have turned round?",
             ],
             id="has an empty battery",
