@@ -2,6 +2,8 @@
 
 import ast
 
+from rclpy.node import Node
+
 from grader.exercises import delivery
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import ROOT
@@ -32,3 +34,18 @@ def definitions(path):
 
 def test_students_are_given_what_the_lesson_has_beside_it():
     assert definitions("grader/exercises/delivery/floor.py") == definitions("course/13_delivery/floor.py")
+
+
+def idle():
+    return [lambda: Node("idle")]
+
+
+def unsolved():
+    raise NotImplementedError
+
+
+def test_a_shift_asks_whoever_hands_in_a_robot():
+    assert [(one.begin, one.end) for one in delivery.questions(delivery.shift_of(idle))] == [
+        *((0.0, 48.0), (2.0, 77.0), (58.3, 133.3)),  # it charged, left an order, and stood
+    ]
+    assert delivery.questions(delivery.shift_of(unsolved)) == []

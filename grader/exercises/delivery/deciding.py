@@ -26,7 +26,13 @@ def decides(run: Recording) -> None:
         publishes(run, STATE, "std_msgs/msg/String")
 
 
-@decide.check(1, after=decides)
+@decide.check(2, after=decides)
+def knows_the_past(run: Recording) -> None:
+    """It knows what was published before it began: the last word on each order counts."""
+    _compare(run, "past", PAST)
+
+
+@decide.check(1, after=knows_the_past)
 def says_in_which_frame(run: Recording) -> None:
     """Where to go is said in the frame map, as /dock_pose and the orders do."""
     for goal in _said(run, GOAL, 0.0, math.inf):
@@ -34,12 +40,6 @@ def says_in_which_frame(run: Recording) -> None:
         if frame != "map":
             hint = "Publish the pose of the order or the dock as it came: header.frame_id is in it."
             raise Missed(f"the frame “map” on {GOAL}", f"“{frame}” at {goal.stamp:.3g} s", hint)
-
-
-@decide.check(2, after=decides)
-def knows_the_past(run: Recording) -> None:
-    """It knows what was published before it began: the last word on each order counts."""
-    _compare(run, "past", PAST)
 
 
 @decide.check(2, after=knows_the_past)
