@@ -36,6 +36,7 @@ from grader.checks.motion import (
     until_a_touch,
 )
 from grader.checks.nodes import has_timer, named, no_errors
+from grader.checks.people import Encounter, nearest_person
 from grader.checks.questions import Question, questions
 from grader.checks.services import calls, responds, serves
 from grader.checks.shift import Job, Program, Shift, shift
@@ -43,6 +44,7 @@ from grader.checks.topics import lasts, publishes, rate, series, subscribes, wit
 
 __all__ = [
     "Check",
+    "Encounter",
     "Job",
     "Missed",
     "Program",
@@ -75,6 +77,7 @@ __all__ = [
     "lean",
     "logs",
     "named",
+    "nearest_person",
     "no_errors",
     "overshoots",
     "passes",

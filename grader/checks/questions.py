@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from grader.checks.motion import travelled
+from grader.checks.people import nearest_person
 from grader.checks.shift import Job, Shift, shift
 from sim.evidence import Pose, Recording, Seconds
 
@@ -57,18 +58,11 @@ def _near_a_person(recording: Recording) -> Question | None:
     if touch is not None:
         text = "which program should have let it stand before, and what did that one know?"
         return Question(touch, touch, f"At {touch:.1f} s it touched somebody: {text}")
-    near = []
-    for number, person in enumerate(recording.world.people if recording.world else (), 1):
-        there = {pose.stamp: pose for pose in recording.tracks.get(f"person_{number}", [])}
-        for before, now in itertools.pairwise(recording.path):
-            speed = _apart(before, now) / (now.stamp - before.stamp)
-            if speed > DRIVES and now.stamp in there:
-                near.append((_apart(now, there[now.stamp]) - person.radius, now.stamp, speed))
-    away, stamp, speed = min(near, default=(math.inf, 0.0, 0.0))
-    if away > NEAR:
+    near = nearest_person(recording, DRIVES)
+    if near is None or near.away > NEAR:
         return None
-    saw = f"At {stamp:.1f} s it drove at {speed:.2f} m/s, {away:.1f} m from somebody"
-    return Question(stamp, stamp, f"{saw}: what did it know of this person?")
+    saw = f"At {near.stamp:.1f} s it drove at {near.speed:.2f} m/s, {near.away:.1f} m from somebody"
+    return Question(near.stamp, near.stamp, f"{saw}: what did it know of this person?")
 
 
 class _Pause(NamedTuple):

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from grader.checks import Missed, shift, travelled
+from grader.checks import Missed, nearest_person, shift, travelled
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
 from grader.exercises.delivery.warehouses import warehouse
@@ -19,6 +19,7 @@ from sim.ros.launching.respawned import respawned
 SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
 GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody who walks by it takes 10 at most
+DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 
 
@@ -68,14 +69,18 @@ def programs(robot: Callable[[], Iterable[Any]]) -> tuple[Any, ...]:
 
 @deliver.check(1, lasts=True)
 def touches_nobody(run: Recording) -> None:
-    """In no run the robot touches a person. If it does, nothing else is earned in that run."""
-    moment = shift(run).met_person
+    """In no run the robot touches a person, or drives within 0.5 m of one: such a run earns no more."""
+    moment, near = shift(run).met_person, nearest_person(run, DRIVING)
     if moment is not None:
         hint = (
             "Control stands while somebody walks near, whatever it was told, and while it doesn't know. "
             "The replay shows what it did before the touch."
         )
         raise Missed("no contact with a person", f"one at {moment:.3g} s", hint, picture="path", unsafe=True)
+    if near is not None and near.away < CLOSE:
+        saw = f"{near.speed:.2f} m/s at {near.stamp:.3g} s, {near.away:.2f} m from somebody"
+        hint = "By luck nobody was hurt. Does perception tell of who walks, and does control ask each time?"
+        raise Missed(f"a robot that stands within {CLOSE} m", saw, hint, picture="path", unsafe=True)
 
 
 @deliver.check(5, after=touches_nobody, only="shift")

@@ -16,7 +16,7 @@ from tests.students.teams import Team
 
 PARTS = (
     *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
-    *("Forgetful", "ByTheMap", "Faithful", "Tight"),
+    *("Unsocial", "Forgetful", "ByTheMap", "Faithful", "Tight"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -118,6 +118,16 @@ class Chaser(Control):
 
 
 TakesPeopleForGoals = Team(Perception, Decision, Chaser)
+
+
+class Unsocial(Perception):
+    """What walks is an obstacle as any other."""
+
+    def tell(self, publisher, stamp, points):
+        super().tell(publisher, stamp, [] if publisher is self.people_pub else points)
+
+
+ForgetsWhoWalks = Team(Unsocial, Decision, Control)
 
 
 class Repeating(Control):

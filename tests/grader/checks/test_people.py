@@ -1,0 +1,32 @@
+"""How near a robot came to people while it drove."""
+
+import pytest
+
+from grader.checks import nearest_person
+from sim import World, run
+from sim.world import Person
+from tests.students.engine.drivers import Driver
+
+FARTHER = Person(((2.0, 3.0), (2.0, 3.2)), speed=0.1)
+NEARER = Person(((2.0, 1.0), (2.0, 1.2)), speed=0.1)
+
+
+class Idle(Driver):
+    v = 0.0
+
+
+def drive(node, *people):
+    return run(node, world=World("hall", "", (-4, -4, 6, 4), (0, 0, 0), people=people), seconds=6, quiet=True)
+
+
+@pytest.mark.parametrize("people", [(NEARER, FARTHER), (FARTHER, NEARER)])
+def test_the_nearest_of_all_and_of_all_moments(people):
+    away, stamp, speed = nearest_person(drive(Driver, *people), faster=0.3)
+    assert (away, stamp, speed) == pytest.approx((0.9, 4.3, 0.5), abs=0.3)
+
+
+def test_nobody_is_near_a_robot_that_is_slower_or_alone():
+    assert nearest_person(drive(Driver, NEARER), faster=0.6) is None
+    assert nearest_person(drive(Idle, NEARER), faster=0.0) is None
+    assert nearest_person(drive(Driver), faster=0.0) is None
+    assert nearest_person(run(seconds=0.1), faster=0.0) is None
