@@ -77,6 +77,14 @@ class DoubleAndWhole(Double):
     value = 20
 
 
+class DoubleAndMisspelt(Double):
+    topic = "/sensor/wram"
+
+
+class DoubleMisspeltAndWhole(DoubleAndMisspelt):
+    value = 20
+
+
 class Text(Warm):
     value = "20"
 
@@ -85,7 +93,7 @@ class Text(Warm):
     ("student", "points"),
     [
         (Warm, 12.0), (WholeNumber, 6.0), (WholeAndCold, 4.0), (Misspelt, 6.0), (MisspeltAndWhole, 6.0),
-        (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
+        (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (DoubleAndMisspelt, 6.0), (DoubleMisspeltAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
     ],
 )  # fmt: skip
 def test_a_slip_costs_half(student, points):
@@ -105,8 +113,8 @@ def test_only_numbers_of_the_other_kind_and_names_are_slips():
     def failing(text, type="AssertionError"):
         return Recording(errors=[CallbackError(1.0, "/a", "A.b", type, text, "")])
 
-    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["whole numbers"]
-    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["whole numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["numbers"]
     assert slips_of(failing("The 'data' field must be of type 'str'"), []) == []
     assert slips_of(failing("The 'data' field must be of type 'int'", "ValueError"), []) == []
 

@@ -28,7 +28,7 @@ from sim.network import LAPTOP, ROBOT
 from sim.ros.engine.keyboard import keyboard
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.messages.whole_numbers import whole_numbers
+from sim.ros.messages.forgiving import forgiving
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -138,7 +138,7 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
-        with whole_numbers() if self.spec.whole_numbers else contextlib.nullcontext():
+        with forgiving() if self.spec.forgiving else contextlib.nullcontext():
             self._run()
 
     def _run(self) -> None:
