@@ -89,6 +89,7 @@ class StudentProcess:
         self.executor: Any = None
         self.nodes: list[Node] = []
         self.steps = 0  # as in `Program`
+        self.reader: Callable[[str, str], Any] | None = None  # of what it writes to "stdout" or "stderr"
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
@@ -116,6 +117,12 @@ class StudentProcess:
                 else:
                     self.log_level = severity
         self.engine.rclpy.set_default_level(self.log_level)
+
+    def show(self, stream: str, text: str) -> None:
+        """What it writes goes to the screen, and to its reader."""
+        self.engine.echo(text)
+        if self.reader is not None:
+            self.reader(stream, text)
 
     def load(self) -> None:
         """Let the module-level state of rclpy and `sys` be this process's."""

@@ -9,6 +9,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+BROUGHT = Path(__file__).parent / "brought"  # launch files of ROS's own packages that tutorials start
 KINDS = (".py", ".yaml", ".yml", ".xml", ".launch")
 
 
@@ -36,7 +37,8 @@ def _in_package(package: str, file: str) -> str:
         share = get_package_share_directory(package)
     except (PackageNotFoundError, ValueError) as error:
         raise NoLaunchFile(f"Package '{package}' not found: {error}") from None
-    paths = sorted(str(path) for path in Path(share).rglob(file) if path.is_file())
+    places = (Path(share), BROUGHT / package)
+    paths = sorted(str(path) for place in places for path in place.rglob(file) if path.is_file())
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 
@@ -89,6 +90,24 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
         "/turtlesim2/turtle1/cmd_vel",
     ]
     assert out.count("process has finished cleanly") == 4
+
+
+@pytest.mark.soak
+def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
+    words = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", "sigterm_timeout:=300"]
+    process = start(words, free_domain(), ROS_LOG_DIR=str(tmp_path))
+    lines = []
+    while len([line for line in lines if "See and drive it at" in line]) < 2:
+        lines.append(process.stdout.readline())
+        assert lines[-1], process.communicate()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=LIMIT)
+    assert (process.returncode, err) == (0, "")
+    assert out.count("process has finished cleanly") == 2
+    assert sorted(re.findall(r"takes (/\S+cmd_vel)", "".join(lines))) == [
+        "/turtlesim1/turtle1/cmd_vel",
+        "/turtlesim2/turtle1/cmd_vel",
+    ]
 
 
 def test_what_ros_can_not_read_is_told():
