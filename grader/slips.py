@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from grader.checks.judge import Verdict
+from grader.diagnosis.names import misspelt
 from grader.diagnosis.other_types import conflict
 from sim import Process
 from sim.evidence import CallbackError, Heard, Recording
@@ -26,7 +27,9 @@ _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 def slips_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
     """What `mended` has to mend, for the slips that a run and its verdicts show."""
-    names = [f"{wrong}:={right}" for wrong, right in filter(None, (verdict.slip for verdict in verdicts))]
+    pairs = [verdict.slip for verdict in verdicts if verdict.slip]
+    pairs += misspelt(recording) if any(verdict.status == "failed" for verdict in verdicts) else []
+    names = [f"{wrong}:={right}" for wrong, right in pairs]
     numbers = any(_is_of_numbers(error, recording) for error in recording.errors)
     return [*dict.fromkeys(names), *([OF_NUMBERS] if numbers else [])]
 
