@@ -5,6 +5,7 @@ import math
 import pytest
 
 from sim import Process, executable, run
+from sim.ros.launching import files
 from tests.sim.ros.evidence import said
 from tests.students.engine import turtles
 
@@ -190,6 +191,17 @@ def test_two_ponds_are_launched_by_the_file_that_turtlesim_brings():
     assert recording.errors == []
     ponds = {heard.sender for heard in recording.heard if heard.type == "turtlesim/msg/Pose"}
     assert ponds == {"/turtlesim1/turtlesim", "/turtlesim2/turtlesim"}
+
+
+def test_where_an_installation_has_the_file_that_turtlesim_brings_its_own_is_taken(tmp_path, monkeypatch):
+    share = tmp_path / "share"
+    for folder in (share / "turtlesim", share / "ament_index/resource_index/packages"):
+        folder.mkdir(parents=True)
+    (share / "ament_index/resource_index/packages/turtlesim").touch()
+    own = share / "turtlesim" / "multisim.launch.py"
+    own.touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert files.found(["turtlesim", "multisim.launch.py", "a:=1"]) == (str(own), ["a:=1"])
 
 
 def test_yaml_and_ctrl_c(tmp_path):
