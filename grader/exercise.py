@@ -14,7 +14,7 @@ from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.quiet import quiet_stderr
 from grader.score import Score
-from grader.slips import in_what_was_sent, mended, retyped, slips_of, with_half
+from grader.slips import MOST_AFTER_ANOTHER, in_what_was_sent, mended, retyped, slips_of, with_half
 from grader.workspace.description import PYTHON
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
@@ -227,11 +227,24 @@ class Exercise:
         if package is not None:
             recording = PackageRun.of(recording, package)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
-        slips = slips_of(recording, verdicts)
-        if not slips or scenario.prepare is not None:
+        if scenario.prepare is not None:
             return recording, verdicts
-        again = recording
-        if not in_what_was_sent(slips):
-            again = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
-        without = judge(self.checks, retyped(again, slips), scenario.name, may_end=self.may_end)
-        return recording, with_half(verdicts, without)
+        return recording, with_half(verdicts, self._without_slips(scenario, seed, cast, recording, verdicts))
+
+    def _without_slips(
+        self, scenario: Scenario, seed: int, cast: Cast, recording: Recording, verdicts: list[Verdict]
+    ) -> list[Verdict]:
+        """The verdicts on the program with its slips mended; the same ones where it has none.
+
+        A slip may hide another, as a misspelt name hides that the topic has another type.
+        """
+        slips: list[str] = []
+        for _ in range(MOST_AFTER_ANOTHER):
+            new = [slip for slip in slips_of(recording, verdicts) if slip not in slips]
+            if not new:
+                break
+            slips += new
+            if not in_what_was_sent(new):
+                recording = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
+            verdicts = judge(self.checks, retyped(recording, slips), scenario.name, may_end=self.may_end)
+        return verdicts

@@ -10,11 +10,14 @@ from dataclasses import replace
 from typing import Any
 
 from grader.checks.judge import Verdict
+from grader.diagnosis.names import misspelt
+from grader.diagnosis.other_types import conflict
 from sim import Process
-from sim.evidence import Heard, Recording
+from sim.evidence import CallbackError, Heard, Recording
 
 WORTH = 0.5  # of the points
-WHOLE_NUMBERS = "whole numbers"
+MOST_AFTER_ANOTHER = 3  # each may hide the next: a name, a type, a number
+OF_NUMBERS = "numbers"
 MENDED = "Judged as if the slip above were mended, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
@@ -24,16 +27,24 @@ _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 def slips_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
     """What `mended` has to mend, for the slips that a run and its verdicts show."""
-    names = [f"{wrong}:={right}" for wrong, right in filter(None, (verdict.slip for verdict in verdicts))]
-    errors = [error for error in recording.errors if error.type == "AssertionError"]
-    numbers = any(_OF_A_NUMBER.search(error.text) for error in errors)
-    return [*dict.fromkeys(names), *([WHOLE_NUMBERS] if numbers else [])]
+    pairs = [verdict.slip for verdict in verdicts if verdict.slip]
+    pairs += misspelt(recording) if any(verdict.status == "failed" for verdict in verdicts) else []
+    names = [f"{wrong}:={right}" for wrong, right in pairs]
+    numbers = any(_is_of_numbers(error, recording) for error in recording.errors)
+    return [*dict.fromkeys(names), *([OF_NUMBERS] if numbers else [])]
+
+
+def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
+    if error.type == "AssertionError":
+        return _OF_A_NUMBER.search(error.text) is not None
+    found = conflict(error, recording)
+    return found is not None and {found.type, found.other.type} == set(_PACKED)
 
 
 def mended(program: Any, *slips: str) -> Process:
     """A student's program without these slips."""
     process = program if isinstance(program, Process) else Process(program)
-    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip != WHOLE_NUMBERS]
+    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip != OF_NUMBERS]
     rules = [(wrong, right) for wrong, right in names]
     rules += [
         (f"{wrong}/_action/{part}", f"{right}/_action/{part}")
@@ -42,7 +53,7 @@ def mended(program: Any, *slips: str) -> Process:
         for part in _PARTS
     ]
     remappings = [*process.remappings, *rules]
-    return replace(process, remappings=remappings, whole_numbers=WHOLE_NUMBERS in slips)
+    return replace(process, remappings=remappings, forgiving=OF_NUMBERS in slips)
 
 
 def in_what_was_sent(slips: Sequence[str]) -> bool:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
+from sim.evidence import INFRASTRUCTURE_TOPICS, Graph, Recording
 from sim.evidence.connections import slip
-from sim.nearest import closest
+from sim.nearest import LIKENESS, closest, nearest
+
+# Kinds of ends that take something, each with the kind that gives it.
+_TAKERS = (("subscription", "publisher"), ("client", "service"), ("action client", "action server"))
 
 
 def shared_name(recording: Recording) -> str:
@@ -51,6 +54,23 @@ def service_slip(recording: Recording) -> str:
                 f"{slip(given, asked)}"
             )
     return ""
+
+
+def misspelt(recording: Recording) -> list[tuple[str, str]]:
+    """Names by which a student's program hears or asks nobody, each with the one that was probably meant.
+
+    Another namespace is no misspelling.
+    """
+    return sorted(pair for kinds in _TAKERS for pair in _misspelt(recording.graph, *kinds))
+
+
+def _misspelt(graph: Graph, taker: str, giver: str) -> Iterator[tuple[str, str]]:
+    wanted, offered = graph.ends(taker), graph.ends(giver)
+    lonely = {end.name for end in offered if end.ours} - {end.name for end in wanted} - INFRASTRUCTURE_TOPICS
+    for name in {end.name for end in wanted if not end.ours} - {end.name for end in offered}:
+        near = nearest(name, lonely, LIKENESS)
+        if near and near.rsplit("/", 1)[-1] != name.rsplit("/", 1)[-1]:
+            yield name, near
 
 
 def _nearly_met(wanted: Iterable[str], offered: Iterable[str]) -> Iterator[tuple[str, str]]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
-from sim.evidence import CallbackError, Recording
+from sim.evidence import CallbackError, Endpoint, Recording
 
 _CLASH = re.compile(
     r"create_\w+\(\) called for existing topic name rt(/\S+) "
@@ -13,19 +14,32 @@ _CLASH = re.compile(
 _WITHOUT_WORDS = "Failed to create subscription: invalid allocator"
 
 
-def other_type(error: CallbackError, recording: Recording) -> str:
-    """What to do about an end of a topic that carries another type already; "" for any other error."""
+class Conflict(NamedTuple):
+    """An end of a topic that could not be made, as another end has another type."""
+
+    type: str
+    other: Endpoint
+
+
+def conflict(error: CallbackError, recording: Recording) -> Conflict | None:
+    """The two types on one topic that an error is about; None for any other error."""
     found = _CLASH.search(words_of(error, recording))
     if found is None:
-        return ""
+        return None
     topic, wanted = found[1], "/".join(found.groups()[1:])
     ends = (end for end in recording.graph.endpoints if end.name == topic and end.type != wanted)
     other = next((end for end in ends if end.kind in ("publisher", "subscription")), None)
-    if other is None:
+    return other and Conflict(wanted, other)
+
+
+def other_type(error: CallbackError, recording: Recording) -> str:
+    """What to do about an end of a topic that carries another type already; "" for any other error."""
+    found = conflict(error, recording)
+    if found is None:
         return ""
-    does = "publishes" if other.kind == "publisher" else "listens to"
+    does = "publishes" if found.other.kind == "publisher" else "listens to"
     return (
-        f"{other.node} {does} {other.type} on {topic}, and here it is {wanted}: "
+        f"{found.other.node} {does} {found.other.type} on {found.other.name}, and here it is {found.type}: "
         "both ends of a topic must use the same type."
     )
 

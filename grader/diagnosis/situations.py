@@ -99,7 +99,7 @@ def _no_future(error: CallbackError, recording: Recording) -> str:
 
 
 def _no_value(error: CallbackError) -> str:
-    """A parameter used in place of the value it holds, or one that holds none."""
+    """A parameter used instead of the value it holds, or one that holds none."""
     line = _last_line(error)
     empty = re.search(r"get_parameter\(['\"]([^)]*)['\"]\)\.value", line)
     if empty and "NoneType" in error.text:

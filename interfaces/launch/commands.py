@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import shutil
 import subprocess
+import sys
 
 from launch.entities import SomeSubstitutionsType, Substitution, SubstitutionFailure
 from launch.launch_context import LaunchContext
@@ -61,7 +62,7 @@ class Command(Substitution):
 
 
 class FindExecutable(Substitution):
-    """Where a command is, as a shell would find it."""
+    """Where a command is, as a shell would find it; and this Python's own where no shell was told of it."""
 
     def __init__(self, *, name: SomeSubstitutionsType) -> None:
         self.__name = normalize_to_list_of_substitutions(name)
@@ -78,7 +79,7 @@ class FindExecutable(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """As `Substitution`."""
         name = perform_substitutions(context, self.name)
-        found = shutil.which(name)
+        found = shutil.which(name) or shutil.which(name, path=f"{sys.prefix}/bin")
         if found is None:
             raise SubstitutionFailure(f"executable '{name}' not found on the PATH")
         return found

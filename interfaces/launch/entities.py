@@ -95,7 +95,21 @@ class Action(LaunchDescriptionEntity):
         """As `LaunchDescriptionEntity`; `execute` is what actions differ in."""
         if self.condition is not None and not self.condition.evaluate(context):
             return None
-        return self.execute(context)
+        try:
+            return self.execute(context)
+        finally:
+            self.__tell_of_its_end(context)
+
+    def __tell_of_its_end(self, context: LaunchContext) -> None:
+        from launch.events import ExecutionComplete  # which needs what is here
+
+        event, future = ExecutionComplete(action=self), self.get_asyncio_future()
+        if not context.would_handle_event(event):
+            return
+        if future is None:
+            context.emit_event_sync(event)
+        else:
+            future.add_done_callback(lambda _: context.emit_event_sync(event))
 
     def execute(self, context: LaunchContext) -> Iterable[LaunchDescriptionEntity] | None:
         """Do it; what is returned is visited next."""

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, NoReturn
 
-from launch.entities import BaseEventHandler, Event, LaunchDescriptionEntity, as_list
-from launch.events import Shutdown
-from launch.events.process import ProcessExited, ProcessStarted
+from launch.entities import Action, BaseEventHandler, Event, EventHandler, LaunchDescriptionEntity, as_list
+from launch.events import ExecutionComplete, Shutdown
+from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
 from launch.launch_context import LaunchContext
 from launch.unsupported import refuse
 
 __all__ = [
+    "OnExecutionComplete",
     "OnProcessExit",
+    "OnProcessIO",
     "OnProcessStart",
     "OnShutdown",
 ]
@@ -91,6 +93,63 @@ class OnProcessExit(OnActionEventBase):
             target_action_cls=ExecuteProcess,
             **kwargs,
         )
+
+
+class OnProcessIO(OnActionEventBase):
+    """Functions of the event for when a program has written something; they may give entities."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Any = None,
+        on_stdin: Callable[[ProcessIO], Any] | None = None,
+        on_stdout: Callable[[ProcessIO], Any] | None = None,
+        on_stderr: Callable[[ProcessIO], Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        from launch.actions import ExecuteProcess  # which needs event handlers
+
+        def heard(event: ProcessIO, _: LaunchContext) -> Any:
+            told = on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
+            return None if told is None else told(event)
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=heard,
+            target_event_cls=ProcessIO,
+            target_action_cls=ExecuteProcess,
+            **kwargs,
+        )
+
+
+class OnExecutionComplete(EventHandler):
+    """Entities for when an action has done all it does, or a function (event, context) that gives them."""
+
+    def __init__(self, *, target_action: Action | None = None, on_completion: Any, **kwargs: Any) -> None:
+        if not isinstance(target_action, Action | None):
+            raise ValueError("OnExecutionComplete requires an 'Action' as the target")
+        self.__on_completion = on_completion if callable(on_completion) else as_list(on_completion)
+        for entity in [] if callable(on_completion) else self.__on_completion:
+            if not isinstance(entity, LaunchDescriptionEntity):
+                raise ValueError(
+                    "expected all items in 'on_completion' iterable to be of type 'LaunchDescriptionEntity' "
+                    f"but got '{type(entity)}'"
+                )
+
+        def matches(event: Event) -> bool:
+            return isinstance(event, ExecutionComplete) and target_action in (None, event.action)
+
+        super().__init__(matcher=matches, **kwargs)
+
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
+        """As `BaseEventHandler`."""
+        return super().describe()[0], [] if callable(self.__on_completion) else self.__on_completion
+
+    def handle(self, event: Event, context: LaunchContext) -> Any:
+        """As `BaseEventHandler`."""
+        super().handle(event, context)
+        come = self.__on_completion
+        return come(event, context) if callable(come) else come
 
 
 class OnShutdown(BaseEventHandler):

@@ -127,6 +127,8 @@ def output_destinations(output: Any) -> dict[str, list[Callable[[str], None]]]:
         }
     else:
         raise ValueError(f'{output} is not a valid standard output config i.e. "screen", "log" or "both"')
+    if _elsewhere.get() is not None:  # what programs write is there already
+        return {"stdout": [], "stderr": []}
     return {
         stream: [
             *([lambda text: _to_screen(20, "", text)] if "screen" in to else []),

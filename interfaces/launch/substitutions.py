@@ -26,6 +26,7 @@ __all__ = [
     "EqualsSubstitution",
     "FindExecutable",
     "LaunchConfiguration",
+    "LocalSubstitution",
     "NotEqualsSubstitution",
     "PathJoinSubstitution",
     "PythonExpression",
@@ -172,6 +173,23 @@ class PythonExpression(Substitution):
         if "math" in known:
             known = {**vars(math), **known}
         return str(eval(perform_substitutions(context, self.__expression), {}, known))
+
+
+class LocalSubstitution(Substitution):
+    """What is known in an event handler, such as "event.reason"."""
+
+    def __init__(self, expression: str) -> None:
+        ensure_argument_type(expression, str, "expression", "LocalSubstitution")
+        self.__expression = expression
+
+    @property
+    def expression(self) -> str:
+        """The expression."""
+        return self.__expression
+
+    def perform(self, context: LaunchContext) -> str:
+        """As `Substitution`."""
+        return eval(f"known.{self.expression}", {}, {"known": context.locals})
 
 
 class ThisLaunchFileDir(Substitution):

@@ -10,14 +10,14 @@ LEFT_OUT = {
         "UnregisterEventHandler UnsetEnvironmentVariable UnsetLaunchConfiguration"
     ),
     "launch.conditions": "LaunchConfigurationEquals LaunchConfigurationNotEquals",
-    "launch.event_handlers": "OnExecutionComplete OnIncludeLaunchDescription OnProcessIO event_named",
+    "launch.event_handlers": "OnIncludeLaunchDescription event_named",
     "launch.launch_description_sources": (
         "FrontendLaunchDescriptionSource InvalidFrontendLaunchFileError "
         "get_launch_description_from_frontend_launch_file"
     ),
     "launch.substitutions": (
         "AllSubstitution AndSubstitution AnonName AnySubstitution FileContent IfElseSubstitution "
-        "LaunchLogDir LocalSubstitution NotSubstitution OrSubstitution ThisLaunchFile"
+        "LaunchLogDir NotSubstitution OrSubstitution ThisLaunchFile"
     ),
     "launch_ros.actions": (
         "ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes ROSTimer RosTimer "

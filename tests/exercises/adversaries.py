@@ -6,6 +6,7 @@ come. Each adversary tries one way to get points without doing the work, in a pr
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -164,6 +165,35 @@ class Constant(Stub):
             self.outlets[topic].publish(raw)
 
 
+class Guesses(Stub):
+    """Says and answers any of what was right somewhere in the public run, drawn by lot."""
+
+    def begin(self) -> None:
+        self.lot = random.Random(1)
+        run, heard = self.card.run, self.card.heard(ours=False)
+        self.values = {name: [each.raw for each in heard if each.topic == name] for name in self.outlets}
+        self.answers = [call.response for call in run.calls if call.raw_response]
+        self.results = [(goal.action, goal.result) for goal in run.goals if goal.raw_result]
+        self.create_timer(TICK, self.say)
+        self.create_timer(5 * TICK, self.tell)
+
+    def say(self) -> None:
+        for topic, told in self.values.items():
+            if told:
+                self.outlets[topic].publish(self.lot.choice(told))
+
+    def tell(self) -> None:
+        if self.card.lines:
+            line = self.lot.choice(self.card.lines)
+            log(self, line.level, line.text)
+
+    def serve(self, request: Any, response: Any) -> Any:
+        return self.lot.choice([it for it in self.answers if type(it) is type(response)] or [response])
+
+    def result_of(self, action: str, goal: Any) -> Any:
+        return self.lot.choice([result for name, result in self.results if name == action] or [None])
+
+
 class AnswersItself(Replays):
     """As Replays; and asks its own servers, and serves its own clients, as was done in the public run."""
 
@@ -211,6 +241,7 @@ KINDS: dict[str, type[Stub]] = {
     "says everything": SaysEverything,
     "answers itself": AnswersItself,
     "answers constantly": Constant,
+    "answers by chance": Guesses,
     "a list of timed commands": Replays,
 }
 

@@ -7,9 +7,10 @@ from std_msgs.msg import Float32, Float64, Int32
 
 from grader import Exercise, grade
 from grader.checks import keeps_clear, publishes, rate, within
+from grader.diagnosis.names import misspelt
 from grader.slips import MENDED, slips_of
 from sim import Process, Recording
-from sim.evidence import CallbackError
+from sim.evidence import CallbackError, Endpoint, Graph
 from tests.exercises.score_tables import students
 
 warm = Exercise("warm", "A thermometer", seconds=5)
@@ -77,6 +78,14 @@ class DoubleAndWhole(Double):
     value = 20
 
 
+class DoubleAndMisspelt(Double):
+    topic = "/sensor/wram"
+
+
+class DoubleMisspeltAndWhole(DoubleAndMisspelt):
+    value = 20
+
+
 class Text(Warm):
     value = "20"
 
@@ -85,7 +94,7 @@ class Text(Warm):
     ("student", "points"),
     [
         (Warm, 12.0), (WholeNumber, 6.0), (WholeAndCold, 4.0), (Misspelt, 6.0), (MisspeltAndWhole, 6.0),
-        (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
+        (Double, 6.0), (DoubleAndCold, 4.0), (DoubleAndWhole, 6.0), (DoubleAndMisspelt, 6.0), (DoubleMisspeltAndWhole, 6.0), (AnotherType, 0.0), (Text, 0.0), (Process(WholeNumber), 6.0), (lambda: WholeNumber(), 6.0),
     ],
 )  # fmt: skip
 def test_a_slip_costs_half(student, points):
@@ -101,12 +110,26 @@ def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     assert warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
 
 
+def test_a_name_by_which_nothing_is_heard_is_a_slip_and_another_namespace_or_a_pair_of_ours_is_none():
+    def end(kind, name, ours):
+        return Endpoint(kind, "/a", name, "std_msgs/msg/Bool", {}, ours)
+
+    ours = [end("publisher", "/scan", True), end("publisher", "/bumper", True), end("service", "/reset", True)]
+    theirs = ("/scna", "/left/scan", "/bumper", "/rosuot")
+    ends = [*ours, *(end("subscription", name, False) for name in theirs), end("client", "/rest", False)]
+    recording = Recording(graph=Graph(endpoints=[*ends, end("publisher", "/rosout", True)]))
+    assert misspelt(recording) == [("/rest", "/reset"), ("/scna", "/scan")]
+    assert misspelt(Recording(graph=Graph(endpoints=[*ends, end("subscription", "/scan", True)]))) == [
+        ("/rest", "/reset")
+    ]
+
+
 def test_only_numbers_of_the_other_kind_and_names_are_slips():
     def failing(text, type="AssertionError"):
         return Recording(errors=[CallbackError(1.0, "/a", "A.b", type, text, "")])
 
-    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["whole numbers"]
-    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["whole numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["numbers"]
+    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["numbers"]
     assert slips_of(failing("The 'data' field must be of type 'str'"), []) == []
     assert slips_of(failing("The 'data' field must be of type 'int'", "ValueError"), []) == []
 
@@ -117,6 +140,7 @@ def test_only_numbers_of_the_other_kind_and_names_are_slips():
         ("services", "add", "MisspeltService"),
         ("nodes", "counter", "OtherName"),
         ("actions", "fibonacci", "MisspeltName"),
+        ("sensing", "stop", "MisspeltScan"),
     ],
 )
 def test_names_of_services_nodes_and_actions_can_be_mended_too(assignment, exercise, student):

@@ -21,7 +21,7 @@ from launch.actions import (
     TimerAction,
 )
 from launch.conditions import IfCondition, UnlessCondition
-from launch.event_handlers import OnShutdown
+from launch.event_handlers import OnExecutionComplete, OnShutdown
 from launch.events import Shutdown as ShutdownEvent
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.logging import elsewhere
@@ -31,6 +31,7 @@ from launch.substitutions import (
     EqualsSubstitution,
     FindExecutable,
     LaunchConfiguration,
+    LocalSubstitution,
     NotEqualsSubstitution,
     PathJoinSubstitution,
     PythonExpression,
@@ -263,6 +264,21 @@ def test_timers_fire_in_order_and_a_shutdown_takes_the_rest_away():
     assert lines == [said("first"), said("second"), said("because enough")]
 
 
+def test_when_an_action_is_done_its_handlers_come_and_those_of_all_actions():
+    first, second = LogInfo(msg="first"), LogInfo(msg="second")
+    end = OnShutdown(on_shutdown=LogInfo(msg=["for ", LocalSubstitution("event.reason")]))
+    lines = carried_out(
+        RegisterEventHandler(end),
+        RegisterEventHandler(OnExecutionComplete(target_action=first, on_completion=[LogInfo(msg="then")])),
+        first,
+        second,
+        RegisterEventHandler(
+            OnExecutionComplete(on_completion=lambda *_: Shutdown(reason="one done"), handle_once=True)
+        ),
+    )
+    assert lines == [said("first"), said("second"), said("then"), said("for one done")]
+
+
 def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
     handler = OnShutdown(on_shutdown=[LogInfo(msg="it ends")])
     lines = carried_out(RegisterEventHandler(handler), EmitEvent(event=ShutdownEvent(reason="so")))
@@ -303,6 +319,26 @@ def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
 def test_what_an_action_can_not_take_is_refused_as_it_is_made(make, words):
     with pytest.raises(TypeError) as refused:
         make()
+    assert str(refused.value) == words
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            {"target_action": "talker", "on_completion": []},
+            "OnExecutionComplete requires an 'Action' as the target",
+        ),
+        (
+            {"on_completion": ["done"]},
+            "expected all items in 'on_completion' iterable to be of type 'LaunchDescriptionEntity' "
+            "but got '<class 'str'>'",
+        ),
+    ],
+)
+def test_what_comes_when_an_action_is_done_is_checked_as_it_is_told(arguments, words):
+    with pytest.raises(ValueError) as refused:
+        OnExecutionComplete(**arguments)
     assert str(refused.value) == words
 
 

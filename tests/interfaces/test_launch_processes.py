@@ -16,7 +16,7 @@ from launch.actions import (
     Shutdown,
     TimerAction,
 )
-from launch.event_handlers import OnProcessExit, OnProcessStart
+from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
 from launch.logging import launch_config
@@ -112,6 +112,25 @@ def test_a_program_that_dies_is_told_of_and_started_again(launched):
         died,
         "[INFO] [launch.user]: exit 3",
     ]
+
+
+def test_handlers_hear_what_a_program_says_and_when_it_is_done(launched):
+    program = python(SAYS, "0", output="own_log")
+
+    def said(event):
+        return LogInfo(msg=f"{event.process_name} said {event.text}")
+
+    hears = OnProcessIO(target_action=program, on_stdout=said, on_stderr=said)
+    done = OnExecutionComplete(target_action=program, on_completion=lambda event, _: LogInfo(msg="done"))
+    status, lines = launched(RegisterEventHandler(hears), RegisterEventHandler(done), program)
+    begin, *heard, clean, end = lines
+    assert (status, begin) == (0, "[INFO] [it-1]: process started with pid [P]")
+    assert sorted(heard) == [
+        "[INFO] [launch.user]: it-1 said b'err\\n'",
+        "[INFO] [launch.user]: it-1 said b'out\\n'",
+    ]
+    assert clean == "[INFO] [it-1]: process has finished cleanly [pid P]"
+    assert end == "[INFO] [launch.user]: done"
 
 
 def test_a_program_that_is_not_there_is_told_of(launched):

@@ -23,13 +23,13 @@ OFFER = 'ActionServer(self, Fibonacci, "/fibonacci", self.execute): node, type, 
 fibonacci = Exercise("fibonacci", "A first action", seconds=45, companions=[Mathematician], seeds=(1, 2))
 
 
-@fibonacci.check(3)
+@fibonacci.check(2)
 def offers(run: Recording) -> list[Goal]:
     """The node offers the action /fibonacci of type Fibonacci."""
     return offered(run, FIBONACCI, FIBONACCI_TYPE, OFFER)
 
 
-@fibonacci.check(2, after=offers)
+@fibonacci.check(1, after=offers)
 def succeeds(run: Recording, goals: list[Goal]) -> None:
     """Every goal ends as succeeded."""
     for goal in goals:
@@ -40,7 +40,7 @@ def succeeds(run: Recording, goals: list[Goal]) -> None:
         raise Missed(f"{named(empty[0])} succeeded with a result", "an empty one", guess=guess)
 
 
-@fibonacci.check(3, after=offers)
+@fibonacci.check(5, after=offers)
 def gives_the_result(run: Recording, goals: list[Goal]) -> None:
     """The result holds the Fibonacci numbers F(0) to F(order)."""
     for goal in goals:

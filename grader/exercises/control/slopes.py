@@ -88,7 +88,7 @@ def stands_at_the_distance(run: Recording) -> None:
     speeds = [heard.message.data for heard in run.messages("/speed") if heard.stamp >= run.ended.stamp - LAST]
     held = sum(map(math.isfinite, speeds))
     if held < HELD * LAST / PERIOD:
-        hint = "Who says no number leaves it to the brake: publish a speed with each scan, to the end."
+        hint = "A node that says nothing leaves it to the brake: publish a speed with each scan, to the end."
         raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
     worst = max(last, key=lambda distance: abs(distance - TARGET), default=math.inf)
     if abs(worst - TARGET) > NEAR:

@@ -35,7 +35,7 @@ def names_what_it_imports(run: PackageRun) -> None:
         raise Missed(
             f"<depend> or <exec_depend> for each of {', '.join(wanted)} in package.xml",
             f"none for {', '.join(left_out)}",
-            "Who installs your package installs what package.xml names. Here all of ROS is there, so it runs "
+            "Whoever installs your package gets what package.xml names. Here all of ROS is there, so it runs "
             f"all the same. Add <depend>{left_out[0]}</depend>.",
         )
 

@@ -60,7 +60,7 @@ def leaves_word(run: Recording) -> None:
 
 @late.check(3, after=leaves_word)
 def only_the_newest_counts(run: Recording) -> None:
-    """Who comes at 7 s hears the count of the newest map, and of no other."""
+    """A node that comes at 7 s hears the count of the newest map, and of no other."""
     _received(run, SECOND, _truth(run)[-1])
 
 

@@ -19,7 +19,7 @@ CURES = {
     "deadline": "deadline",
     "mute": "running",
 }  # the parameter that mends a fault; where nobody is there, none does
-CHANGES_ALL = "Who changes everything mends by chance, and breaks what was right. Find the fault first."
+CHANGES_ALL = "If you change everything, you mend by chance, and break what was right. Find the fault first."
 
 doctor = Exercise("doctor", "A doctor for silent systems", seconds=9, companions=ward, seeds=(1, 2))
 

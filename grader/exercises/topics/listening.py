@@ -97,7 +97,7 @@ chatters = Exercise(
 CHATTERS = {"/chatter0": STRING, "/chatter1": FLOAT64, "/chatter2": BOOL}
 
 
-@chatters.check(6, guess="Make one subscription for each topic, in a loop or one by one.")
+@chatters.check(4, guess="Make one subscription for each topic, in a loop or one by one.")
 def listens_to_all_three(run: Recording) -> None:
     """The node listens to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
     for found, (topic, kind) in enumerate(CHATTERS.items()):
@@ -109,7 +109,7 @@ def listens_to_all_three(run: Recording) -> None:
 
 
 @chatters.check(
-    6,
+    8,
     after=listens_to_all_three,
     guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").',
 )

@@ -14,7 +14,7 @@ from launch.actions.preparing import Texts, prepared
 from launch.entities import Action, EventHandler, LaunchDescriptionEntity, SomeSubstitutionsType, as_list
 from launch.event_handlers import OnProcessExit
 from launch.events import Shutdown
-from launch.events.process import ProcessExited, ProcessStarted, ShutdownProcess, SignalProcess
+from launch.events.process import ProcessExited, ProcessIO, ProcessStarted, ShutdownProcess, SignalProcess
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger, output_destinations
 from launch.processes import Started
@@ -66,10 +66,8 @@ class ExecuteProcess(Action):
         self.env, self.additional_env = env, additional_env
         self.shell, self.__log_cmd, self.__emulate_tty = shell, log_cmd, emulate_tty
         self.__patience = {"sigterm": sigterm_timeout, "sigkill": sigkill_timeout}
-        self.output, self.__format = (
-            os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output),
-            output_format,
-        )
+        self.output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output)
+        self.__format = output_format
         self.__on_exit, self.__respawn = on_exit, respawn
         self.__respawn_delay, self.__respawn_max_retries = respawn_delay, respawn_max_retries
         self.__details: dict[str, Any] | None = None
@@ -179,7 +177,7 @@ class ExecuteProcess(Action):
             self.__logger.info(f"process details: cmd='{cmd}', cwd='{details['cwd']}', custom_env?=True")
         try:
             how = (details["cmd"], details["cwd"], details["env"], self.shell)
-            process = await context.processes.start(*how, self.__heard)
+            process = await context.processes.start(*how, lambda *said: self.__heard(context, *said))
         except Exception as error:
             self.__logger.error(f"exception occurred while executing process: {error}")
             self.__logger.debug(traceback.format_exc())  # upstream shows it always
@@ -196,7 +194,9 @@ class ExecuteProcess(Action):
         context.emit_event_sync(ProcessExited(returncode=status, **details))
         return True
 
-    def __heard(self, stream: str, line: str) -> None:
+    def __heard(self, context: LaunchContext, stream: str, line: str) -> None:
+        fd = ("stdin", "stdout", "stderr").index(stream)
+        context.emit_event_sync(ProcessIO(text=f"{line}\n".encode(), fd=fd, **self.__details))
         for destination in self.__to[stream]:
             destination(self.__format.format(line=line, this=self))
 

@@ -55,6 +55,20 @@ class TimerEvent(Event):
         return self.__timer_action
 
 
+class ExecutionComplete(Event):
+    """An action has done all that it does; of a program, it has ended."""
+
+    name = "launch.events.ExecutionComplete"
+
+    def __init__(self, *, action: Action) -> None:
+        self.__action = action
+
+    @property
+    def action(self) -> Action:
+        """The action."""
+        return self.__action
+
+
 def matches_action(target_action: Action) -> Callable[[Action], bool]:
     """A matcher that is true of this action alone."""
     return lambda action: action is target_action
@@ -62,4 +76,11 @@ def matches_action(target_action: Action) -> Callable[[Action], bool]:
 
 from launch.events import process  # noqa: E402  (which needs what is above)
 
-__all__ = ["IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action", "process"]
+__all__ = [
+    "ExecutionComplete",
+    "IncludeLaunchDescription",
+    "Shutdown",
+    "TimerEvent",
+    "matches_action",
+    "process",
+]

@@ -37,6 +37,17 @@ class ProcessExited(RunningProcessEvent):
         self.returncode = returncode
 
 
+class ProcessIO(RunningProcessEvent):
+    """A program has written something. text: a line, with its end. fd: 1 for stdout, 2 for stderr."""
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.text = text
+        self.from_stdin, self.from_stdout, self.from_stderr = fd == 0, fd == 1, fd == 2
+
+
 class ProcessTargetedEvent(Event):
     """Programs are told something: those whose action `process_matcher` is true of."""
 

@@ -172,10 +172,8 @@ class Engine(Scheduler):
 
     def round(self) -> bool:
         """As `Scheduler`; when no program can go on any more, what this moment was the limit for is over."""
-        return super().round() or self._sends() or self.agenda.let_expire(self.now)
-
-    def _sends(self) -> bool:
-        return self.post is not None and self.post.collect()
+        sends = super().round() or (self.post is not None and self.post.collect())
+        return sends or self.agenda.let_expire(self.now)
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""
@@ -190,15 +188,15 @@ class Engine(Scheduler):
 
     def printed(self, text: str) -> None:
         """Student code wrote to stdout."""
-        self._wrote(text, self.recorder.printed)
+        self._wrote("stdout", text, self.recorder.printed)
 
     def complained(self, text: str) -> None:
         """Student code wrote to stderr."""
-        self._wrote(text, self.recorder.complained)
+        self._wrote("stderr", text, self.recorder.complained)
 
-    def _wrote(self, text: str, keep: Callable[[str], None]) -> None:
+    def _wrote(self, stream: str, text: str, keep: Callable[[str], None]) -> None:
         if not self._unheard:
-            self.echo(text)
+            self.current.process.show(stream, text)
             keep(text)
             if lines := text.count("\n"):
                 self.called("lines", lines)
@@ -207,7 +205,8 @@ class Engine(Scheduler):
         """A node wrote a log line."""
         line = self.recorder.log(severity, logger, text)
         if line is not None:
-            self.echo(f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n")
+            shown = f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n"
+            self.current.process.show("stderr", shown)
         self.called("lines")
 
     def loops_busily(self) -> None:

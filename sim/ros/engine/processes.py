@@ -28,7 +28,7 @@ from sim.network import LAPTOP, ROBOT
 from sim.ros.engine.keyboard import keyboard
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.messages.whole_numbers import whole_numbers
+from sim.ros.messages.forgiving import forgiving
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -89,6 +89,7 @@ class StudentProcess:
         self.executor: Any = None
         self.nodes: list[Node] = []
         self.steps = 0  # as in `Program`
+        self.reader: Callable[[str, str], Any] | None = None  # of what it writes to "stdout" or "stderr"
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
@@ -117,6 +118,12 @@ class StudentProcess:
                     self.log_level = severity
         self.engine.rclpy.set_default_level(self.log_level)
 
+    def show(self, stream: str, text: str) -> None:
+        """What it writes goes to the screen, and to its reader."""
+        self.engine.echo(text)
+        if self.reader is not None:
+            self.reader(stream, text)
+
     def load(self) -> None:
         """Let the module-level state of rclpy and `sys` be this process's."""
         if StudentProcess.loaded is self:
@@ -138,7 +145,7 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
-        with whole_numbers() if self.spec.whole_numbers else contextlib.nullcontext():
+        with forgiving() if self.spec.forgiving else contextlib.nullcontext():
             self._run()
 
     def _run(self) -> None:

@@ -21,6 +21,7 @@ from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.processes import shared_context
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
+from sim.ros.messages.forgiving import fitting, of_a_type_that_fits
 
 LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history is full; measured with Fast DDS
 FOR_EVER = Duration(seconds=-1)
@@ -32,9 +33,11 @@ def create_publisher(original: Callable) -> Callable:
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
     ) -> Publisher:
         run = engine()
-        publisher = original(self, msg_type, topic, *arguments, **keywords)
+        publisher = of_a_type_that_fits(
+            lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
+        )
         if run is not None:
-            name = publisher.topic_name
+            name, msg_type = publisher.topic_name, publisher.msg_type
             if name == "/clock" and not run.current.process.ours:
                 self.destroy_publisher(publisher)
                 raise NotImplementedError(
@@ -57,8 +60,11 @@ def create_publisher(original: Callable) -> Callable:
 def create_subscription(original: Callable) -> Callable:
     def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
         run = engine()
-        subscription = original(self, msg_type, topic, *arguments, **keywords)
+        subscription = of_a_type_that_fits(
+            lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
+        )
         if run is not None:
+            msg_type = subscription.msg_type
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
             end |= {"listener": run.recorder.name_of(self), "events": subscription.event_handlers}
@@ -90,6 +96,7 @@ def publish(original: Callable) -> Callable:
         writer = self.__dict__.get("_sim")
         if run is None or writer is None:
             return original(self, msg)
+        msg = fitting(msg, self.msg_type)
         if isinstance(msg, self.msg_type):
             raw = _rclpy.rclpy_serialize(msg, self.msg_type)
         elif isinstance(msg, bytes):

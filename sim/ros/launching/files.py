@@ -9,6 +9,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+BROUGHT = Path(__file__).parent / "brought"  # of ROS's own packages; an installation's files win
 KINDS = (".py", ".yaml", ".yml", ".xml", ".launch")
 
 
@@ -36,7 +37,7 @@ def _in_package(package: str, file: str) -> str:
         share = get_package_share_directory(package)
     except (PackageNotFoundError, ValueError) as error:
         raise NoLaunchFile(f"Package '{package}' not found: {error}") from None
-    paths = sorted(str(path) for path in Path(share).rglob(file) if path.is_file())
+    paths = _files(Path(share), file) or _files(BROUGHT / package, file)
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"
@@ -47,6 +48,10 @@ def _in_package(package: str, file: str) -> str:
             f"file '{file}' was found more than once in the share directory of package '{package}': [{shown}]"
         )
     return paths[0]
+
+
+def _files(folder: Path, name: str) -> list[str]:
+    return sorted(str(path) for path in folder.rglob(name) if path.is_file())
 
 
 def arguments(words: Iterable[str]) -> dict[str, str]:

@@ -66,13 +66,15 @@ class RunProcesses:
                 "launch",
                 f"All programs of a run share one environment: {', '.join(sorted(others))} is not set.",
             )
-        return RunProcess(self.run, main, arguments, next(self._numbers))
+        return RunProcess(self.run, main, arguments, next(self._numbers), heard)
 
 
 class RunProcess:
     """One program of a launch file in a run. Its pid counts those that were started."""
 
-    def __init__(self, run: Any, main: Callable[[], None], arguments: list[str], pid: int) -> None:
+    def __init__(
+        self, run: Any, main: Callable[[], None], arguments: list[str], pid: int, heard: Callable
+    ) -> None:
         self.pid, self._run, self._main, self._killed = pid, run, main, 0
         self._loop = asyncio.get_running_loop()
         self._status: asyncio.Future[int] = self._loop.create_future()
@@ -83,6 +85,7 @@ class RunProcess:
         body.__name__ = main.__name__
         launch = run.current.process
         self._process = run.start(Process(body, arguments=arguments, host=launch.host), ours=launch.ours)
+        self._process.reader, self._heard, self._rest = self._read, heard, {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
         """As launch's `Started`."""
@@ -95,6 +98,15 @@ class RunProcess:
             return
         self._killed = number
         kill(self._run, self._process)
+
+    def _read(self, stream: str, text: str) -> None:
+        *lines, self._rest[stream] = f"{self._rest[stream]}{text}".split("\n")
+        for line in lines:
+            self._tell(self._heard, stream, line)
+
+    def _tell(self, function: Callable, *words: Any) -> None:
+        with contextlib.suppress(RuntimeError):  # launch is gone already
+            self._loop.call_soon_threadsafe(function, *words)
 
     def _go(self) -> None:
         status = 1
@@ -111,8 +123,7 @@ class RunProcess:
             status = -self._killed
             raise
         finally:
-            with contextlib.suppress(RuntimeError):  # launch is gone already
-                self._loop.call_soon_threadsafe(self._status.set_result, status)
+            self._tell(self._status.set_result, status)
 
 
 def _program(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:

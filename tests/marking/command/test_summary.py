@@ -186,9 +186,10 @@ def test_a_spreadsheet_takes_nothing_for_a_formula():
 
 def test_a_terminal_obeys_nothing_that_a_submission_says(results):
     results["bob"] = replace(results["bob"], flags=["\x1b[2J\x9b gone \u202e backwards\r\n"])
-    text = as_text(summarise("01_class", WORTH, results))
-    assert not set(text) & {"\x1b", "\x9b", "\u202e", "\r"}
-    assert "gone" in text
+    results["c\x1b[2Jleo"] = replace(results["bob"], student="c\x1b[2Jleo")
+    for text in (as_text(summarise("01_class", WORTH, results)), as_csv("01_class", results)):
+        assert not set(text) & {"\x1b", "\x9b", "\u202e", "\r"}
+        assert "gone" in text and "leo" in text
 
 
 class Page(HTMLParser):

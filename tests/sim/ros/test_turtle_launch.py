@@ -5,6 +5,7 @@ import math
 import pytest
 
 from sim import Process, executable, run
+from sim.ros.launching import files
 from tests.sim.ros.evidence import said
 from tests.students.engine import turtles
 
@@ -12,6 +13,8 @@ BEGIN = """\
 import pathlib
 from launch import LaunchDescription
 from launch.actions import *
+from launch.event_handlers import *
+from launch.events import Shutdown
 from launch.substitutions import *
 from launch_ros.actions import Node
 
@@ -19,7 +22,7 @@ from launch_ros.actions import Node
 HERE = pathlib.Path(__file__).parent
 
 
-def generate_launch_description():
+def generate_launch_description():{words}
     return LaunchDescription([
 """
 MIMIC = """
@@ -56,16 +59,45 @@ CARROT = """
         ),
         Node(package="tf2_ros", executable="tf2_echo", arguments=["turtle1", "carrot1"]),
 """
+EVENTS = """
+        DeclareLaunchArgument("space", default_value="turtlesim1"),
+        sim,
+        RegisterEventHandler(OnProcessStart(target_action=sim, on_start=[LogInfo(msg="It begins"), spawn])),
+        RegisterEventHandler(OnProcessIO(
+            target_action=spawn,
+            on_stdout=lambda event: LogInfo(msg=f"It says {event.text.decode().strip()}")),
+        ),
+        RegisterEventHandler(OnProcessIO(target_action=sim, on_stderr=of_turtle2)),
+        RegisterEventHandler(OnExecutionComplete(
+            target_action=spawn, on_completion=[LogInfo(msg="It is there"), recolour, late],
+        )),
+        RegisterEventHandler(OnShutdown(
+            on_shutdown=[LogInfo(msg=["It ends: ", LocalSubstitution("event.reason")])],
+        )),
+"""
+# As the tutorial on event handlers has them, before the list.
+WORDS = """
+    def of_turtle2(event):
+        return LogInfo(msg=event.text.decode().strip()) if b"turtle2" in event.text else None
+
+    space = LaunchConfiguration("space")
+    sim = Node(package="turtlesim", namespace=space, executable="turtlesim_node", name="sim")
+    ros2 = FindExecutable(name="ros2")
+    request = " turtlesim/srv/Spawn '{x: 2, y: 2, theta: 0.2}'"
+    spawn = ExecuteProcess(cmd=[[ros2, " service call ", space, "/spawn", request]], name="spawn", shell=True)
+    recolour = ExecuteProcess(cmd=[[ros2, " param set ", space, "/sim background_r 120"]], shell=True)
+    late = TimerAction(period=2.0, actions=[EmitEvent(event=Shutdown(reason="enough"))])
+"""
 TAKEN = "The world's own turtlesim ends: this one has its pond from here on."
 ONE_MORE = "One more turtlesim: it has a pond of its own, which no picture shows."
 
 
-def file(folder, name, entities):
+def file(folder, name, entities, words=""):
     """A launch file, beside the tutorials' programs."""
     for one in ("broadcaster", "driver", "follower"):
         (folder / f"{one}.py").write_text(f"from tests.students.engine.turtles import {one}\n\n{one}()\n")
     path = folder / name
-    path.write_text(f"{BEGIN}{entities}    ])\n")
+    path.write_text(f"{BEGIN.replace('{words}', words)}{entities}    ])\n")
     return path
 
 
@@ -128,6 +160,48 @@ def test_what_has_happened_in_the_worlds_pond_is_forgotten_when_another_program_
     recording = run(turtles.Driver, late, world="turtlesim", seconds=3.1, quiet=True)
     assert recording.path[-1][1:3] == pytest.approx((5.544, 5.544), abs=0.01)
     assert TAKEN in [line.text for line in recording.logs]
+
+
+def test_the_tutorial_on_event_handlers_hears_what_programs_say_and_when_they_are_done(tmp_path):
+    path = file(tmp_path, "events.launch.py", EVENTS, WORDS)
+    recording = run(path, world="turtlesim", seconds=8, quiet=True)
+    assert (recording.errors, recording.ended.stamp) == ([], 3.0)
+    told = [(line.stamp, line.text) for line in recording.logs if line.node == "launch.user"]
+    request = "turtlesim.srv.Spawn_Request(x=2.0, y=2.0, theta=0.2, name='')"
+    assert told == [
+        (0.0, "It begins"),
+        (0.0, f"It says requester: making request: {request}"),
+        (0.0, "It says "),
+        (
+            0.0,
+            "[INFO] [0.000] [turtlesim1.sim]: Spawning turtle [turtle2] at x=[2.000000], "
+            "y=[2.000000], theta=[0.200000]",
+        ),
+        (0.0, "It says response:"),
+        (0.0, "It says turtlesim.srv.Spawn_Response(name='turtle2')"),
+        (0.0, "It says "),
+        (0.0, "It is there"),
+        (2.0, "It ends: enough"),
+    ]
+    assert recording.drawing.ground == (120, 86, 255)
+
+
+def test_two_ponds_are_launched_by_the_file_that_turtlesim_brings():
+    recording = run("turtlesim multisim.launch.py", world="turtlesim", seconds=0.2, quiet=True)
+    assert recording.errors == []
+    ponds = {heard.sender for heard in recording.heard if heard.type == "turtlesim/msg/Pose"}
+    assert ponds == {"/turtlesim1/turtlesim", "/turtlesim2/turtlesim"}
+
+
+def test_where_an_installation_has_the_file_that_turtlesim_brings_its_own_is_taken(tmp_path, monkeypatch):
+    share = tmp_path / "share"
+    for folder in (share / "turtlesim", share / "ament_index/resource_index/packages"):
+        folder.mkdir(parents=True)
+    (share / "ament_index/resource_index/packages/turtlesim").touch()
+    own = share / "turtlesim" / "multisim.launch.py"
+    own.touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert files.found(["turtlesim", "multisim.launch.py", "a:=1"]) == (str(own), ["a:=1"])
 
 
 def test_yaml_and_ctrl_c(tmp_path):

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 
@@ -21,7 +22,7 @@ World 'turtlesim' in real time, ROS domain {domain}, this machine only.
 """
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def pond():
     with robot("--world", "turtlesim", "--headless") as running:
         yield running
@@ -38,13 +39,17 @@ def program(pond, name, *words):
 
 
 @pytest.mark.soak
-def test_a_follower_finds_the_turtle_through_tf2(pond):
+@pytest.mark.parametrize(
+    "follower",
+    [["follower"], ["late_follower", "--ros-args", "-p", "margin:=2.0"]],  # the machine may be busy
+)
+def test_a_follower_finds_the_turtle_through_tf2_also_where_it_was_5_s_ago(pond, follower):
     assert pond.offer.startswith(OFFER.format(domain=pond.domain))
     tell = [
         program(pond, "broadcaster", "--ros-args", "-r", f"__node:=tell{n}", "-p", f"turtlename:=turtle{n}")
         for n in (1, 2)
     ]
-    programs = [*tell, program(pond, "follower")]
+    programs = [*tell, program(pond, *follower)]
     try:
         meeting = json.loads(program(pond, "meeting").communicate(timeout=LIMIT)[0])
     finally:
@@ -89,6 +94,24 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
         "/turtlesim2/turtle1/cmd_vel",
     ]
     assert out.count("process has finished cleanly") == 4
+
+
+@pytest.mark.soak
+def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
+    words = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", "sigterm_timeout:=300"]
+    process = start(words, free_domain(), ROS_LOG_DIR=str(tmp_path))
+    lines = []
+    while len([line for line in lines if "See and drive it at" in line]) < 2:
+        lines.append(process.stdout.readline())
+        assert lines[-1], process.communicate()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=LIMIT)
+    assert (process.returncode, err) == (0, "")
+    assert out.count("process has finished cleanly") == 2
+    assert sorted(re.findall(r"takes (/\S+cmd_vel)", "".join(lines))) == [
+        "/turtlesim1/turtle1/cmd_vel",
+        "/turtlesim2/turtle1/cmd_vel",
+    ]
 
 
 def test_what_ros_can_not_read_is_told():

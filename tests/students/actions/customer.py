@@ -11,11 +11,11 @@ PARTS = ("FibonacciActionClient",)
 
 
 class Customer(Node):
-    order = 7
+    order, action = 7, "/fibonacci"
 
     def __init__(self):
         super().__init__("customer")
-        self.client = ActionClient(self, Fibonacci, "/fibonacci")
+        self.client = ActionClient(self, Fibonacci, self.action)
         self.timer = self.create_timer(0.1, self.ask)
 
     def ask(self):
@@ -140,14 +140,7 @@ class AnotherOrder(Customer):
 
 
 class MisspeltName(Customer):
-    def __init__(self):
-        Node.__init__(self, "customer")
-        self.client = ActionClient(self, Fibonacci, "/fibonaci")
-        self.timer = self.create_timer(0.1, self.ask)
-
-    def ask(self):
-        self.timer.cancel()
-        self.send()
+    action = "/fibonaci"
 
 
 class AnotherType(Customer):

@@ -118,10 +118,14 @@ class Follower(Node):
 
 
 class LateFollower(Follower):
-    """Goes to where the target was 5 s ago."""
+    """Goes to where the target was 5 s ago. What came in the last `margin` s is not counted on."""
+
+    def __init__(self):
+        super().__init__()
+        self.margin = Duration(seconds=self.declare_parameter("margin", 0.1).value)
 
     def look(self):
-        now = self.get_clock().now() - Duration(seconds=0.1)
+        now = self.get_clock().now() - self.margin
         past = now - Duration(seconds=5.0)
         wait = Duration(seconds=0.05)
         return self.buffer.lookup_transform_full("turtle2", now, self.target, past, "world", wait)
@@ -135,6 +139,11 @@ def broadcaster():
 def follower():
     rclpy.init()
     rclpy.spin(Follower())
+
+
+def late_follower():
+    rclpy.init()
+    rclpy.spin(LateFollower())
 
 
 def driver():

@@ -12,11 +12,11 @@ SEVEN = [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
 class JointPublisher(Node):
     """As one would write it; the wrong ones change one thing each."""
 
-    positions, period, kind = tuple(SEVEN), 2.0, Float64
+    positions, period, kind, topic = tuple(SEVEN), 2.0, Float64, "/joint_commands"
 
     def __init__(self):
         super().__init__("joint_publisher")
-        self.publisher = self.create_publisher(self.kind, "/joint_commands", 10)
+        self.publisher = self.create_publisher(self.kind, self.topic, 10)
         self.index = 0
         self.create_timer(self.period, self.send)
 
@@ -122,6 +122,12 @@ class DestroysOnly(JointPublisher):
 
 class Float32Instead(JointPublisher):
     kind = Float32
+
+
+class Float32AndMisspelt(Float32Instead):
+    """The misspelt name hides that the type is another one."""
+
+    topic = "/joint_comands"
 
 
 class NeverStarts(JointPublisher):

@@ -13,11 +13,11 @@ from sensor_msgs.msg import LaserScan
 class Wanderer(Node):
     """As one would write it."""
 
-    half, limit, speed, turn = 35, 0.5, 0.3, 1.0
+    half, limit, speed, turn, topic = 35, 0.5, 0.3, 1.0, "/cmd_vel"
 
     def __init__(self):
         super().__init__("wanderer")
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.publisher = self.create_publisher(Twist, self.topic, 10)
         self.create_subscription(LaserScan, "/scan", self.look, 10)
 
     def look(self, msg):
@@ -171,9 +171,7 @@ class Creeps(Wanderer):
 
 
 class MisspeltTopic(Wanderer):
-    def __init__(self):
-        super().__init__()
-        self.publisher = self.create_publisher(Twist, "/cmdvel", 10)
+    topic = "/cmdvel"
 
 
 class StopsForTheNearest(Wanderer):

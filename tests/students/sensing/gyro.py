@@ -16,12 +16,12 @@ from std_msgs.msg import Float64
 class Gyro(Node):
     """As one would write it."""
 
-    still, step, sign = 200, 0.01, 1.0
+    still, step, sign, topic = 200, 0.01, 1.0, "/heading"
 
     def __init__(self):
         super().__init__("gyro")
         self.rates, self.bias, self.yaw = [], 0.0, 0.0
-        self.publisher = self.create_publisher(Float64, "/heading", 10)
+        self.publisher = self.create_publisher(Float64, self.topic, 10)
         self.create_subscription(Imu, "/imu/data", self.look, 10)
 
     def look(self, msg):
@@ -197,9 +197,7 @@ class WaitsTooLong(Gyro):
 
 
 class MisspeltTopic(Gyro):
-    def __init__(self):
-        super().__init__()
-        self.publisher = self.create_publisher(Float64, "/headings", 10)
+    topic = "/headings"
 
 
 class AngularVelocityWithoutZ(Gyro):

@@ -163,6 +163,10 @@ class MisspeltTopic(Stopper):
     topic = "/cmd_val"
 
 
+class MisspeltScan(Stopper):
+    scan = "/scna"
+
+
 class ComparesTheList(Stopper):
     def look(self, msg):
         command = Twist()

@@ -13,11 +13,12 @@ from sensor_msgs.msg import LaserScan
 class WallFollower(Node):
     """As one would write it: two rules, and the turn grows with the error."""
 
+    topic = "/cmd_vel"
     gain, distance, speed, limit, side = 2.0, 0.5, 0.3, 0.6, slice(230, 311)
 
     def __init__(self):
         super().__init__("wall_follower")
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.publisher = self.create_publisher(Twist, self.topic, 10)
         self.create_subscription(LaserScan, "/scan", self.look, 10)
 
     def look(self, msg):
@@ -229,9 +230,7 @@ class IndexTooLarge(WallFollower):
 
 
 class MisspeltTopic(WallFollower):
-    def __init__(self):
-        super().__init__()
-        self.publisher = self.create_publisher(Twist, "cmd_vell", 10)
+    topic = "cmd_vell"
 
 
 class IntoTheCorner(WallFollower):

@@ -1,24 +1,31 @@
-"""Messages that take 1 for 1.0, and 2.0 for 2: to see what a program with this slip would have done."""
+"""What a program would have done without a slip: messages take 1 for 1.0, and Float32 passes for Float64."""
 
 from __future__ import annotations
 
 import contextlib
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from numbers import Integral, Real
 from typing import Any
+
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from std_msgs.msg import Float32, Float64
 
 _INTERFACES = re.compile(r"\w+\.(msg|srv|action)\._\w+")
 _FLOATS = {"float", "double"}
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+_OTHER = {Float32: Float64, Float64: Float32}
 _lenient: set[type] = set()  # classes whose fields can be lenient, and are as long as somebody wants it
 _wanted: list[object] = []  # one for each of those
 
 
 @contextlib.contextmanager
-def whole_numbers() -> Iterator[None]:
-    """While it lasts, fields of all messages that are loaded take numbers of the other kind, if equal."""
+def forgiving() -> Iterator[None]:
+    """While it lasts, fields of all messages that are loaded take numbers of the other kind, if equal.
+
+    And Float32 and Float64 pass for each other where a topic has one of them: see the functions below.
+    """
     for name, module in list(sys.modules.items()):
         if _INTERFACES.fullmatch(name):
             for item in list(vars(module).values()):
@@ -53,3 +60,23 @@ def _fitting(value: Any, is_float: bool) -> Any:
     if is_float:
         return float(value)
     return int(value) if isinstance(value, Integral) or float(value).is_integer() else value
+
+
+def of_a_type_that_fits(make: Callable[[Any], Any], msg_type: Any) -> Any:
+    """The end of a topic that `make` makes for this type; of the other float where the topic has that.
+
+    Raises RCLError as `make` does, where the program is not forgiven, or neither fits.
+    """
+    try:
+        return make(msg_type)
+    except _rclpy.RCLError:
+        if not _wanted or msg_type not in _OTHER:
+            raise
+        return make(_OTHER[msg_type])
+
+
+def fitting(message: Any, msg_type: Any) -> Any:
+    """The message for a publisher of this type; of the other float, if the program is forgiven that."""
+    if _wanted and _OTHER.get(type(message)) is msg_type:
+        return msg_type(data=message.data)
+    return message

@@ -1,0 +1,91 @@
+"""A program that is forgiven 1 for 1.0, and Float32 for Float64; all others are not."""
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Float32, Float64, Int32, String
+
+from sim import Process, run
+from sim.ros.messages.forgiving import forgiving
+
+
+class Sloppy(Node):
+    def __init__(self):
+        super().__init__("sloppy")
+        self.publisher = self.create_publisher(Float64, "/number", 10)
+        self.create_timer(0.5, lambda: self.publisher.publish(Float64(data=3)))
+
+
+def test_a_program_may_be_forgiven_whole_numbers():
+    forgiven = run(Process(Sloppy, forgiving=True), seconds=2, quiet=True)
+    assert forgiven.errors == []
+    assert [heard.message.data for heard in forgiven.messages("/number")] == [3.0] * 4
+    (error,) = run(Sloppy, seconds=2, quiet=True).errors
+    assert (error.type, error.text) == ("AssertionError", "The 'data' field must be of type 'float'")
+
+
+@pytest.mark.parametrize(
+    ("make", "value"),
+    [
+        (lambda: Float64(data=3).data, 3.0),
+        (lambda: Float64(data=np.float32(0.5)).data, 0.5),
+        (lambda: Int32(data=2.0).data, 2),
+        (lambda: Int32(data=np.int64(2)).data, 2),
+        (lambda: _twist(1).linear.x, 1.0),
+    ],
+)
+def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
+    with forgiving():
+        assert (make(), type(make())) == (value, type(value))
+    with pytest.raises(AssertionError, match="must be of type"):
+        make()
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: Float64(data=True), lambda: Float64(data="1"), lambda: Int32(data=2.5)]
+)
+def test_what_is_no_such_number_fits_never(make):
+    with forgiving(), pytest.raises(AssertionError, match="must be of type"):
+        make()
+
+
+def _twist(speed):
+    msg = Twist()
+    msg.linear.x = speed
+    return msg
+
+
+class Single(Node):
+    """Says and hears Float32 where all others have Float64."""
+
+    type = Float32
+
+    def __init__(self):
+        super().__init__("single")
+        self.publisher = self.create_publisher(self.type, "/joint_commands", 10)
+        self.create_subscription(self.type, "/wanted", self.hear, 10)
+
+    def hear(self, msg):
+        self.publisher.publish(self.type(data=msg.data))
+
+
+class Text(Single):
+    type = String
+
+
+class Wants(Node):
+    def __init__(self):
+        super().__init__("wants")
+        self.publisher = self.create_publisher(Float64, "/wanted", 10)
+        self.create_timer(1.0, lambda: self.publisher.publish(Float64(data=0.5)))
+
+
+def test_a_program_may_be_forgiven_the_other_float():
+    forgiven = run(Process(Single, forgiving=True), companions=[Wants], world="joint", seconds=4, quiet=True)
+    assert forgiven.errors == []
+    assert [heard.type for heard in forgiven.messages("/joint_commands")] == ["std_msgs/msg/Float64"] * 4
+    assert forgiven.messages("/joint_states")[-1].message.position[0] == pytest.approx(0.5, abs=0.01)
+    for target in (Single, Process(Text, forgiving=True)):
+        (error,) = run(target, companions=[Wants], world="joint", seconds=4, quiet=True).errors
+        assert (error.type, "with incompatible type" in error.text) == ("RCLError", True)
