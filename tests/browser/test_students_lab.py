@@ -1,6 +1,6 @@
 import pytest
 
-from tests.browser.lab import write_notebook
+from tests.browser.lab import SHOWN, write_notebook
 
 pytestmark = pytest.mark.browser
 
@@ -29,14 +29,14 @@ def test_lab_starts_with_the_map_of_the_course_and_leads_on_and_back(lab, studen
 
 def way(lab, name):
     """A button of the notebook that shows."""
-    bar = lab.page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Toolbar")
+    bar = lab.page.locator(f"{SHOWN} .jp-Toolbar")
     return bar.get_by_role("button", name=name)
 
 
 def test_the_first_press_on_run_works_before_the_kernel_is_there(lab, students_folder):
     write_notebook(students_folder / "cells/first.ipynb", "print(40 + 2)")
     lab.page.goto(f"{lab.address}/lab/workspaces/first/tree/cells/first.ipynb")
-    lab.page.locator(".jp-Notebook .jp-Cell .cm-content").first.click()
+    lab.page.locator(f"{SHOWN} .jp-Cell .cm-content").first.click()
     lab.page.keyboard.press("Shift+Enter")
     lab.page.locator(".jp-OutputArea-output", has_text="42").wait_for()
     assert lab.page.locator(".jp-Dialog").count() == 0
