@@ -78,7 +78,7 @@ def test_many_short_waits_in_real_time_have_an_end(usual, monkeypatch):
     assert (reason, 1.0 < stamp < 2.0) == ("hang", True)
     assert detail.startswith(
         "One simulated second took 1 s of real time; the nodes were stopped in thread WaitsALittle.work() at "
-        f"t = {stamp:g} s, at line {line_in(hangs.WaitsALittle, 'while True:', 'work') + 1}: select.select("
+        f"t = {stamp:g} s, at line {line_in(hangs.WaitsALittle, 'while True:', 'work') + 1}: select.poll("
     )
 
 

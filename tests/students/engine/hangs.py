@@ -142,7 +142,7 @@ class WaitsALittle(Hanging):
 
     def work(self):
         while True:
-            select.select([], [], [], 0.02)
+            select.poll().poll(20)
             time.sleep(0.0001)
 
 
