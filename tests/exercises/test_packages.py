@@ -13,6 +13,7 @@ from grader.workspace import building
 from grader.workspace.building import NotHere
 from grader.workspace.package import PackageRun
 from tests.exercises.assignment import Assignment
+from tests.exercises.score_tables import executed
 from tests.students.packages.greeter import RIGHT
 from tests.students.workspaces import Workspace
 
@@ -20,6 +21,15 @@ from tests.students.workspaces import Workspace
 class TestPackages(Assignment):
     folder = "11_packages"
     package = packages
+
+    @pytest.mark.soak
+    def test_the_lesson_shows_what_it_speaks_of(self):
+        cells = executed("course", self.folder)
+        assert {name: cell.problems for name, cell in cells.items() if cell.problems} == {}
+        assert "1.51 m before the wall, 0 touches\nmy_interfaces.msg.Obstacle(" in cells["own-run"].text
+        assert cells["launch-ends"].text == "left: 0.51 m before the wall\nright: 1.51 m before the wall\n"
+        assert cells["launch-one-run"].text.endswith("1.01 m before the wall, 0 touches\n")
+        assert cells["respawn-run"].text.count("process has died") == 3
 
 
 @pytest.mark.parametrize("number", range(5))

@@ -122,3 +122,11 @@ def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
     process.wait = lets_go_when_told
     assert install.tell_packages(process, tmp_path) == 3
     assert said == "  1 of 3: b_msgs\n  2 of 3: a_msgs\n"
+
+
+def test_a_packages_folder_of_launch_files_hides_nothing(tmp_path):
+    """Of a workspace that is sourced, such a folder may be on the path before all else."""
+    (tmp_path / "launch").mkdir()
+    asked = [sys.executable, "-c", "import launch; print(launch.__file__)"]
+    said = subprocess.check_output(asked, env={**os.environ, "PYTHONPATH": str(tmp_path)}, text=True)
+    assert said.strip() == str(Path(install.ROOT, "launch", "__init__.py"))

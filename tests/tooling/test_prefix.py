@@ -7,7 +7,7 @@ import sysconfig
 
 import pytest
 
-from tests.tooling.test_ci import load
+from tests.tooling.test_ci import ROOT, load
 
 prefix = load("prefix")
 MADE_WITH = "/opt/python/cp311-cp311"
@@ -47,7 +47,8 @@ def test_what_a_workspace_sources_first_tells_where_ros_lies_once(environment, s
 
 def test_every_python_of_the_environment_knows_where_ros_lies(environment, monkeypatch):
     prefix.tell(environment)
-    line = (environment / "packages/ros.pth").read_text()
+    interfaces, line = (environment / "packages/ros.pth").read_text().splitlines()
+    assert interfaces == str(ROOT / "interfaces")
     monkeypatch.delenv("AMENT_PREFIX_PATH")
     exec(line)
     assert os.environ["AMENT_PREFIX_PATH"] == sys.prefix
