@@ -29,7 +29,7 @@ class TestPackages(Assignment):
         assert "1.51 m before the wall, 0 touches\nmy_interfaces.msg.Obstacle(" in cells["own-run"].text
         assert cells["launch-ends"].text == "left: 0.51 m before the wall\nright: 1.51 m before the wall\n"
         assert cells["launch-one-run"].text.endswith("1.01 m before the wall, 0 touches\n")
-        assert cells["respawn-run"].text.count("process has died") == 3
+        assert cells["respawn-run"].text.count("process has died") == 4
 
 
 @pytest.mark.parametrize("number", range(5))
