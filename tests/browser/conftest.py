@@ -4,6 +4,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Page
 
 from grader.marking.release.make_exercises import release
 from grader.marking.release.samples import SHARES, submit_samples
@@ -32,6 +33,17 @@ def browser():
         chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield chromium
         chromium.close()
+
+
+@pytest.fixture
+def page(browser) -> Iterator[Page]:
+    """A page without network; what goes wrong in its scripts is kept in its `faults`."""
+    context = browser.new_context(viewport={"width": 900, "height": 800}, offline=True)
+    page = context.new_page()
+    page.faults = []
+    page.on("pageerror", lambda error: page.faults.append(str(error)))
+    yield page
+    context.close()
 
 
 @pytest.fixture(scope="session")

@@ -26,16 +26,6 @@ def league(tmp_path_factory):
     return write_pages(tmp_path_factory.mktemp("league"), rows, Contest("words", 1, 30.0), own=False)
 
 
-@pytest.fixture
-def page(browser):
-    context = browser.new_context(viewport={"width": 1100, "height": 800}, offline=True)
-    page = context.new_page()
-    page.faults = []
-    page.on("pageerror", lambda error: page.faults.append(str(error)))
-    yield page
-    context.close()
-
-
 def test_all_play_together_however_often_one_asks_for_it(page, league):
     page.clock.install(time=0)
     requests = watch(page)

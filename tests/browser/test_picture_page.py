@@ -45,16 +45,6 @@ def rammed():
     return run(Rammer, world="room", seconds=20, quiet=True)
 
 
-@pytest.fixture
-def page(browser):
-    context = browser.new_context(viewport={"width": 900, "height": 800}, offline=True)
-    page = context.new_page()
-    page.faults = []
-    page.on("pageerror", lambda error: page.faults.append(str(error)))
-    yield page
-    context.close()
-
-
 def load(page, html, folder):
     """Open the HTML as a file."""
     path = folder / "replay.html"
