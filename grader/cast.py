@@ -12,10 +12,11 @@ from grader.workspace import building, place
 from grader.workspace.building import Build
 from grader.workspace.package import Package, make_package
 from sim.ros.remote import Remote, RemoteLost
+from sim.ros.remote.serving import prepared
 
 Prepare = Callable[[Any], Any]
-"""Makes of one of the student's programs the one that runs in its place: a function of a module, or
-functools.partial of one with further words."""
+"""Makes of one of the student's programs the one that runs in its place, or a list of those: a function of a
+module, or functools.partial of one with further words."""
 
 MOST_TEXT = 2_000  # characters of what another process says
 
@@ -53,9 +54,7 @@ class LocalCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        if not isinstance(prepare, functools.partial):
-            return self._nodes if prepare is None else [prepare(node) for node in self._nodes]
-        return [prepare.func(node, *prepare.args) for node in self._nodes]
+        return prepared(self._nodes, *_parts(prepare))
 
     def package(self, name: str, build_type: str) -> Package | Fault:
         """As Cast."""
@@ -91,8 +90,7 @@ class RemoteCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        words = prepare.args if isinstance(prepare, functools.partial) else ()
-        function = prepare.func if isinstance(prepare, functools.partial) else prepare
+        function, words = _parts(prepare)
         self._remote.preparation = [_name(function), *words] if function is not None else []
         return [self._remote]
 
@@ -106,6 +104,11 @@ class RemoteCast:
 
     def leave(self) -> None:
         """As Cast: the other process ends soon, and it is the student's."""
+
+
+def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[str]]:
+    """The function, and its further words."""
+    return (prepare.func, prepare.args) if isinstance(prepare, functools.partial) else (prepare, ())
 
 
 def _refuse_to_build(_: Any) -> NoReturn:

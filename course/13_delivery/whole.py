@@ -25,10 +25,10 @@ class Perception(Node):
         self.listener = TransformListener(self.buffer, self)
         self.floor, self.seen, self.walked, self.scans = None, [], [], 0
         self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
-        self.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
-        self.pose_pub = self.create_publisher(PoseStamped, "/robot_pose", 10)
-        self.people_pub = self.create_publisher(PoseArray, "/people", 10)
-        self.obstacles_pub = self.create_publisher(PoseArray, "/obstacles", 10)
+        self.create_subscription(LaserScan, "scan", self.on_scan, qos_profile_sensor_data)
+        self.pose_pub = self.create_publisher(PoseStamped, "robot_pose", 10)
+        self.people_pub = self.create_publisher(PoseArray, "people", 10)
+        self.obstacles_pub = self.create_publisher(PoseArray, "obstacles", 10)
 
     def on_map(self, grid):
         """Keep the map."""
@@ -40,7 +40,7 @@ class Perception(Node):
         if self.floor is None or self.scans % 2:
             return
         try:
-            there = self.buffer.lookup_transform("map", "base_scan", scan.header.stamp).transform
+            there = self.buffer.lookup_transform("map", scan.header.frame_id, scan.header.stamp).transform
         except TransformException:
             return  # not known yet; the next scan comes soon
         pose = there.translation.x, there.translation.y, 2 * math.atan2(there.rotation.z, there.rotation.w)
@@ -82,10 +82,10 @@ class Decision(Node):
         super().__init__("decision")
         self.orders, self.share, self.dock, self.state = {}, 1.0, None, "rest"
         self.create_subscription(Order, "/orders", self.on_order, KEPT)
-        self.create_subscription(BatteryState, "/battery_state", self.on_battery, 10)
-        self.create_subscription(PoseStamped, "/dock_pose", self.on_dock, KEPT)
-        self.goal_pub = self.create_publisher(PoseStamped, "/goal_pose", 10)
-        self.state_pub = self.create_publisher(String, "/state", 10)
+        self.create_subscription(BatteryState, "battery_state", self.on_battery, 10)
+        self.create_subscription(PoseStamped, "dock_pose", self.on_dock, KEPT)
+        self.goal_pub = self.create_publisher(PoseStamped, "goal_pose", 10)
+        self.state_pub = self.create_publisher(String, "state", 10)
         self.create_timer(0.5, self.decide)
 
     def on_order(self, order):
@@ -122,11 +122,11 @@ class Control(Node):
         self.floor = self.goal = self.pose = None
         self.people, self.obstacles, self.heard, self.way = [], [], -math.inf, []
         self.create_subscription(OccupancyGrid, "/map", self.on_map, KEPT)
-        self.create_subscription(PoseArray, "/people", self.on_people, 10)
-        self.create_subscription(PoseArray, "/obstacles", self.on_obstacles, 10)
-        self.create_subscription(PoseStamped, "/goal_pose", self.on_goal, 10)
-        self.create_subscription(PoseStamped, "/robot_pose", self.on_pose, 10)
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_subscription(PoseArray, "people", self.on_people, 10)
+        self.create_subscription(PoseArray, "obstacles", self.on_obstacles, 10)
+        self.create_subscription(PoseStamped, "goal_pose", self.on_goal, 10)
+        self.create_subscription(PoseStamped, "robot_pose", self.on_pose, 10)
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
         self.create_timer(0.1, self.drive)
         self.create_timer(1.0, self.plan)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -107,7 +107,12 @@ def until_a_touch(recording: Recording) -> Recording:
 
 def travelled(recording: Recording) -> float:
     """The length of the robot's path in metres."""
-    points = np.array([(pose.x, pose.y) for pose in recording.path]).reshape(-1, 2)
+    return length(recording.path)
+
+
+def length(path: Iterable[Pose]) -> float:
+    """The length of a path in metres."""
+    points = np.array([(pose.x, pose.y) for pose in path]).reshape(-1, 2)
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 

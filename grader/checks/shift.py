@@ -1,4 +1,4 @@
-"""What a delivery robot did in a run in a warehouse, as plain data: for checks, and to compare robots."""
+"""What delivery robots did in a run in a warehouse, as plain data: for checks, and to compare them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from grader.checks.motion import travelled
+from grader.checks.motion import length
 from sim.evidence import INFRASTRUCTURE_TOPICS, Recording, Seconds
 from sim.world import Contact, World
 from sim.world.clearance import clearance
@@ -19,7 +19,8 @@ _SHELF = 0.005  # m; a touch this near to a box that stands still is one of a sh
 class Job(NamedTuple):
     """One order: when it came, by when it was wanted, and when it was picked up and over; None is never.
 
-    status: waiting, picked up, delivered, expired or canceled, as it was at the end.
+    status: waiting, picked up, delivered, expired or canceled, as it was at the end. robot: who picked it up,
+    by name; "" where nobody did.
     """
 
     id: int
@@ -28,6 +29,7 @@ class Job(NamedTuple):
     picked_up: Seconds | None
     over: Seconds | None
     status: str
+    robot: str = ""
 
 
 class Program(NamedTuple):
@@ -41,9 +43,10 @@ class Program(NamedTuple):
 class Shift(NamedTuple):
     """A run in a warehouse.
 
-    jobs: all orders, oldest first. touched: how often the robot touched a wall, shelf, box, circle, robot or
-    person; met_person: when it first touched one (s), or None. battery: (stamp, share from 0 to 1), once a
-    second. way: what the robot drove, m. programs: by node.
+    jobs: all orders, oldest first. touched: how often a robot touched a wall, shelf, box, circle, robot or
+    person; met_person: when one first touched a person (s), or None. battery: the first robot's: (stamp,
+    share from 0 to 1), once a second. way: what the robots drove together, m. programs: by node. A robot that
+    drives on a route of the world's is none of these.
     """
 
     jobs: tuple[Job, ...]
@@ -72,14 +75,17 @@ def shift(recording: Recording) -> Shift:
     world = recording.world
     if world is None or world.warehouse is None:
         raise ValueError('this run has no warehouse: give run() a world such as World.generate("warehouse")')
-    people = [contact.stamp for contact in recording.contacts if contact.what == "person"]
+    others = [robot.name for robot in world.robots if not robot.route]
+    contacts = [*recording.contacts]
+    contacts += [contact for name in others for contact in recording.other_contacts.get(name, ())]
+    people = [contact.stamp for contact in contacts if contact.what == "person"]
     states = [item for item in recording.messages("/battery_state") if item.ours]
     return Shift(
         jobs=_jobs(recording),
-        touched=dict(sorted(Counter(_touched(world, contact) for contact in recording.contacts).items())),
-        met_person=people[0] if people else None,
+        touched=dict(sorted(Counter(_touched(world, contact) for contact in contacts).items())),
+        met_person=min(people, default=None),
         battery=tuple((item.stamp, item.message.percentage) for item in states),
-        way=travelled(recording),
+        way=length(recording.path) + sum(length(recording.tracks.get(name, ())) for name in others),
         programs=_programs(recording),
     )
 
@@ -97,7 +103,7 @@ def _jobs(recording: Recording) -> tuple[Job, ...]:
             jobs[order.id] = Job(order.id, stamp, round(stamp + left, 9), None, None, status)
             continue
         taken = {"picked_up": stamp} if status == "picked up" else {"over": stamp}
-        jobs[order.id] = jobs[order.id]._replace(status=status, **taken)
+        jobs[order.id] = jobs[order.id]._replace(status=status, robot=order.robot, **taken)
     return tuple(jobs.values())
 
 

@@ -51,6 +51,8 @@ class Recording:
     # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
     tracks: dict[str, list[Pose]] = field(default_factory=dict)
     contacts: list[Contact] = field(default_factory=list)
+    # the same of the robots beside the first, by name
+    other_contacts: dict[str, list[Contact]] = field(default_factory=dict)
     drawing: Drawing | None = None  # what pens drew; None where nobody has one
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
@@ -97,6 +99,7 @@ class Recording:
             path=stamped(self.path),
             tracks={name: stamped(poses) for name, poses in self.tracks.items()},
             contacts=stamped(self.contacts),
+            other_contacts={name: stamped(touches) for name, touches in self.other_contacts.items()},
             logs=stamped(self.logs),
             errors=stamped(self.errors),
             callbacks=stamped(self.callbacks),

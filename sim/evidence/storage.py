@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from sim.evidence.recording import Recording
 
 ATTACHMENT = "recording.json"
-FORMAT = 12  # of the attachment; raise it when what is in there changes
+FORMAT = 13  # of the attachment; raise it when what is in there changes
 PLAIN = (float, int, str, bool, bytes, Any)
 
 

@@ -36,3 +36,6 @@ class GroundTruth:
             poses = recording.path if body.name == first else recording.tracks.setdefault(body.name, [])
             poses.append(Pose(stamp, *pose))
         recording.contacts = scene.contacts
+        recording.other_contacts = {
+            name: robot.contacts for name, robot in scene.robots.items() if name != first
+        }

@@ -18,7 +18,7 @@ _HOUR = 3600.0  # s
 
 @dataclass(frozen=True)
 class BatteryModel(Model):
-    """The battery of each robot of a world (A h, A, V), and the point (m) of the world's charger.
+    """The battery of each robot of a world (A h, A, V), and the point (m) of the first one's charger.
 
     `start` is the share of the capacity that is there at time 0. What is taken from it is `idle_current`, and
     `drive_current` for each m/s of the wheels. The voltage falls evenly from `full` to `empty`.
@@ -40,15 +40,15 @@ class BatteryModel(Model):
 
 
 class Battery:
-    """The battery of one robot.
+    """The battery of one robot, which is filled at a charger (m).
 
     Attributes:
         charge: what is left in it, A h.
         current: what flows into it, A; below 0 while it is drained.
     """
 
-    def __init__(self, model: BatteryModel) -> None:
-        self.model = model
+    def __init__(self, model: BatteryModel, charger: Point) -> None:
+        self.model, self.charger = model, charger
         self.charge = model.start * model.capacity
         self.current = -model.idle_current
 
@@ -70,7 +70,7 @@ class Battery:
     def work(self, seconds: float, place: Point, motion: Odometry, lever: float) -> None:
         """So long in a robot that is there, whose wheels, `lever` (m) from its middle, turn so."""
         model = self.model
-        if math.dist(place, model.charger) <= NEAR:
+        if math.dist(place, self.charger) <= NEAR:
             current = model.charge_current if self.charge < model.capacity else 0.0
         else:
             current = -model.idle_current - model.drive_current * max(abs(motion.v), abs(motion.w) * lever)

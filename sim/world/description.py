@@ -56,7 +56,8 @@ class World(Model):
         people: those who walk about.
         robot, lidar: the figures of the robots and their lidars.
         imu: the figures of the robots' IMUs; None where they have none.
-        battery: the figures of the robots' batteries, and where the charger is; None where they never tire.
+        battery: the figures of the robots' batteries, and where the first one's charger is; None where they
+            never tire.
         warehouse: where orders are picked up and delivered; None where there are none.
         machine: the model of a machine that stands here instead of mobile robots, or None.
 
@@ -113,6 +114,8 @@ class World(Model):
                 self.refuse("robots", f"a speed of {self.robot.max_v:g} m/s or less, the robots' max_v")
             if not all(map(self._holds, (robot.start, *robot.route))):
                 self.refuse("robots", f"a start and a route for {robot.name} that lie inside the bounds")
+            if robot.charger is not None and self.battery is None:
+                self.refuse("robots", f"no charger for {robot.name}, where robots have no battery")
 
     def _refuse_mobile(self) -> None:
         """A machine stands alone: silently leaving out a robot that somebody described would puzzle them."""
@@ -147,16 +150,27 @@ class World(Model):
         """Where each mobile robot is at time 0, by its name; the first is "robot"."""
         return {"robot": self.start} | {robot.name: robot.start for robot in self.robots}
 
+    @property
+    def chargers(self) -> dict[str, Point]:
+        """Where each mobile robot charges (m), by its name; none where robots never tire."""
+        if self.battery is None:
+            return {}
+        usual = self.battery.charger
+        return {"robot": usual} | {robot.name: robot.charger or usual for robot in self.robots}
+
     def places(self, key: str = "") -> dict[str, tuple[float, ...]]:
         """What has a name on the floor: charger, desk, shelf_1, ...; each x, y (m), or x, y and yaw (rad).
 
         key: "battery" or "warehouse" for what belongs to that alone.
         """
-        charger = {"charger": self.battery.charger} if self.battery and key != "warehouse" else {}
+        chargers: dict[str, Point] = {}
+        if self.battery is not None and key != "warehouse":
+            own = {f"charger_of_{robot.name}": robot.charger for robot in self.robots if robot.charger}
+            chargers = {"charger": self.battery.charger} | own
         if self.warehouse is None or key == "battery":
-            return charger
+            return chargers
         shelves = {f"shelf_{number}": pose for number, pose in enumerate(self.warehouse.pickups, start=1)}
-        return charger | {"desk": self.warehouse.desk} | shelves
+        return chargers | {"desk": self.warehouse.desk} | shelves
 
     def _box_names(self) -> list[str]:
         return [f"box_{number}" for number in range(1, len(self.movable) + 1)]

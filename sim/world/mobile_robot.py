@@ -53,7 +53,7 @@ class MobileRobot(Drive):
         self._imu = Imu(world.imu, self.body, _chance(around.seed, (number, 1))) if world.imu else None
         self.log = ContactLog(self.body)
         self.feel = self._imu.feel if self._imu else None
-        self.battery = Battery(world.battery) if world.battery else None
+        self.battery = Battery(world.battery, world.chargers[name]) if world.battery else None
         self._lever, self._steps = world.robot.track_width / 2, 0
 
     @property

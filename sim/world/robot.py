@@ -77,13 +77,15 @@ class OtherRobot(Model):
     """A further robot like the first, in a namespace of its own.
 
     `start` is (x, y, yaw) in the map frame. A robot with a `route`, corners (x, y) in the map frame, drives
-    round it at `speed` (m/s); one without waits for commands on /NAME/cmd_vel.
+    round it at `speed` (m/s); one without waits for commands on /NAME/cmd_vel. `charger` is the point (m) of
+    its own one; without, it charges where the first robot does.
     """
 
     name: Annotated[str, Wanted(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
     start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
     route: Annotated[tuple[Point, ...], Wanted(ROUTE, is_loop)] = ()
     speed: Annotated[float, positive("m/s")] = 0.2
+    charger: Point | None = None
 
 
 class Odometry(NamedTuple):

@@ -76,7 +76,9 @@ def test_no_output_gives_more_than_the_checks_points(course, result):
 
 
 def test_outside_the_course_it_says_what_it_looked_for(tmp_path):
-    with pytest.raises(LookupError, match="is not in the course: expected a folder with course/ and exercises/"):
+    with pytest.raises(
+        LookupError, match="is not in the course: expected a folder with course/ and exercises/"
+    ):
         course_map(tmp_path)
 
 

@@ -77,7 +77,11 @@ NO_CODE = ("There is code of yours to run.", "your node's class, or your main fu
         ),
         ((Process(None),), "None", "This exercise is not started yet: write your class in the cell above."),
         ((dict,), "the class dict, which is not a Node", "Begin the class with `class dict(Node):`."),
-        (("Talker",), "'Talker', which is not a node", "Give the class itself, by its name and without quotes."),
+        (
+            ("Talker",),
+            "'Talker', which is not a node",
+            "Give the class itself, by its name and without quotes.",
+        ),
         ((42,), "42, which is not a node", "Give the class itself, by its name and without quotes."),
         (
             (Process(misfits.Talker, remappings=["chatter:=news"]),),
@@ -372,8 +376,13 @@ def test_a_check_that_missed_hands_on_only_what_it_says_it_measured():
         return talking
 
     assert statuses(exercise(measured="half").grade(misfits.Talker))["asks_for_more"] == "passed"
-    assert exercise().grade(misfits.Talker).broken[0].alarm.endswith(
-        "ValueError: half missed without saying what it measured: asks_for_more can't be judged\n"
+    assert (
+        exercise()
+        .grade(misfits.Talker)
+        .broken[0]
+        .alarm.endswith(
+            "ValueError: half missed without saying what it measured: asks_for_more can't be judged\n"
+        )
     )
 
 
@@ -406,9 +415,13 @@ def test_a_check_may_hold_in_some_scenarios_only():
     assert two.grade(misfits.Talker) == 2.0
     assert judged == [("everywhere", "yard"), ("in_the_yard", "yard"), ("everywhere", "room")]
 
-    with pytest.raises(ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"):
+    with pytest.raises(
+        ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"
+    ):
         two.check(1, after=in_the_yard)(asks)
-    with pytest.raises(ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is not a scenario of it$"):
+    with pytest.raises(
+        ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is not a scenario of it$"
+    ):
         two.check(1, only="narrow")(unnamed)
 
 

@@ -81,7 +81,14 @@ def test_who_has_less_than_that_part_is_told_nothing_of_it():
 
 @pytest.mark.parametrize(
     ("points", "credit", "earned"),
-    [(7.0, 0.327, 2.0), (5.0, 0.5, 2.5), (3.0, 1 / 3, 1.0), (2.0, 0.99, 1.5), (1 / 3, 1.0, 1 / 3), (1, 0.4, 0)],
+    [
+        (7.0, 0.327, 2.0),
+        (5.0, 0.5, 2.5),
+        (3.0, 1 / 3, 1.0),
+        (2.0, 0.99, 1.5),
+        (1 / 3, 1.0, 1 / 3),
+        (1, 0.4, 0),
+    ],
 )
 def test_points_are_whole_and_half_ones_and_never_more_than_were_earned(points, credit, earned):
     assert verdict(points, "failed", credit).earned == earned

@@ -107,14 +107,20 @@ def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     *_, pace, value = warm.grade(Misspelt).verdicts
     assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, MENDED)] * 2
     assert MENDED == "Judged as if the slip above were mended, for half of the points."
-    assert warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
+    assert (
+        warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
+    )
 
 
 def test_a_name_by_which_nothing_is_heard_is_a_slip_and_another_namespace_or_a_pair_of_ours_is_none():
     def end(kind, name, ours):
         return Endpoint(kind, "/a", name, "std_msgs/msg/Bool", {}, ours)
 
-    ours = [end("publisher", "/scan", True), end("publisher", "/bumper", True), end("service", "/reset", True)]
+    ours = [
+        end("publisher", "/scan", True),
+        end("publisher", "/bumper", True),
+        end("service", "/reset", True),
+    ]
     theirs = ("/scna", "/left/scan", "/bumper", "/rosuot")
     ends = [*ours, *(end("subscription", name, False) for name in theirs), end("client", "/rest", False)]
     recording = Recording(graph=Graph(endpoints=[*ends, end("publisher", "/rosout", True)]))

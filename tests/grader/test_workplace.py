@@ -42,7 +42,11 @@ def files(course: Path) -> set[str]:
 def test_a_student_gets_copies_of_lessons_and_exercises_and_of_nothing_else(course):
     assert lay_out(course) == []
     assert files(course) == {
-        ".given.json", LESSON, "course/01_nodes/goal.py", "course/README.md", "exercises/01_nodes/nodes.ipynb"
+        ".given.json",
+        LESSON,
+        "course/01_nodes/goal.py",
+        "course/README.md",
+        "exercises/01_nodes/nodes.ipynb",
     }
 
 

@@ -178,7 +178,8 @@ class Desk(Node):
         end = self.deadlines.setdefault(job.id, now + Duration(seconds=job.left))
         stamp = now.to_msg()
         places = {"pickup": stamped(stamp, *job.pickup), "delivery": stamped(stamp, *job.delivery)}
-        order = Order(id=job.id, status=status, deadline=end.to_msg(), **places)
+        robot = "robot" if status in (Order.PICKED_UP, Order.DELIVERED) else ""
+        order = Order(id=job.id, status=status, robot=robot, deadline=end.to_msg(), **places)
         order.header.stamp, order.header.frame_id = stamp, "map"
         return order
 

@@ -41,6 +41,7 @@ def parser() -> argparse.ArgumentParser:
     add("notebooks", nargs="*", metavar="NOTEBOOK")
     add("--worlds", type=_number, metavar="N", help="how many warehouses; default: 10")
     add("--seconds", type=_number, metavar="S", help="simulated, in each; default: 120")
+    add("--robots", type=int, choices=(1, 2, 3), help="in each, with the same programs; default: 1")
     add("--seed", metavar="WORDS", help="draw the warehouses from these words, such as a league's page tells")
     add("--draw", action="store_true", help="draw new warehouses for a class that has played already")
     which = f"whose last exercise gets the programs; default: {ASSIGNMENT}"
@@ -88,7 +89,8 @@ def _entries(options: argparse.Namespace) -> Entries:
 
 def _draw(options: argparse.Namespace, journal: Journal) -> Drawing:
     seed = options.seed if options.seed is not None or not options.notebooks else ""
-    drawing = draw(journal, options.worlds, options.seconds, seed, anew=options.draw)
+    asked = options.worlds, options.seconds, options.robots
+    drawing = draw(journal, *asked, seed, anew=options.draw)
     whole = drawing.contest.worlds * drawing.contest.seconds
     if whole > MOST:
         saw = f"{drawing.contest.worlds} of {drawing.contest.seconds:g} s"

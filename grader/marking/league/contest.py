@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -10,6 +11,7 @@ from grader.checks.shift import Shift, shift
 from grader.diagnosis import find_fault, find_flaw
 from grader.exercise import Scenario
 from grader.seeds import private_seed
+from grader.team import team
 from sim import World
 from sim.evidence import Recording, Seconds
 
@@ -19,16 +21,22 @@ class Contest:
     """Who plays in it plays in all of these warehouses.
 
     seed: words that all warehouses are drawn from; "" for the public ones, of the seeds 0, 1, 2 and so on.
-    worlds: how many. seconds: of simulated time in each.
+    worlds: how many. seconds: of simulated time in each. robots: in each, all with the same programs.
     """
 
     seed: str = ""
     worlds: int = 10
     seconds: Seconds = 120.0
+    robots: int = 1
 
     def rounds(self) -> Iterator[tuple[Scenario, int]]:
         """Each warehouse's scenario, with its seed."""
-        scenario = Scenario(lambda seed: World.generate("warehouse", seed=seed), self.seconds)
+        names = ["robot", *(f"robot_{number}" for number in range(2, self.robots + 1))]
+        scenario = Scenario(
+            lambda seed: World.generate("warehouse", seed=seed, robots=self.robots),
+            self.seconds,
+            prepare=functools.partial(team, *names) if self.robots > 1 else None,
+        )
         for index in range(self.worlds):
             yield scenario, private_seed(self.seed, "league", index) if self.seed else index
 

@@ -87,7 +87,13 @@ class Drawing:
 
 
 def draw(
-    journal: Journal, worlds: int | None, seconds: float | None, seed: str | None, *, anew: bool
+    journal: Journal,
+    worlds: int | None,
+    seconds: float | None,
+    robots: int | None,
+    seed: str | None,
+    *,
+    anew: bool,
 ) -> Drawing:
     """The league that was drawn here before, with what is told anew; or a new one.
 
@@ -96,5 +102,5 @@ def draw(
     kept = journal.settings() or {}
     before = Contest(**kept["contest"]) if "contest" in kept else Contest(seed=secrets.token_hex(8))
     drawn = seed if seed is not None else secrets.token_hex(8) if anew else before.seed
-    contest = Contest(drawn, worlds or before.worlds, seconds or before.seconds)
+    contest = Contest(drawn, worlds or before.worlds, seconds or before.seconds, robots or before.robots)
     return Drawing(contest, kept.get("key") or secrets.token_hex(16))

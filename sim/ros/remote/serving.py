@@ -51,7 +51,7 @@ def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
     try:
         name, *words = order["preparation"] or [""]
         prepare = _function(name) if name else None
-        programs = tuple(prepare(node, *words) if prepare else node for node in nodes)
+        programs = prepared(nodes, prepare, words)
         session = Follower(orders, programs, order["seconds"], order["seed"])
         session.advance()
         orders.answer(stderr=session.recording.stderr[:MOST_WRITTEN])
@@ -61,6 +61,14 @@ def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
         # Of the system's errors without the file: its name tells of this machine.
         words = getattr(error, "strerror", None) or error
         orders.answer(failed=f"{type(error).__name__}: {words}")
+
+
+def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, words: Sequence[str]) -> list[Any]:
+    """What runs in place of the nodes. prepare: makes of each the one that runs, or a list of those."""
+    if prepare is None:
+        return list(nodes)
+    made = [prepare(node, *words) for node in nodes]
+    return [program for each in made for program in (each if isinstance(each, list) else [each])]
 
 
 class Orders:

@@ -1,4 +1,4 @@
-"""Says what a warehouse looks like: its map, where the robots' odometry began on it, where the charger is."""
+"""Says what a warehouse looks like: its map, where the robots' odometry began on it, where they charge."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ OCCUPIED = 100
 class MapServer(Node):
     """Publishes once, for whoever comes whenever: /map, /tf_static (map -> odom) and /dock_pose.
 
-    The map shows what stands still. The transform holds as long as wheels don't slip: nobody looks after the
-    robot's place here.
+    Each further robot has a dock_pose under its name. The map shows what stands still. The transforms hold as
+    long as wheels don't slip: nobody looks after the robots' places here.
     """
 
     def __init__(self, world: World) -> None:
@@ -33,9 +33,9 @@ class MapServer(Node):
         self.map_pub.publish(self.grid(world))
         self.static_pub = self.create_publisher(TFMessage, "/tf_static", LATCHED)
         self.static_pub.publish(TFMessage(transforms=[*map(self.odometry, world.starts().items())]))
-        if world.battery is not None:
-            self.dock_pub = self.create_publisher(PoseStamped, "/dock_pose", LATCHED)
-            self.dock_pub.publish(self.dock(*world.battery.charger))
+        for robot, charger in world.chargers.items():
+            topic = "/dock_pose" if robot == "robot" else f"/{robot}/dock_pose"
+            self.create_publisher(PoseStamped, topic, LATCHED).publish(self.dock(*charger))
 
     def grid(self, world: World) -> OccupancyGrid:
         """The map: occupied is what something solid reaches into."""
@@ -65,7 +65,7 @@ class MapServer(Node):
         return transform
 
     def dock(self, x: float, y: float) -> PoseStamped:
-        """Where the charger is."""
+        """Where a charger is."""
         message = PoseStamped()
         message.header.stamp, message.header.frame_id = self.now, "map"
         message.pose.position.x, message.pose.position.y, message.pose.orientation.w = x, y, 1.0

@@ -118,6 +118,7 @@ class OrderDesk(Node):
             self.change(number, Order.DELIVERED)
         else:
             self.load[name] = number
+            self.open[number].order.robot = name
             self.change(number, Order.PICKED_UP)
 
     def wanted(self, name: str, robot: MobileRobot) -> int | None:

@@ -14,11 +14,12 @@ from sim.world.generate.floor import between
 from sim.world.model import Model, within
 from sim.world.obstacles import Box, MovableBox, Point, ring
 from sim.world.people import Person
-from sim.world.robot import Pose
+from sim.world.robot import OtherRobot, Pose
 from sim.world.warehouse import WarehouseModel
 
 _DEPTH, _LENGTH = 0.6, 2.4  # m; of a shelf
 _FRONT = 0.8  # m between the left wall and the aisle before the shelves, for the charger and the desk
+_PARKED = 1.2, 0.8, 0.3  # m; the x of the second robot's charger, from one to the next, and their y
 _STAND = 0.25  # m from a shelf or a desk to the middle of the robot that is served there
 _TOPICS = (
     "Takes /cmd_vel; gives /odom, /scan, /bumper, /joint_states, /battery_state (sensor_msgs/BatteryState), "
@@ -30,16 +31,17 @@ _TOPICS = (
 
 @dataclass(frozen=True)
 class Warehouse(Model):
-    """`columns` by `rows` shelves with a place for a robot before each, a desk, a charger, boxes and people.
+    """`columns` by `rows` shelves with a place for a robot before each, a desk, chargers, boxes and people.
 
     The boxes to push stand at the other sides of shelves, so there are as many at most. People walk
-    in the middle of aisles.
+    in the middle of aisles. Each of the `robots` begins at its charger; the second is named robot_2.
     """
 
     columns: Annotated[int, within(1, 6)] = 2
     rows: Annotated[int, within(1, 8)] = 3
     movable: Annotated[int, within(0, 48)] = 3
     people: Annotated[int, within(0, 4)] = 1
+    robots: Annotated[int, within(1, 3)] = 1
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -55,6 +57,7 @@ class Warehouse(Model):
         upper = [chance.random() < 0.5 for _ in shelves]  # the side from which goods are taken
         charger = 0.35, round(height * between(chance, 0.15, 0.35), 2)
         desk = round(height * between(chance, 0.6, 0.85), 2)
+        others = tuple(self._others())
         return {
             "bounds": (0.0, 0.0, width, height),
             "start": (*charger, 0.0),
@@ -62,13 +65,21 @@ class Warehouse(Model):
             "boxes": (*shelves, Box(0.1, desk, 0.0, 0.2, 0.8)),
             "movable": tuple(self._movable(chance, shelves, upper)),
             "people": tuple(self._person(chance, aisle) for _ in range(self.people)),
+            "robots": others,
             "battery": BatteryModel(charger, start=between(chance, 0.5, 0.9)),
             "warehouse": WarehouseModel(
                 tuple(_before(chance, shelf, above) for shelf, above in zip(shelves, upper, strict=True)),
                 (0.2 + _STAND, desk, math.pi),
             ),
-            "card": self._card(width, height, charger, desk),
+            "card": self._card(width, height, charger, desk, others),
         }
+
+    def _others(self) -> Iterator[OtherRobot]:
+        """The robots beside the first: where the lower aisle begins, nearer to the wall than people walk."""
+        first, apart, y = _PARKED
+        for number in range(2, self.robots + 1):
+            x = round(first + (number - 2) * apart, 2)
+            yield OtherRobot(f"robot_{number}", (x, y, 0.0), charger=(x, y))
 
     def _shelves(self, chance: Random, aisle: float) -> Iterator[Box]:
         for row in range(self.rows):
@@ -96,7 +107,9 @@ class Warehouse(Model):
             corners = [corners[0], *corners[:0:-1]]
         return Person(tuple(corners), speed=between(chance, 0.8, 1.2))
 
-    def _card(self, width: float, height: float, charger: Point, desk: float) -> str:
+    def _card(
+        self, width: float, height: float, charger: Point, desk: float, others: tuple[OtherRobot, ...]
+    ) -> str:
         things = furnished(
             ("shelf", "shelves", self.columns * self.rows),
             ("box to push", "boxes to push", self.movable),
@@ -106,8 +119,9 @@ class Warehouse(Model):
             f"A warehouse of {width:g} m by {height:g} m with a wall all round{things}. The charger is at "
             f"x {charger[0]:g}, y {charger[1]:g}, the desk at y {desk:g}; a place lies before each shelf. "
             "People stop for what stands in their way, and for nothing that moves.",
-            f"At the charger, at x {charger[0]:g}, y {charger[1]:g}, facing along x.",
-            _TOPICS,
+            f"At the charger, at x {charger[0]:g}, y {charger[1]:g}, facing along x."
+            + "".join(f" {it.name} at its own, at x {it.start[0]:g}, y {it.start[1]:g}." for it in others),
+            _TOPICS + "".join(f" {robot.name} has its own under /{robot.name}." for robot in others),
         )
 
 

@@ -54,7 +54,10 @@ def test_serves_action_finds_the_server():
 
 def test_serves_action_misses_one_that_nobody_offers():
     miss = missed(serves_action, recording(), "/fibonacci", FIBONACCI)
-    assert (miss.expected, miss.saw) == (f"an action server /fibonacci of type {FIBONACCI}", "nobody offers it")
+    assert (miss.expected, miss.saw) == (
+        f"an action server /fibonacci of type {FIBONACCI}",
+        "nobody offers it",
+    )
     miss = missed(serves_action, ran(misfits.MisspeltAction), "/fibonacci")
     assert (miss.saw, miss.hint) == (
         "nobody offers it; there is /fibonaci", "Is /fibonaci a typing slip? Did you mean /fibonacci?",
@@ -64,7 +67,9 @@ def test_serves_action_misses_one_that_nobody_offers():
 
 
 def test_sends_goals_gives_the_goals():
-    assert [goal.request.order for goal in sends_goals(ran(goals.asks_nobody), "/fibonacci", FIBONACCI)] == [1]
+    assert [goal.request.order for goal in sends_goals(ran(goals.asks_nobody), "/fibonacci", FIBONACCI)] == [
+        1
+    ]
 
 
 def test_sends_goals_misses_a_client_and_its_goals():

@@ -51,7 +51,13 @@ def test_serves_misses_another_type():
 
 
 def test_calls_gives_the_calls():
-    assert [call.request.a for call in calls(ran(services.many_calls), "/add", ADD, at_least=5)] == [0, 1, 2, 3, 4]
+    assert [call.request.a for call in calls(ran(services.many_calls), "/add", ADD, at_least=5)] == [
+        0,
+        1,
+        2,
+        3,
+        4,
+    ]
 
 
 def test_calls_misses_a_client_and_its_calls():

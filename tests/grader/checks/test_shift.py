@@ -7,9 +7,10 @@ from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from warehouse_msgs.msg import Order
 
+from grader.checks.motion import length
 from grader.checks.shift import Job, Program, shift
-from sim import Recording, World, run
-from sim.world import Box, MovableBox, Person, WarehouseModel
+from sim import Process, Recording, World, run
+from sim.world import Box, MovableBox, OtherRobot, Person, WarehouseModel
 from tests.bench.capstone import work
 
 HALL = World(
@@ -106,3 +107,23 @@ def test_a_run_without_a_warehouse_has_no_shift(world):
     assert str(caught.value) == (
         'this run has no warehouse: give run() a world such as World.generate("warehouse")'
     )
+
+
+def test_robots_that_work_together_count_together():
+    world = World(
+        *("hall", "", (-2, -2, 4, 2), (0, 1, 0)),
+        boxes=HALL.boxes,
+        people=(Person(((1.5, 0.0), (-1.5, 0.0))),),
+        robots=(
+            OtherRobot("two", (0, -0.3, 0)),
+            OtherRobot("drives", (-1, -1.5, 0), ((-1, -1.5), (0, -1.5))),
+        ),
+        warehouse=HALL.warehouse,
+    )
+    programs = [Process(Rammer, namespace=robot) for robot in (None, "two")]
+    recording = run(*programs, world=world, seconds=6, quiet=True)
+    done = shift(recording)
+    (met,) = [touch.stamp for touch in recording.other_contacts["two"] if touch.what == "person"]
+    assert (recording.contacts, done.met_person) == ([], met)
+    apart = [length(path) for path in (recording.path, recording.tracks["two"])]
+    assert done.way == sum(apart) and min(apart) > 0.2

@@ -10,7 +10,9 @@ SPIN = (
 )
 FIRST = "two programs need a moment to discover each other, and what is sent before that is lost. Wait first:"
 IN_VAIN = ", but no node offers it. Does the server run, and is the name right?"
-NEVER_RAN = "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
+NEVER_RAN = (
+    "but none of its callbacks ever ran. Callbacks run while the node spins: call rclpy.spin(node) in main()."
+)
 THREADS = (
     "the execute callback kept the node busy. Spin the node with a MultiThreadedExecutor, or let execute await a "
     "pause instead of time.sleep."
@@ -23,53 +25,106 @@ DROPPED = "was started with a value for the parameter {}, which it doesn't decla
 
 SERVICE_CAUSES = {
     (misfits.launch_with_a_slip,): f"/wheel {DROPPED.format('`radios`')} Did you mean `radius`?",
-    (misfits.launch_with_another_parameter,): f"/wheel {DROPPED.format('`mass`')} It declares `radius`, `name`.",
+    (
+        misfits.launch_with_another_parameter,
+    ): f"/wheel {DROPPED.format('`mass`')} It declares `radius`, `name`.",
     (misfits.launch_with_a_parameter_for_none,): f"/adder {DROPPED.format('`mass`')} It declares none.",
     (misfits.MisspeltService, services.done_callback): SLIP.format("/adder offers /ad")
     + "Is /ad a typing slip? Did you mean /add?",
-    (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format("/robot1/adder offers /robot1/add")
+    (misfits.ServiceInNamespace, services.until_future_complete): SLIP.format(
+        "/robot1/adder offers /robot1/add"
+    )
     + "Only the namespace differs: write /add. A name that starts with a slash is taken as it is; without the slash "
     "the node's namespace is put before it.",
-    (misfits.MisspeltAction, goals.asks_nobody): "/client calls /fibonacci, /server offers /fibonaci: two different "
+    (
+        misfits.MisspeltAction,
+        goals.asks_nobody,
+    ): "/client calls /fibonacci, /server offers /fibonaci: two different "
     "actions. Is /fibonaci a typing slip? Did you mean /fibonacci?",
     (services.until_future_complete,): f"/customer has a client for the service /add{IN_VAIN}",
     (services.nobody_answers,): f"/customer has a client for the service /add{IN_VAIN}",
     (goals.asks_nobody,): f"/client has a client for the action /fibonacci{IN_VAIN}",
-    (services.Wheel, misfits.asks_another_node): "/asker calls get_parameters of the node /wheels, but there are only "
-    "/wheel, /asker.",
-    (services.done_callback, services.late_adder): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
+    (
+        services.Wheel,
+        misfits.asks_another_node,
+    ): "/asker calls get_parameters of the node /wheels, but there are only /wheel, /asker.",
+    (
+        services.done_callback,
+        services.late_adder,
+    ): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
     "`while not client.wait_for_service(timeout_sec=1.0)`.",
-    (services.Adder, callers.AsksAtOnce): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
+    (
+        services.Adder,
+        callers.AsksAtOnce,
+    ): f"/customer called /add at 0 s, before it had found /adder: {FIRST} "
     "`while not client.wait_for_service(timeout_sec=1.0)`.",
-    (goals.asks_nobody, actions.late_server): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
+    (
+        goals.asks_nobody,
+        actions.late_server,
+    ): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
     "`while not client.wait_for_server(timeout_sec=1.0)`.",
-    (actions.Server, goals.AsksAtOnce): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
+    (
+        actions.Server,
+        goals.AsksAtOnce,
+    ): f"/client called /fibonacci at 0 s, before it had found /server: {FIRST} "
     "`while not client.wait_for_server(timeout_sec=1.0)`.",
     (misfits.adder_that_nobody_spins, services.done_callback): "/adder has a service with requests waiting, "
     + NEVER_RAN,
-    (misfits.server_that_nobody_spins, actions.Client): f"/server has an action with goals waiting, {NEVER_RAN}",
-    (services.Adder, callers.never_spins): "/customer called /add at 0 s, and the answer came at 0 s, but /customer "
-    + SPIN,
-    (actions.Server, goals.never_spins): "/client called /fibonacci at 0 s, and the answer came at 0 s, but /client "
-    + SPIN,
-    (goals.JudgesWithTrue, actions.Client): "A goal callback returned something else than a GoalResponse, and so the "
+    (
+        misfits.server_that_nobody_spins,
+        actions.Client,
+    ): f"/server has an action with goals waiting, {NEVER_RAN}",
+    (
+        services.Adder,
+        callers.never_spins,
+    ): "/customer called /add at 0 s, and the answer came at 0 s, but /customer " + SPIN,
+    (
+        actions.Server,
+        goals.never_spins,
+    ): "/client called /fibonacci at 0 s, and the answer came at 0 s, but /client " + SPIN,
+    (
+        goals.JudgesWithTrue,
+        actions.Client,
+    ): "A goal callback returned something else than a GoalResponse, and so the "
     "goal was rejected: return GoalResponse.ACCEPT or GoalResponse.REJECT.",
-    (actions.Forgetful, actions.Client): "The execute callback of /fibonacci returned without saying how the goal "
+    (
+        actions.Forgetful,
+        actions.Client,
+    ): "The execute callback of /fibonacci returned without saying how the goal "
     "ended, which counts as aborted: call goal_handle.succeed() before you return the result.",
-    (actions.Server, actions.Impatient): "/client asked at 1.5 s to cancel its goal, and /server heard it only at 3 s: "
-    + THREADS,
-    (goals.Busy, actions.Impatient): f"/client asked at 1.5 s to cancel its goal, and /server never heard it: {THREADS}",
+    (
+        actions.Server,
+        actions.Impatient,
+    ): "/client asked at 1.5 s to cancel its goal, and /server heard it only at 3 s: " + THREADS,
+    (
+        goals.Busy,
+        actions.Impatient,
+    ): f"/client asked at 1.5 s to cancel its goal, and /server never heard it: {THREADS}",
     (goals.parallel(goals.IgnoresCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
     f"/fibonacci, and went on until it succeeded at 3 s. {LOOK}",
-    (goals.parallel(goals.AbortsOnCancel), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of "
+    (
+        goals.parallel(goals.AbortsOnCancel),
+        actions.Impatient,
+    ): "/server agreed at 1.5 s to cancel the goal of "
     f"/fibonacci, and went on until it was aborted at 2 s. {LOOK}",
-    (goals.parallel(goals.Busy), actions.Impatient): "/server agreed at 1.5 s to cancel the goal of /fibonacci, and "
-    f"went on all the same. {LOOK}",
-    (goals.parallel(goals.AlwaysRejectsCancel), actions.Impatient): "/server refused at 1.5 s to cancel the goal of "
+    (
+        goals.parallel(goals.Busy),
+        actions.Impatient,
+    ): f"/server agreed at 1.5 s to cancel the goal of /fibonacci, and went on all the same. {LOOK}",
+    (
+        goals.parallel(goals.AlwaysRejectsCancel),
+        actions.Impatient,
+    ): "/server refused at 1.5 s to cancel the goal of "
     "/fibonacci. Without a cancel_callback an ActionServer always refuses: give it one that returns "
     "CancelResponse.ACCEPT.",
-    (misfits.NeverSetsTheSum, services.done_callback): "Every answer of /add is empty: its callback never sets a field "
+    (
+        misfits.NeverSetsTheSum,
+        services.done_callback,
+    ): "Every answer of /add is empty: its callback never sets a field "
     "of the response. Set them before you return it, as in `response.sum = ...`.",
-    (services.SlowAdder, misfits.NobodyHears): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
+    (
+        services.SlowAdder,
+        misfits.NobodyHears,
+    ): "/customer called /add at 1 s, and the answer came at 1.5 s, but nothing "
     "took it: `call_async(request).add_done_callback(self.hear)` names the method that hears it.",
 }

@@ -127,6 +127,6 @@ def test_an_error_that_left_nothing_but_its_end_is_told():
 def test_an_error_in_a_package_that_was_installed_names_the_line_there():
     file = "/home/ada/ws/install/my_pkg/lib/python3.12/site-packages/my_pkg/talker.py"
     trace = f'  File "{file}", line 12, in tick\n    1 / 0\nZeroDivisionError: division by zero\n'
-    assert where(CallbackError(0.5, "/talker", "Talker.tick", "ZeroDivisionError", "division by zero", trace)) == (
-        "in Talker.tick, line 12, at 0.5 s"
-    )
+    assert where(
+        CallbackError(0.5, "/talker", "Talker.tick", "ZeroDivisionError", "division by zero", trace)
+    ) == ("in Talker.tick, line 12, at 0.5 s")

@@ -205,7 +205,10 @@ ADVICE = {
     (RaisesForNoSum, Hears): NO + "answer: set its fields, and return the response.",
     (SlipsInAService,): GENERAL,
     (RaisesInATimer,): GENERAL,
-    (Tuner, RaisesForABadValue): "An exception doesn't refuse anything, it ends the node. To refuse a value, return "
+    (
+        Tuner,
+        RaisesForABadValue,
+    ): "An exception doesn't refuse anything, it ends the node. To refuse a value, return "
     'SetParametersResult(successful=False, reason="...").',
     (SlowAdder, TakesTheResultAtOnce): TOO_EARLY.format("call_async"),
     (SlowAdder, CallsTheDoneCallback): TOO_EARLY.format("call_async"),
@@ -213,19 +216,33 @@ ADVICE = {
     (Server, TakesTheResultOfAGoalAtOnce): TOO_EARLY.format("get_result_async"),
     (SendsAParameter,): "get_parameter() gives a parameter, which holds a value: write "
     "self.get_parameter('name').value.",
-    (SendsAWrongValue,): "`data` takes a number with a decimal point: set `msg.data = 1.0`, not `1`; `float(value)` "
-    "converts.",
-    (CallsItsCallback,): "`look` is called there without all that it needs. A callback is handed over without brackets, "
+    (
+        SendsAWrongValue,
+    ): "`data` takes a number with a decimal point: set `msg.data = 1.0`, not `1`; `float(value)` converts.",
+    (
+        CallsItsCallback,
+    ): "`look` is called there without all that it needs. A callback is handed over without brackets, "
     "`self.look`. And a star unpacks a pair: `self.look(*pair)`.",
-    (HandsAPairOver,): "`drive` is called there without all that it needs. A callback is handed over without brackets, "
+    (
+        HandsAPairOver,
+    ): "`drive` is called there without all that it needs. A callback is handed over without brackets, "
     "`self.drive`. And a star unpacks a pair: `self.drive(*pair)`.",
-    (GivesNothingBack,): "`data` takes a number with a decimal point, such as 1.0, and gets what `nearest` gives back: "
+    (
+        GivesNothingBack,
+    ): "`data` takes a number with a decimal point, such as 1.0, and gets what `nearest` gives back: "
     "does every way through it end with `return` and one such number? `print` shows what comes.",
-    (SlicesPastTheEnd,): "`[-35:36]` is empty: a slice doesn't go on from the end of a list to its beginning. Join two "
+    (
+        SlicesPastTheEnd,
+    ): "`[-35:36]` is empty: a slice doesn't go on from the end of a list to its beginning. Join two "
     "parts: `[*msg.ranges[-35:], *msg.ranges[:36]]`.",
-    (SlowAdder, ReadsNothingWhileAskingElsewhere): "What stands before `.sum` is None: it was never set, or comes from a "
-    "function without `return`.",
-    (SlowAdder, HearsWithoutTheFuture): "A done callback is called with the future: write `def hear(self, future):`.",
+    (
+        SlowAdder,
+        ReadsNothingWhileAskingElsewhere,
+    ): "What stands before `.sum` is None: it was never set, or comes from a function without `return`.",
+    (
+        SlowAdder,
+        HearsWithoutTheFuture,
+    ): "A done callback is called with the future: write `def hear(self, future):`.",
 }
 
 
@@ -240,7 +257,9 @@ def test_an_error_in_a_check_of_parameters_names_the_students_own_method():
     assert fault.saw == f"ValueError: not this one (in check, line {line}, at 0.5 s)"
 
 
-@pytest.mark.parametrize("nodes", [(SlowAdder, Hears), (Adder, misfits.NobodyHears)], ids=["taken", "at once"])
+@pytest.mark.parametrize(
+    "nodes", [(SlowAdder, Hears), (Adder, misfits.NobodyHears)], ids=["taken", "at once"]
+)
 def test_an_answer_that_may_have_been_taken_is_not(nodes):
     assert explain(record(*nodes)) == ""
 

@@ -35,7 +35,9 @@ class Control(Node):
     def __init__(self):
         super().__init__("control")
 """
-ENDS_LATER = IDLE + """
+ENDS_LATER = (
+    IDLE
+    + """
 import ctypes
 
 class Control(Node):
@@ -47,6 +49,26 @@ class Control(Node):
         if Control.made == 2:
             ctypes.string_at(0)
 """
+)
+
+
+ROLLS = (
+    IDLE
+    + """
+from geometry_msgs.msg import Twist
+
+class Control(Node):
+    def __init__(self):
+        super().__init__("control")
+        self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
+        self.create_timer(0.1, self.roll)
+
+    def roll(self):
+        command = Twist()
+        command.linear.x = 0.1
+        self.publisher.publish(command)
+"""
+)
 
 
 def robot() -> str:

@@ -26,6 +26,7 @@ from tests.marking.league.capstones import (
     ENDS_LATER,
     IDLE,
     PROGRAMS,
+    ROLLS,
     classroom,
     robot,
     write,
@@ -136,6 +137,25 @@ def test_other_warehouses_are_played_anew(league, tmp_path, capsys):
         seeds.append(Journal(other / "class" / "league" / ASSIGNMENT).settings()["contest"]["seed"])
     assert seeds[0] == seeds[1] != seeds[2]
     assert re.findall(r"(\d) played now, 1 in all", capsys.readouterr().out) == ["1", "0", "1"]
+
+
+def test_robots_work_together_with_one_set_of_programs(league, tmp_path):
+    ways = {}
+    for robots, caged in ((1, False), (2, False), (2, True)):
+        course = classroom(tmp_path / f"{robots} {caged}", {"ida": ROLLS})
+        words = ["--seed", "words", "--robots", str(robots)]
+        if caged:
+            with contextlib.chdir(course):
+                assert main([*(word for word in SHORT if word != "--unsafe"), *words]) == 0
+        else:
+            assert league(course, *words) == 0
+        games = json.loads(kept(course / "class")["ida"])["notebooks"][0]["cells"][0]["games"]
+        ways[robots, caged] = [(game["way"], game["digest"]) for game in games]
+    assert ways[2, False] == ways[2, True]
+    for (alone, _), (together, _) in zip(ways[1, False], ways[2, True], strict=True):
+        assert together == pytest.approx(2 * alone, rel=0.01) and alone > 0.3
+    table = pages(course / "class" / "league")[INDEX]
+    assert "<p>2 warehouses, 4 s in each with 2 robots, the same for everybody." in table
 
 
 class Interrupted:

@@ -26,9 +26,7 @@ def test_an_executor_may_hand_callbacks_to_pools_of_its_own():
 
 def test_what_a_callback_raises_leaves_spin():
     recording = run(executors.raises, seconds=2, quiet=True)
-    assert raised(recording) == [
-        (0.5, "/raising", "<lambda>", "ZeroDivisionError", "division by zero")
-    ]
+    assert raised(recording) == [(0.5, "/raising", "<lambda>", "ZeroDivisionError", "division by zero")]
 
 
 def test_waiting_for_callbacks_ends_as_rclpys_does():

@@ -117,9 +117,7 @@ def test_a_goal_can_be_executed_later():
 
 def test_a_goal_that_nobody_takes_has_only_been_asked():
     recording = recorded(goals.asks_nobody)
-    assert [(way(goal), goal.events) for goal in recording.goals] == [
-        (("/client", "", 0.0, None, None), [])
-    ]
+    assert [(way(goal), goal.events) for goal in recording.goals] == [(("/client", "", 0.0, None, None), [])]
     assert recording.goals[0].status == ""
 
 

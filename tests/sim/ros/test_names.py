@@ -82,7 +82,7 @@ def test_a_parameter_of_a_program_is_read_as_it_was_given(given, read):
 
 
 def test_two_of_a_kind_are_told_apart_by_namespace():
-    pair = [Process(names.Talker, namespace=f"/robot{number}") for number in (1, 2)]
+    pair = [Process(names.Talker, namespace=name) for name in ("/robot1", "robot2")]
     recording = run(*pair, seconds=1, quiet=True)
     assert recording.topics == {
         "/robot1/chatter": "std_msgs/msg/String", "/robot2/chatter": "std_msgs/msg/String",

@@ -11,8 +11,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from warehouse_msgs.msg import Order
 
-from sim import World, run, since_start
-from sim.world import BatteryModel, WarehouseModel
+from sim import Process, Recording, World, run, since_start
+from sim.world import BatteryModel, Box, OtherRobot, WarehouseModel
 
 KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 WAITING, PICKED_UP, DELIVERED, EXPIRED, CANCELED = range(5)
@@ -209,3 +209,37 @@ def test_a_lidar_can_be_silent_for_a_while():
     pauses = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > 0.1]
     assert pauses == [(0.95, 2.5), (3.95, 5.0)]
     assert len(recording.messages("/odom")) == 121
+
+
+class Stands(Node):
+    """Takes what comes where it stands."""
+
+    def __init__(self):
+        super().__init__("stands")
+
+
+def test_two_robots_share_the_orders_and_each_says_whose_it_is():
+    other = OtherRobot("two", (0.0, 0.0, 0.0), charger=(1.5, 0.5))
+    floor = dataclasses.replace(FLOOR, start=(0, 0.6, 0), robots=(other,))
+    recording = run(Stands, Process(Shuttle, namespace="two"), world=floor, seconds=40, quiet=True)
+    who = {(item.message.status, item.message.robot) for item in recording.messages("/orders")}
+    assert who == {(WAITING, ""), (PICKED_UP, "two"), (DELIVERED, "two")}
+    docks = [recording.messages(name)[0].message for name in ("/dock_pose", "/two/dock_pose")]
+    assert [(dock.pose.position.x, dock.pose.position.y) for dock in docks] == [(0.0, 0.0), (1.5, 0.5)]
+    frames = [
+        (transform.header.frame_id, transform.child_frame_id)
+        for item in recording.messages("/tf_static", sender="/map_server")
+        for transform in item.message.transforms
+    ]
+    assert frames == [("map", "odom"), ("map", "two/odom")]
+
+
+def test_what_other_robots_touch_is_kept(tmp_path):
+    other = OtherRobot("two", (2.0, 0.0, 0.0))
+    floor = dataclasses.replace(FLOOR, robots=(other,), boxes=(Box(2.5, 0, 0, 0.2, 1),), battery=None)
+    recording = run(Process(Shuttle, namespace="two"), world=floor, seconds=4, quiet=True)
+    (touch,) = recording.other_contacts["two"]
+    assert (recording.contacts, touch.what) == ([], "box")
+    assert recording.during(0, touch.stamp).other_contacts == {"two": []}
+    recording.save(tmp_path / "two.mcap")
+    assert Recording.load(tmp_path / "two.mcap").other_contacts == recording.other_contacts

@@ -34,8 +34,7 @@ def test_the_domain_where_somebody_is_gets_named(sockets):
     )
     sockets()
     assert domains.note(42) == (
-        "Nobody is on ROS domain 42 of this machine: start a node in another terminal, with"
-        " ROS_DOMAIN_ID=42"
+        "Nobody is on ROS domain 42 of this machine: start a node in another terminal, with ROS_DOMAIN_ID=42"
     )
 
 

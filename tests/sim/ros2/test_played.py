@@ -92,8 +92,9 @@ def test_publishing_without_end_ends_after_five_seconds_of_the_play(playing):
     [
         (
             "topic pub --once /levle std_msgs/msg/Float64",
-            NOBODY + 2 * "Waiting for at least 1 matching subscription(s)...\n" +
-            "Nothing came of it within 2.1 s of the play.\n",
+            NOBODY
+            + 2 * "Waiting for at least 1 matching subscription(s)...\n"
+            + "Nothing came of it within 2.1 s of the play.\n",
         ),
         (
             "topic pub --once --max-wait-time-secs 0.3 /levle std_msgs/msg/Float64",

@@ -1,13 +1,14 @@
 """Warehouses from seeds: every place can be reached, and whoever walks there has room to walk."""
 
 import dataclasses
+import itertools
 import json
 import math
 
 import numpy as np
 import pytest
 
-from sim.world import Simulation, World, WorldError
+from sim.world import OtherRobot, Simulation, World, WorldError
 from sim.world.battery import NEAR
 from sim.world.clearance import clearance
 from sim.world.route import Route
@@ -82,8 +83,15 @@ def test_a_warehouse_holds_what_it_was_asked_for():
             {"movable": 7},
             "A generated warehouse cannot be: movable is 7; write at most 6, one for each shelf.",
         ),
+        (
+            {"robots": 4},
+            "A generated warehouse cannot be: robots is 4; write a whole number from 1 to 3.",
+        ),
         ({"rows": 9}, "A generated warehouse cannot be: rows is 9; write a whole number from 1 to 8."),
-        ({"shelfs": 9}, "A generated warehouse has no 'shelfs'. There are columns, rows, movable, people."),
+        (
+            {"shelfs": 9},
+            "A generated warehouse has no 'shelfs'. There are columns, rows, movable, people, robots.",
+        ),
     ],
 )
 def test_warehouses_that_cannot_be_generated(change, sentence):
@@ -131,3 +139,39 @@ def test_what_lies_outside_is_refused(worlds, key, change, what):
         World.from_data(data)
     assert str(caught.value).startswith(f"the world: {key} is ")
     assert str(caught.value).endswith(f"...; write {what} that lie inside the bounds.")
+
+
+def test_each_robot_has_a_charger_where_it_begins():
+    for seed in SEEDS:
+        world = World.generate("warehouse", seed=seed, rows=1 + seed % 3, movable=2, robots=3)
+        assert list(world.starts()) == ["robot", "robot_2", "robot_3"]
+        assert world.chargers == {name: start[:2] for name, start in world.starts().items()}
+        places = [*world.places().values()]
+        assert places[1:3] == [world.chargers["robot_2"], world.chargers["robot_3"]]
+        assert min(math.dist(a[:2], b[:2]) for a, b in itertools.combinations(places, 2)) > 0.4
+        spots = np.array([place[:2] for place in places[:3]])
+        for boxes in (world.boxes, world.movable):
+            there = dataclasses.replace(world, boxes=boxes)
+            assert clearance(there, *spots.T).min() > world.robot.radius + 0.05
+        alone = World.generate("warehouse", seed=seed, rows=1 + seed % 3, movable=2)
+        assert dataclasses.replace(world, robots=(), card=alone.card) == alone
+    assert "robot_3 at its own, at x 2, y 0.3." in world.card
+    assert "and /orders (warehouse_msgs/Order). robot_2 has its own under /robot_2. robot_3" in world.card
+
+
+def test_people_walk_past_the_robots_that_charge():
+    for seed in range(12):
+        simulation = Simulation(World.generate("warehouse", seed=seed, robots=3, movable=0))
+        alone = Simulation(World.generate("warehouse", seed=seed, movable=0))
+        for each in (simulation, alone):
+            each.advance(60)
+        assert simulation.poses[-1] == alone.poses[-1]
+        assert all(robot.battery.current >= 0 for robot in simulation.robots.values())
+
+
+def test_a_charger_of_a_robot_without_a_battery_is_refused():
+    other = OtherRobot("two", (0, 0, 0), charger=(1, 1))
+    with pytest.raises(WorldError) as caught:
+        World(*("floor", "", (-1, -1, 3, 1), (0, 0, 0)), robots=(other,))
+    sentence = "write no charger for two, where robots have no battery."
+    assert str(caught.value).endswith(sentence)

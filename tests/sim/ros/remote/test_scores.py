@@ -11,9 +11,7 @@ from tests.sim.ros.remote.tables import earned, exercises, judge, right, wrong
 
 
 def rows(pairs):
-    return [
-        pytest.param(*pair, marks=[pytest.mark.soak] if is_long(judge(*pair)) else []) for pair in pairs
-    ]
+    return [pytest.param(*pair, marks=[pytest.mark.soak] if is_long(judge(*pair)) else []) for pair in pairs]
 
 
 @pytest.mark.parametrize(("assignment", "exercise"), rows(exercises()))
