@@ -27,19 +27,19 @@ def incompatible_qos(recording: Recording) -> str:
 
 
 def publisher_for_each_message(recording: Recording, topic: str | None = None) -> str:
-    """A publisher that is made for one message, which comes before anybody has found it. topic: or of all."""
-    made = Counter(
-        (end.node, end.name)
-        for end in recording.graph.publishers(topic)
-        if not end.ours and end.qos.get("durability") != "transient_local"
-    )
+    """Publishers that are made for a message each, most of which come before anybody has found them.
+
+    topic: one, or all. Who waits before it publishes is heard, and is not meant.
+    """
+    made = Counter((end.node, end.name) for end in recording.graph.publishers(topic) if not end.ours)
     for (node, name), publishers in made.items():
-        messages = len(recording.messages(name, node))
-        if publishers >= messages > 1:
+        messages = recording.messages(name, node)
+        lost = sum(heard.early for heard in messages)
+        if publishers > 1 and lost > max(1, len(messages) / 2):
             return (
-                f"{node} made {publishers} publishers on {name} for {messages} messages. Two programs need a"
-                " moment to discover each other, and what a new publisher sends at once is lost: make it"
-                " once, in __init__, and publish with it again and again."
+                f"{node} made {publishers} publishers on {name} for {len(messages)} messages. Two programs"
+                " need a moment to discover each other, and what a new publisher sends at once is lost: make"
+                " it once, in __init__, and publish with it again and again."
             )
     return ""
 

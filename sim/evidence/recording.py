@@ -197,7 +197,7 @@ class Recording:
         for heard in self.heard:
             digest.update(
                 f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
-                f"{len(heard.raw)} ".encode()
+                f"{heard.early} {len(heard.raw)} ".encode()
             )
             digest.update(heard.raw)
         for exchange in (*self.calls, *self.goals):

@@ -20,6 +20,7 @@ class Heard(NamedTuple):
     sender: str  # fully qualified name of the node, e.g. "/talker"
     raw: bytes
     ours: bool = False  # the program that made the publisher is not the student's, whatever its node's name
+    early: bool = False  # sent as its publisher was made, and not latched: no other program can have heard it
 
     @property
     def message(self) -> Any:

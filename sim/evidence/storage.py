@@ -69,13 +69,13 @@ def _unpack(data: bytes) -> dict[str, Any]:
 
 def _write_messages(writer: Writer, heard: list[Heard]) -> None:
     schemas: dict[str, int] = {}
-    channels: dict[tuple[str, str, str, bool], int] = {}
-    for number, (stamp, topic, type_, sender, raw, ours) in enumerate(heard):
+    channels: dict[tuple[str, str, str, bool, bool], int] = {}
+    for number, (stamp, topic, type_, sender, raw, ours, early) in enumerate(heard):
         if type_ not in schemas:
             schemas[type_] = writer.register_schema(type_, "ros2msg", definition(type_).encode())
-        key = (topic, type_, sender, ours)
+        key = (topic, type_, sender, ours, early)
         if key not in channels:
-            about = {"sender": sender, "ours": "yes" if ours else "no"}
+            about = {"sender": sender, "ours": "yes" if ours else "no", "early": "yes" if early else "no"}
             channels[key] = writer.register_channel(topic, "cdr", schemas[type_], about)
         nanoseconds = EPOCH + round(stamp * SECOND)
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
@@ -117,6 +117,7 @@ def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
             channel.metadata["sender"],
             message.data,
             channel.metadata["ours"] == "yes",
+            channel.metadata["early"] == "yes",
         )
         for schema, channel, message in reader.iter_messages(log_time_order=False)
     ]

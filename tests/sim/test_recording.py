@@ -16,7 +16,7 @@ from sim.evidence.storage import ATTACHMENT, FORMAT, StorageError
 from sim.nanoseconds import EPOCH
 from sim.ros.messages.codec import encode
 from sim.ros.messages.decoder import decode
-from tests.students.engine import actions, errors, mains, names, services, threads
+from tests.students.engine import actions, errors, mains, names, services, threads, topics
 
 CALL = Call("/add", "example_interfaces/srv/AddTwoInts", "/customer", b"\0\1\0\0", 1.0)
 CALLS = [CALL, replace(CALL, asked=1.1), replace(CALL, raw_response=b"\0"), replace(CALL, raised="KeyError")]
@@ -47,7 +47,7 @@ def driven():
 
     programs = [
         mains.classic, names.LatchedTalker, services.Adder, services.done_callback, actions.Server,
-        actions.Client, errors.InTimer, threads.queues, prints,
+        actions.Client, errors.InTimer, threads.queues, prints, topics.SaysItAtOnce,
     ]  # fmt: skip
     return run(*programs, world="room", seconds=3, seed=5, quiet=True)
 
@@ -109,7 +109,8 @@ def test_the_digest_depends_on_all_evidence_and_not_on_what_was_printed():
     assert plain.digest == Recording(heard=[heard], prints=[(1.0, "x")], stderr="y").digest
     others = [
         Recording(heard=[heard._replace(stamp=1.1)]), Recording(heard=[heard._replace(topic="/c")]),
-        Recording(heard=[heard._replace(sender="/d")]), Recording(heard=[heard._replace(raw=b"\0\1\0\0\1")]),
+        Recording(heard=[heard._replace(sender="/d")]), Recording(heard=[heard._replace(early=True)]),
+        Recording(heard=[heard._replace(raw=b"\0\1\0\0\1")]),
         Recording(heard=[heard, heard]), Recording(heard=[heard], ended=Ended("goal", 1.0, "")),
         Recording(heard=[heard], seed=1), Recording(heard=[heard], seconds=1),
         *(Recording(heard=[heard], calls=[call]) for call in CALLS),
@@ -128,6 +129,7 @@ def test_a_saved_recording_comes_back_equal(driven, tmp_path):
     assert again.world == driven.world and again.contacts == driven.contacts
     assert again.graph.publishers("/count") == driven.graph.publishers("/count")
     assert again.prints == [(0.0, "hello"), (0.0, "\n")]
+    assert {heard.early for heard in again.messages("/words")} == {True, False}
     assert again.calls == driven.calls and again.calls[0].response.sum == 5
     assert again.goals == driven.goals and again.goals[0].feedback[0].message.sequence[2] == 1
 

@@ -115,6 +115,18 @@ class NewPublisherEachTime(Node):
         self.create_publisher(String, "/chatter", 10).publish(String(data="hello"))
 
 
+class NewPublisherForTheNextMessage(NewPublisherEachTime):
+    """All have found it by the time that message comes; nothing is wrong with it."""
+
+    def __init__(self):
+        super().__init__()
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+
+    def tick(self):
+        self.publisher.publish(String(data="hello"))
+        self.publisher = self.create_publisher(String, "/chatter", 10)
+
+
 class NewPublisherThatLatches(NewPublisherEachTime):
     """What it says is there for all who come later; nothing is wrong with it."""
 

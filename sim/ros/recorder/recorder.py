@@ -156,12 +156,12 @@ class Recorder:
             )
         self.sent += 1  # not before: the guard must see that code which swallows the Livelock is stuck
 
-    def message(self, topic: str, type_: str, sender: str, raw: bytes, ours: bool) -> None:
+    def message(self, topic: str, type_: str, sender: str, raw: bytes, ours: bool, early: bool) -> None:
         """A message was published; its bytes are canonical. Raises Livelock for too many."""
         if not self.open:
             return
         self.count(sender, len(raw))
-        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours, early))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""

@@ -36,11 +36,12 @@ class Gone(NamedTuple):
 
 
 class Message(NamedTuple):
-    """A message was published; on a topic of an action by nobody in particular."""
+    """A message was published; on a topic of an action by nobody in particular. early: as of `Heard`."""
 
     node: str
     topic: str
     raw: str
+    early: bool
 
 
 class Arrived(NamedTuple):

@@ -92,12 +92,12 @@ class Link:
     def _gather_messages(self) -> None:
         for heard in self._heard.take():
             if self.crosses(heard):
-                self.news.append(Message(heard.sender, heard.topic, packed(heard.raw)))
+                self.news.append(Message(heard.sender, heard.topic, packed(heard.raw), heard.early))
         self.news += self.puppets.arrivals
         self.puppets.arrivals.clear()
         for part in self.puppets.listening:
             while (raw := part.take()) is not None:
-                self.news.append(Message("", part.name, packed(raw)))
+                self.news.append(Message("", part.name, packed(raw), False))
 
     def crosses(self, heard: Heard) -> bool:
         """Whether the other side has to know of a message of this side."""
@@ -169,7 +169,7 @@ class Link:
             self.puppets.remove(number)
 
     def _message(self, event: Message) -> None:
-        publisher = self._publisher(event, "a message")
+        publisher = self._publisher(event, "a message", newest=bool(event.early))
         bytes_ = self.unpacked(event.raw, publisher)
         if publisher.of_action:
             publisher.handle.publish_raw(bytes_)
@@ -179,9 +179,9 @@ class Link:
     def _alive(self, event: Alive) -> None:
         self._publisher(event, "a sign of life").writer.sign()
 
-    def _publisher(self, event: Message | Alive, what: str) -> PuppetPublisher:
+    def _publisher(self, event: Message | Alive, what: str, *, newest: bool = False) -> PuppetPublisher:
         node, topic = text(event.node, "a node's name", MOST_NAME), text(event.topic, "a topic", MOST_NAME)
-        publisher = self.puppets.publisher(node, topic)
+        publisher = self.puppets.publisher(node, topic, newest=newest)
         if publisher is None:
             raise Nonsense(f"{what} on {topic!r}, where {node!r} has no publisher")
         return publisher

@@ -217,10 +217,10 @@ class Puppets:
                 self.nodes.pop(key).destroy()
         self._engine.endpoints_changed()
 
-    def publisher(self, node: str, topic: str) -> PuppetPublisher | None:
-        """The publisher of this node on a topic; of any node, for a topic of an action."""
+    def publisher(self, node: str, topic: str, *, newest: bool = False) -> PuppetPublisher | None:
+        """The oldest or newest publisher of this node on a topic; of any node, for a topic of an action."""
         found = [part for part in self.publishers.get(topic, ()) if part.of_action or part.node.name == node]
-        return found[0] if found else None
+        return found[-newest] if found else None
 
     def client(self, node: str, service: str) -> PuppetClient | None:
         """The client of a service that this node has; of any node, for a service of an action."""

@@ -12,6 +12,7 @@ from sim import run
 from sim.evidence import Ended, Endpoint, Graph
 from tests.grader.recordings import published, recording
 from tests.students import misfits
+from tests.students.topics import temperature
 
 
 def ticks(stamps, message=None):
@@ -64,6 +65,14 @@ def test_a_rate_misses_messages_that_nobody_can_hear():
     miss = missed(rate, recorded, "/chatter", 1.0)
     assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that nobody can hear")
     assert miss.hint.startswith("/talker made 5 publishers on /chatter for 5 messages. Two programs need")
+
+
+@pytest.mark.parametrize("talker", [misfits.NewPublisherForTheNextMessage, temperature.NewPublisherThatWaits])
+def test_a_rate_takes_new_publishers_that_were_found_before_they_speak(talker):
+    recorded = run(talker, seconds=5.4, quiet=True)
+    (topic,) = recorded.topics
+    assert len(recorded.graph.publishers(topic)) >= len(recorded.messages(topic)) == 5
+    assert rate(recorded, topic, 1.0) == pytest.approx(1.0)
 
 
 def test_publishes_misses_a_publisher_that_says_nothing():

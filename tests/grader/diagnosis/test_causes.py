@@ -117,6 +117,7 @@ def test_a_cause_is_explained(students, sentence):
         ((misfits.Talker, misfits.Listener), None),
         ((misfits.Listener, misfits.SaysItAgain), None),
         ((misfits.NewPublisherThatLatches,), None),
+        ((misfits.NewPublisherForTheNextMessage, misfits.Listener), None),
         ((misfits.Listener, misfits.Talker), "yard"),
         ((misfits.Talker,), "room"),
         ((services.Adder, services.done_callback), "yard"),

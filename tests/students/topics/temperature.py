@@ -88,6 +88,20 @@ class NewPublisherEachTime(Thermometer):
         super().measure()
 
 
+class NewPublisherThatWaits(Thermometer):
+    """Made for each message, and known to all by the time it speaks."""
+
+    def measure(self):
+        publisher = self.create_publisher(self.type, self.topic, 10)
+
+        def speak():
+            publisher.publish(self.type(data=self.read()))
+            self.destroy_timer(timer)
+            self.destroy_publisher(publisher)
+
+        timer = self.create_timer(0.3, speak)
+
+
 class TooWarm(Thermometer):
     def read(self):
         return random.uniform(20.0, 30.0)

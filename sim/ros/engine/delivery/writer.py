@@ -65,7 +65,8 @@ class Writer:
         """Send a message to the subscriptions of its topic, and write it down."""
         raw = canonical(self.type, raw)
         self.send(raw)
-        self.engine.recorder.message(self.topic, self.type, self.sender, raw, self.ours)
+        early = self.engine.now == self.made and not latches(self.profile)
+        self.engine.recorder.message(self.topic, self.type, self.sender, raw, self.ours, early)
 
     def send(self, raw: bytes) -> None:
         """Publish a message's canonical bytes. Raises what rclpy does for a publisher that was destroyed."""

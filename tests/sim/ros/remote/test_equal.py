@@ -36,6 +36,7 @@ ALONE = {
     "actions": ("waiting_client", "blocking_client", "late_server"),
     "goals": ("two_servers", "sends_text", "asks_nobody", "sends_again"),
     "names": ("launches",),
+    "topics": ("SaysItAtOnce", "SaysItAtOnceAndLatches"),
     "launched": ("twice",),
     "output": ("logs_at_every_level", "logs_debug_lines", "odd_texts"),
     "hangs": ("PingPong", "ZeroTimer", "EventNobodySets", "JoinsItself", "GuardCondition"),
@@ -73,6 +74,11 @@ TOGETHER = [
     (("goals", "Later"), ("actions", "Client")),
     (("actions", "Server"), ("goals", "AsksForNoResult")),
 ]
+# What is said before the two have found each other.
+TOO_EARLY = [
+    (("topics", "Hears"), ("topics", "SaysItAtOnce")),
+    (("topics", "SaysItAtOnce"), ("topics", "Hears")),
+]
 
 
 OBSERVERS = "tests.sim.ros.remote.observers"
@@ -107,7 +113,7 @@ def test_a_program_that_lives_elsewhere_is_recorded_as_here(apart, module, name)
     assert evidence(there) == evidence(run(found(module, name), seconds=6, quiet=True))
 
 
-@pytest.mark.parametrize(("ours", "theirs"), TOGETHER)
+@pytest.mark.parametrize(("ours", "theirs"), [*TOGETHER, *TOO_EARLY])
 def test_what_both_sides_say_to_each_other_is_recorded_as_in_one(apart, ours, theirs):
     with apart.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
         there = run(found(*ours), remote, seconds=8, quiet=True)

@@ -28,6 +28,7 @@ def packed(message) -> str:
 
 
 TWIST = packed(Twist())
+TOO_SHORT = base64.b64encode(b"\0\1\0\0\xff\xff\xff\xff").decode()  # a text that would be longer
 TALKS = ["end", 1, 3, "/talker", "publisher", "/chat", "std_msgs/msg/String", QOS]
 ASKS = ["end", 5, 3, "/talker", "client", "/add", "example_interfaces/srv/AddTwoInts", QOS]
 ACTS = ["end", 7, 3, "/talker", "action client", "/fib", "example_interfaces/action/Fibonacci", None]
@@ -116,19 +117,31 @@ def test_who_says_nothing_new_is_fine():
         ([[*TALKS[:7], [-1, *QOS[1:]]]], "a depth that is no whole number from 0 to 100000"),
         ([["gone", [77]]], "the end of something that there is not"),
         ([["gone", 77]], "numbers that are no list"),
-        ([["message", "/talker", "/chat", TWIST]], "a message on '/chat', where '/talker' has no publisher"),
         (
-            [TALKS, ["message", "/robot", "/chat", TWIST]],
+            [["message", "/talker", "/chat", TWIST, False]],
+            "a message on '/chat', where '/talker' has no publisher",
+        ),
+        (
+            [TALKS, ["message", "/robot", "/chat", TWIST, False]],
             "a message on '/chat', where '/robot' has no publisher",
         ),
         ([TALKS, ["alive", "/robot", "/chat"]], "a sign of life on '/chat', where '/robot' has no publisher"),
         ([TALKS, ["arrived", 1, "AA", 0, 1, 0, 0]], "an event of no known kind"),
         ([TALKS, ["sign", 1, "/talker"]], "an event of no known kind"),
-        ([TALKS, ["message", "/talker", "/chat", "AA"]], "a message on /chat that is no std_msgs/msg/String"),
-        ([TALKS, ["message", "/talker", "/chat", 5]], "a message on /chat that is no std_msgs/msg/String"),
-        ([TALKS, ["message", "/talker", "/chat", "é"]], "a message on /chat that is no std_msgs/msg/String"),
         (
-            [TALKS, ["message", "/talker", "/chat", base64.b64encode(b"\0\1\0\0\xff\xff\xff\xff").decode()]],
+            [TALKS, ["message", "/talker", "/chat", "AA", False]],
+            "a message on /chat that is no std_msgs/msg/String",
+        ),
+        (
+            [TALKS, ["message", "/talker", "/chat", 5, False]],
+            "a message on /chat that is no std_msgs/msg/String",
+        ),
+        (
+            [TALKS, ["message", "/talker", "/chat", "é", False]],
+            "a message on /chat that is no std_msgs/msg/String",
+        ),
+        (
+            [TALKS, ["message", "/talker", "/chat", TOO_SHORT, True]],
             "a message on /chat that is no std_msgs/msg/String",
         ),
         ([["ask", 11, "/add", "/talker", TWIST]], "a request to '/add', of which '/talker' has no client"),
@@ -256,7 +269,7 @@ def test_who_is_never_done_with_a_moment_is_given_up():
 
 
 def test_who_floods_gets_a_livelock():
-    hello = ["message", "/talker", "/chat", packed(String(data="hello"))]
+    hello = ["message", "/talker", "/chat", packed(String(data="hello")), False]
     with answering(news(TALKS, *[hello] * 20_001)) as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time move on.")
@@ -292,7 +305,7 @@ def test_who_makes_and_destroys_without_end_is_given_up(monkeypatch):
 
 def test_all_events_of_a_run_have_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.events.ALL_EVENTS", 2)
-    hello = ["message", "/talker", "/chat", packed(String(data="hello"))]
+    hello = ["message", "/talker", "/chat", packed(String(data="hello")), False]
     assert loses(news(TALKS, hello) | {"next": 1}, news(hello)) == sent("more than 2 events")
 
 
