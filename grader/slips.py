@@ -1,4 +1,7 @@
-"""Slips of a name, of a number's type and of a topic's: what the program would have done is worth half."""
+"""Slips of a name, of a number's type and of a topic's: what the program would have done is worth half.
+
+Names are those of topics, services and actions, and of parameters.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +15,14 @@ from typing import Any
 from grader.checks.judge import Verdict
 from grader.diagnosis.names import misspelt
 from grader.diagnosis.other_types import conflict
+from grader.diagnosis.parameters import misspelt_parameter, whole_parameter
 from sim import Process
 from sim.evidence import CallbackError, Heard, Recording
 
 WORTH = 0.5  # of the points
 MOST_AFTER_ANOTHER = 3  # each may hide the next: a name, a type, a number
-OF_NUMBERS = "numbers"
+OF_NUMBERS, OF_PARAMETERS = "numbers", "parameters"
+FORGIVEN = {OF_NUMBERS, OF_PARAMETERS}
 MENDED = "Judged as if the slip above were mended, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
@@ -27,11 +32,15 @@ _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 def slips_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
     """What `mended` has to mend, for the slips that a run and its verdicts show."""
+    failed = any(verdict.status == "failed" for verdict in verdicts)
     pairs = [verdict.slip for verdict in verdicts if verdict.slip]
-    pairs += misspelt(recording) if any(verdict.status == "failed" for verdict in verdicts) else []
-    names = [f"{wrong}:={right}" for wrong, right in pairs]
-    numbers = any(_is_of_numbers(error, recording) for error in recording.errors)
-    return [*dict.fromkeys(names), *([OF_NUMBERS] if numbers else [])]
+    pairs += misspelt(recording) if failed else []
+    slips = [f"{wrong}:={right}" for wrong, right in pairs]
+    if any(_is_of_numbers(error, recording) for error in recording.errors):
+        slips.append(OF_NUMBERS)
+    if failed and (misspelt_parameter(recording) or whole_parameter(recording)):
+        slips.append(OF_PARAMETERS)
+    return list(dict.fromkeys(slips))
 
 
 def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
@@ -44,7 +53,7 @@ def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
 def mended(program: Any, *slips: str) -> Process:
     """A student's program without these slips."""
     process = program if isinstance(program, Process) else Process(program)
-    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip != OF_NUMBERS]
+    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip not in FORGIVEN]
     rules = [(wrong, right) for wrong, right in names]
     rules += [
         (f"{wrong}/_action/{part}", f"{right}/_action/{part}")
@@ -53,7 +62,7 @@ def mended(program: Any, *slips: str) -> Process:
         for part in _PARTS
     ]
     remappings = [*process.remappings, *rules]
-    return replace(process, remappings=remappings, forgiving=OF_NUMBERS in slips)
+    return replace(process, remappings=remappings, forgiving=not FORGIVEN.isdisjoint(slips))
 
 
 def in_what_was_sent(slips: Sequence[str]) -> bool:

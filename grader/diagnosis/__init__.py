@@ -24,6 +24,8 @@ DIAGNOSES = (
     names.typing_slip,
     names.service_slip,
     parameters.unknown_parameter,
+    parameters.misspelt_parameter,
+    parameters.whole_parameter,
     connections.incompatible_qos,
     connections.publisher_for_each_message,
     connections.said_too_early,

@@ -1,10 +1,15 @@
-"""Parameters that a start gives values to, and that no node has."""
+"""Parameters that somebody gives values to or asks for, and that no node has, or has of another kind."""
 
 from __future__ import annotations
 
-from sim.evidence import Recording
-from sim.nearest import nearest
+import re
+from collections.abc import Iterator
 
+from sim.evidence import Call, Recording
+from sim.nearest import closest, nearest
+
+_GET, _SET = "/get_parameters", "/set_parameters"
+_WHOLE = re.compile(r"Wrong parameter type, expected '\S*INTEGER' got '\S*DOUBLE'")
 _OF_EVERY_NODE = ("use_sim_time", "start_type_description_service", "qos_overrides.")
 
 
@@ -27,3 +32,42 @@ def unknown_parameter(recording: Recording) -> str:
                 f"ROS drops that without a word. {meant}"
             )
     return ""
+
+
+def misspelt_parameter(recording: Recording) -> str:
+    """A parameter of the student's with nearly the name by which a node of ours asks for one."""
+    for call in _asked(recording, _GET, _SET):
+        node, request = call.service.rpartition("/")[0], call.request
+        names = request.names if call.service.endswith(_GET) else [one.name for one in request.parameters]
+        declared = {row.name for row in recording.parameters if row.declared and row.node == node}
+        own = [name for name in declared if not name.startswith(_OF_EVERY_NODE)]
+        for name in names:
+            near = "" if name in declared else closest(name, own)
+            if near:
+                return (
+                    f"{call.client} asks for the parameter `{name}` of {node}, which declares `{near}`: "
+                    "write it in the same way everywhere."
+                )
+    return ""
+
+
+def whole_parameter(recording: Recording) -> str:
+    """A parameter of the student's that takes whole numbers only, and is given another by a node of ours."""
+    for call in _asked(recording, _SET):
+        for one, result in zip(call.request.parameters, call.response.results, strict=False):
+            if _WHOLE.search(result.reason):
+                node = call.service.removesuffix(_SET)
+                return (
+                    f"The parameter `{one.name}` of {node} takes whole numbers only, as its default is one, "
+                    f"and ROS refuses {one.value.double_value:g}. Write the default with a decimal point: "
+                    "0.0, not 0."
+                )
+    return ""
+
+
+def _asked(recording: Recording, *services: str) -> Iterator[Call]:
+    """The calls of these services of the student's nodes that ours made, and that were answered."""
+    for call in recording.calls:
+        answered = call.service.endswith(services) and call.response is not None
+        if answered and call.asked_by_us and not call.served_by_us:
+            yield call

@@ -59,7 +59,7 @@ class Recording:
     callbacks: list[CallbackRun] = field(default_factory=list)
     busy_loops: list[BusyLoop] = field(default_factory=list)
     unheard: list[Unheard] = field(default_factory=list)  # the first of each node and topic
-    parameters: list[ParameterName] = field(default_factory=list)  # of nodes that are given some at the start
+    parameters: list[ParameterName] = field(default_factory=list)  # that nodes are given, or declare
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)

@@ -81,7 +81,7 @@ class Unheard(NamedTuple):
 
 
 class ParameterName(NamedTuple):
-    """A parameter of a node that was started with values: one that was given there, or one it declares."""
+    """A parameter of a node: one that it was given a value for as it started, or one that it declares."""
 
     stamp: Seconds
     node: str

@@ -147,9 +147,10 @@ def test_only_numbers_of_the_other_kind_and_names_are_slips():
         ("nodes", "counter", "OtherName"),
         ("actions", "fibonacci", "MisspeltName"),
         ("sensing", "stop", "MisspeltScan"),
+        ("services", "parameters", "ParameterMisspeltEverywhere"),
     ],
 )
-def test_names_of_services_nodes_and_actions_can_be_mended_too(assignment, exercise, student):
+def test_names_of_services_nodes_actions_and_parameters_can_be_mended_too(assignment, exercise, student):
     score = grade(exercise, students(assignment, exercise)[student])
     missed = next(verdict for verdict in score.verdicts if verdict.status == "failed")
     assert missed.earned == missed.points / 2

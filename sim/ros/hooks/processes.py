@@ -10,7 +10,6 @@ from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from sim.ros.engine.callbacks import recorded
 from sim.ros.engine.processes import SharedContext
@@ -92,18 +91,6 @@ def node_init(original: Callable) -> Callable:
         return None
 
     return __init__
-
-
-@hook(Node, "declare_parameters", "the recording knows which values that a start gives are meant for nobody")
-def declare_parameters(original: Callable) -> Callable:
-    def declare_parameters(self: Node, *arguments: Any, **keywords: Any) -> list[Parameter]:
-        made = original(self, *arguments, **keywords)
-        run = engine() if self._parameter_overrides else None
-        if run is not None:
-            run.recorder.parameters(self, [parameter.name for parameter in made], declared=True)
-        return made
-
-    return declare_parameters
 
 
 @hook(

@@ -1,16 +1,21 @@
-"""What a program would have done without a slip: messages take 1 for 1.0, and Float32 passes for Float64."""
+"""What a program would have done without a slip: messages take 1 for 1.0, and Float32 passes for Float64.
+
+And whoever asks for a parameter gets the one of nearly that name, which takes 0.5 where its default is 0.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from numbers import Integral, Real
 from typing import Any
 
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from std_msgs.msg import Float32, Float64
+
+from sim.nearest import closest
 
 _INTERFACES = re.compile(r"\w+\.(msg|srv|action)\._\w+")
 _FLOATS = {"float", "double"}
@@ -80,3 +85,19 @@ def fitting(message: Any, msg_type: Any) -> Any:
     if _wanted and _OTHER.get(type(message)) is msg_type:
         return msg_type(data=message.data)
     return message
+
+
+def real(parameters: Sequence[Any]) -> Sequence[Any]:
+    """What a node declares; whole numbers as real ones, if the program is forgiven that."""
+    if not _wanted:
+        return parameters
+    return [
+        (row[0], float(row[1]), *row[2:]) if len(row) > 1 and type(row[1]) is int else row
+        for row in parameters
+    ]
+
+
+def meant(name: str, declared: Iterable[str]) -> str:
+    """The parameter that is asked for; of a program that is forgiven a slip, the one of nearly that name."""
+    declared = list(declared)
+    return name if not _wanted or name in declared else closest(name, declared) or name

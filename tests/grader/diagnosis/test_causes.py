@@ -4,12 +4,14 @@ import pytest
 
 from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
+from grader.exercises.services.partners import Tuner
 from sim import run
 from tests.grader.diagnosis import test_radio
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES
 from tests.students import misfits, service_misfits
 from tests.students.actions.square import SquareClient
 from tests.students.engine import actions, callers, services
+from tests.students.services import parameters
 
 SLIP = "/talker publishes on {}, /listener listens on /chatter: two different topics. "
 CAUSES = {
@@ -160,9 +162,30 @@ def test_a_name_that_one_of_ours_has_is_told():
     )
 
 
+TUNED = {
+    parameters.ParameterMisspelt: "/tuner asks for the parameter `speed` of /cruiser, which declares `Speed`: "
+    "write it in the same way everywhere.",
+    parameters.WholeNumberMadeReal: "The parameter `speed` of /cruiser takes whole numbers only, as its "
+    "default is one, and ROS refuses 0.41. Write the default with a decimal point: 0.0, not 0.",
+    parameters.Cruiser: "",
+    parameters.NoCallback: "",
+}
+
+
+def tuned(cruiser):
+    """What ours sets its parameter in."""
+    return run(cruiser, companions=[Tuner], world="yard", seconds=4, seed=1, quiet=True)
+
+
+@pytest.mark.parametrize(("cruiser", "sentence"), TUNED.items(), ids=lambda it: getattr(it, "__name__", ""))
+def test_a_parameter_that_ours_ask_for_in_vain_is_explained(cruiser, sentence):
+    assert explain(tuned(cruiser)) == sentence
+
+
 def test_every_diagnosis_is_earned_by_some_students():
     recordings = [run(*students, seconds=10, quiet=True) for students in CAUSES]
     recordings += [namesakes(), run(misfits.Talker, companions=[misfits.Talker], quiet=True)]
+    recordings += map(tuned, TUNED)
     recordings += [test_radio.record(*case[:3]) for case in test_radio.SENTENCES]
     unearned = [d.__name__ for d in DIAGNOSES if not any(d(recording) for recording in recordings)]
     assert unearned == []

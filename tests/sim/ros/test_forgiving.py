@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from std_msgs.msg import Float32, Float64, Int32, String
 
 from sim import Process, run
@@ -89,3 +91,40 @@ def test_a_program_may_be_forgiven_the_other_float():
     for target in (Single, Process(Text, forgiving=True)):
         (error,) = run(target, companions=[Wants], world="joint", seconds=4, quiet=True).errors
         assert (error.type, "with incompatible type" in error.text) == ("RCLError", True)
+
+
+class Setting(Node):
+    def __init__(self):
+        super().__init__("setting")
+        self.declare_parameter("Speed", 0)
+        self.declare_parameters("", [("Count", 2.0), ("flag", True)])
+
+
+class Sets(Node):
+    """Sets and reads a parameter of the other node, under the name that it should have."""
+
+    def __init__(self):
+        super().__init__("sets")
+        self.set = self.create_client(SetParameters, "/setting/set_parameters")
+        self.get = self.create_client(GetParameters, "/setting/get_parameters")
+        self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        value = Parameter("speed", value=0.5).to_parameter_msg()
+        self.set.call_async(SetParameters.Request(parameters=[value]))
+        self.get.call_async(GetParameters.Request(names=["speed", "flag"]))
+
+
+def test_a_parameter_is_found_by_nearly_its_name_and_one_that_begins_at_0_takes_0_5():
+    set_, get = asked(Process(Setting))
+    assert (set_.results[0].successful, get.values) == (False, [])
+    set_, get = asked(Process(Setting, forgiving=True))
+    assert set_.results[0].successful
+    assert [(value.type, value.double_value, value.bool_value) for value in get.values] == [
+        (3, 0.5, False), (1, 0.0, True),
+    ]  # fmt: skip
+
+
+def asked(setting):
+    """The last answers of the two services."""
+    return [call.response for call in run(setting, companions=[Sets], seconds=2, quiet=True).calls[-2:]]

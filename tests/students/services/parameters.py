@@ -82,6 +82,23 @@ class ParameterMisspelt(Cruiser):
         self.publisher.publish(Twist())
 
 
+class ParameterMisspeltEverywhere(Cruiser):
+    """Whoever sets the speed has another name for it."""
+
+    parameter = "sped"
+
+    def check(self, parameters):
+        for parameter in parameters:
+            if parameter.name == "sped" and not 0.0 <= parameter.value <= 0.5:
+                return SetParametersResult(successful=False, reason="from 0.0 to 0.5 m/s")
+        return SetParametersResult(successful=True)
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = self.get_parameter("sped").value
+        self.publisher.publish(msg)
+
+
 class NotDeclared(Cruiser):
     def __init__(self):
         Node.__init__(self, "cruiser")
@@ -95,6 +112,15 @@ class AnotherDefault(Cruiser):
 
 class WholeNumber(Cruiser):
     default = 0
+
+
+class WholeNumberMadeReal(WholeNumber):
+    """ROS refuses all that is set, in place of its own check."""
+
+    def drive(self):
+        msg = Twist()
+        msg.linear.x = float(self.get_parameter("speed").value)
+        self.publisher.publish(msg)
 
 
 class TextForSpeed(Cruiser):
