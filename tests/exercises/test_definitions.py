@@ -40,6 +40,17 @@ def test_each_part_has_its_lines_as_rosidl_understands_them():
         ("\udcff", "bytes that are no text", "Save it as UTF-8."),
         ("---", "1 lines with ---, and 0 should be there", "A message has one part only."),
         ("--- ", "line 1: --- ", f"{DASHES} the parts."),
+        ("---# a", "line 1: ---# a", f"{DASHES} the parts."),
+        (
+            "\ufeffbool a",
+            "a byte order mark at its beginning",
+            "rosidl takes it for a letter of the first word. Save it as UTF-8 without BOM.",
+        ),
+        (
+            "bool\xa0a",
+            "line 1: bool?a",
+            "The ? is a letter that doesn't show, such as a page's own spaces: type the line by hand.",
+        ),
         ("bool a\nbool a", "two lines with the name a", TWICE),
         (f"bool {'a' * 200}", f"line 1: bool {'a' * 195}", LONG),
         ("\n bool a", "line 2:  bool a", "A line begins with its type: delete the spaces before it."),
@@ -75,6 +86,11 @@ def test_what_can_not_be_read_is_told(text, saw, hint, capsys):
     assert missed.value.expected == "msg/A.msg in a form that rosidl can read"
     assert (missed.value.saw, missed.value.hint) == (saw, hint)
     assert capsys.readouterr().err == ""
+
+
+def test_brackets_with_signs_a_mark_of_an_editor_and_windows_ends_of_lines_are_read():
+    text = '\ufeff#[=[ a\r\n]] ) ]=]\r\nset(a [==[b]=] c]==]\r\n  "d")\r\n#[\r\n# ["\r\n'
+    assert read_commands(text.encode()) == [Command("set", ("a", "b]=] c", "d"))]
 
 
 def test_commands_have_their_words_with_variables_put_in():
@@ -136,6 +152,8 @@ crate_interfaces/srv/FindCrates
     ("name", "status"),
     [
         *((name, 0) for name in ("Crates", "ListsOfFiles", "WrittenOtherwise")),
+        *((name, 0) for name in ("SavedOnWindows", "MarkedByAnEditor", "SpacesAndTabs")),
+        *((name, 1) for name in ("MarkedDefinition", "SpaceOfAPage", "CommentAfterDashes")),
         *((name, 1) for name in ("SmallLetters", "TwoSlashes", "NoGroup", "OtherProject")),
         *((name, 1) for name in ("FindsNoGenerators", "FindsNoGeometry", "NoVersion")),
         *((name, 1) for name in ("OneTooMany", "OpenBracket")),

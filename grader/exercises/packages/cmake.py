@@ -13,9 +13,9 @@ from grader.checks import Missed
 
 MOST, LONGEST = 20_000, 5_000  # bytes of the file, characters of a command with its variables
 _TOKEN = re.compile(
-    r"(?P<left>\s+|#\[\[.*?\]\]|#(?!\[\[)[^\n]*)"
+    r"(?P<left>\s+|#\[(?P<signs>=*)\[.*?\](?P=signs)\]|#(?!\[=*\[)[^\n]*)"
     r'|"(?P<quoted>(?:[^"\\]|\\.)*)"'
-    r"|\[\[(?P<bracket>.*?)\]\]"
+    r"|\[(?P<equal>=*)\[(?P<bracket>.*?)\](?P=equal)\]"
     r"|(?P<round>[()])"
     r'|(?P<plain>[^\s()#"]+)',
     re.S,
@@ -37,7 +37,7 @@ def read_commands(data: bytes) -> list[Command]:
         raise _unread(f"{len(data)} bytes", f"More than {MOST} bytes are not read: make it shorter.")
     known: dict[str, str] = {}
     read = []
-    for name, words in _written(data.decode(errors="replace")):
+    for name, words in _written(data.decode("utf-8-sig", errors="replace")):
         command = Command(name, tuple(_put_in(words, known)))
         read.append(command)
         match command:

@@ -17,7 +17,7 @@ PARTS = {
     "srv": ("request", "response"),
     "action": ("goal", "result", "feedback"),
 }
-END = "---"  # the line that ends a part
+END, MARK = "---", "\ufeff"  # the line that ends a part; what some editors put before a text
 MOST, LONGEST = 10_000, 200  # bytes of a definition, characters of a line
 # The same as rosidl's own pattern, which needs for ever to refuse a long name.
 CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
@@ -67,15 +67,18 @@ class _Unread(Exception):
 
 
 def _lines(data: bytes) -> list[str]:
-    """Without comments."""
+    """Without comments; one of dashes as it stands, for there rosidl takes no comment."""
     if len(data) > MOST:
         raise _Unread(f"{len(data)} bytes", f"More than {MOST} bytes are not read: make it shorter.")
     try:
         text = data.decode()
     except UnicodeDecodeError:
         raise _Unread("bytes that are no text", "Save it as UTF-8.") from None
-    lines = [line.partition("#")[0].replace("\t", " ") for line in text.splitlines()]
-    return [line if line.startswith(END) else line.rstrip() for line in lines]
+    if text.startswith(MARK):
+        hint = "rosidl takes it for a letter of the first word. Save it as UTF-8 without BOM."
+        raise _Unread("a byte order mark at its beginning", hint)
+    lines = [line.replace("\t", " ") for line in text.splitlines()]
+    return [line if line.startswith(END) else line.partition("#")[0].rstrip() for line in lines]
 
 
 def _part(lines: list[str], numbers: range, package: str) -> Part:
@@ -101,7 +104,8 @@ def _read(line: str, number: int, package: str) -> Field | Constant:
             return (*read.fields, *read.constants)[0]
         except Exception as error:
             hint = _reason(line, error)
-    raise _Unread(f"line {number}: {line[:LONGEST]}", hint)
+    seen = "".join(letter if letter.isprintable() else "?" for letter in line[:LONGEST])
+    raise _Unread(f"line {number}: {seen}", hint)
 
 
 def _form(line: str) -> str:
@@ -110,6 +114,8 @@ def _form(line: str) -> str:
     name, *value = re.split(r"[\s=]", rest.strip(), maxsplit=1)
     if len(line) > LONGEST:
         return f"A line has at most {LONGEST} characters before its comment."
+    if not line.isprintable():
+        return "The ? is a letter that doesn't show, such as a page's own spaces: type the line by hand."
     if line.startswith(" "):
         return "A line begins with its type: delete the spaces before it."
     if line.startswith(END):

@@ -102,10 +102,26 @@ WrittenOtherwise = but(
     {**RIGHT, CRATE: SPARSE, FIND: RIGHT[FIND].replace("Crate[]", "crate_interfaces/Crate[]")},
 )
 
+SavedOnWindows = Workspace(__name__, {path: text.replace("\n", "\r\n") for path, text in RIGHT.items()})
+MarkedByAnEditor = but(CMAKE, "", f"\ufeff{RIGHT[CMAKE]}", {**RIGHT, XML: f"\ufeff{RIGHT[XML]}"})
+SpacesAndTabs = Workspace(
+    __name__,
+    {**RIGHT, CRATE: re.sub("$", " \t", RIGHT[CRATE], flags=re.M), LIFT: RIGHT[LIFT].replace(" ", "\t")},
+)
+BuiltInItsFolder = Workspace(
+    __name__,
+    RIGHT
+    | {f"crate_interfaces/{place}/COLCON_IGNORE": "" for place in ("build", "install", "log")}
+    | {f"crate_interfaces/build/crate_interfaces/file_{number}": "" for number in range(300)},
+)
+
 NoCMake = but(CMAKE)
 OfPython = but(XML, "<build_type>ament_cmake", "<build_type>ament_python")
 SmallLetters = but(CRATE, files={**RIGHT, "crate_interfaces/msg/crate.msg": RIGHT[CRATE]})
 NoDefinitions = Workspace(__name__, {path: RIGHT[path] for path in (XML, CMAKE)})
+MarkedDefinition = but(CRATE, "uint8 EMPTY", "\ufeffuint8 EMPTY")
+SpaceOfAPage = but(CRATE, "string label", "string\xa0label")
+CommentAfterDashes = but(FIND, "---\n", "---# the answer\n")
 NoDashes = but(FIND, "---\n", "")
 CapitalField = but(CRATE, "float64 mass ", "float64 Mass ")
 ConstantWithoutSign = but(CRATE, "FULL=1", "FULL 1")
