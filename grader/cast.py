@@ -90,8 +90,7 @@ class RemoteCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        function, words = _parts(prepare)
-        self._remote.preparation = [_name(function), *words] if function is not None else []
+        self._remote.preparation = told(prepare)
         return [self._remote]
 
     def package(self, name: str, build_type: str) -> Package | Fault:
@@ -106,7 +105,7 @@ class RemoteCast:
         """As Cast: the other process ends soon, and it is the student's."""
 
 
-def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[str]]:
+def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[Any]]:
     """The function, and its further words."""
     return (prepare.func, prepare.args) if isinstance(prepare, functools.partial) else (prepare, ())
 
@@ -119,6 +118,12 @@ def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:
     """What the other process answers: what it saw instead of programs, and a hint; None when all is well."""
     fault = refusal(nodes)
     return None if fault is None else [fault.saw, fault.hint]
+
+
+def told(prepare: Prepare | None) -> list[Any]:
+    """What tells another process of a preparation: its function's name, and further words; [] for none."""
+    function, words = _parts(prepare)
+    return [] if function is None else [_name(function), *words]
 
 
 def _name(function: Callable[..., Any]) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from grader import seeds
-from grader.cast import Cast, LocalCast, Prepare
+from grader.cast import Cast, LocalCast, Prepare, told
 from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
@@ -24,6 +24,7 @@ offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
 """Set in a process whose nodes another one judges: what `Exercise.grade` does there, and gives."""
 
 Companions = Sequence[Any] | Callable[[int], Sequence[Any]]
+Run = Callable[["Scenario"], Recording]
 
 
 class CompanionError(Exception):
@@ -53,13 +54,16 @@ class Scenario:
     name: str = ""
     network: Network | None = None
 
-    def run(self, cast: Cast, seed: int) -> Recording:
-        """Run the student's nodes. Ours come first, as a robot's drivers are up before one's own node is.
+    def run(self, cast: Cast, seed: int, package: Package | None = None) -> Recording:
+        """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
 
-        Raises CompanionError when one of ours raised.
+        Ours come first, as a robot's drivers are up before one's own node is. Raises CompanionError when one
+        of ours raised.
         """
-        if not self.seconds:
-            return Recording(seed=seed)
+        recording = self._run(cast, seed) if self.seconds else Recording(seed=seed)
+        return recording if package is None else PackageRun.of(recording, package)
+
+    def _run(self, cast: Cast, seed: int) -> Recording:
         from sim import run
 
         recording = run(
@@ -223,16 +227,13 @@ class Exercise:
         self, scenario: Scenario, seed: int, cast: Cast, package: Package | None
     ) -> tuple[Recording, list[Verdict]]:
         """One run and its verdicts; where it shows a slip, with half of what a run without it earns."""
-        recording = scenario.run(cast, seed)
-        if package is not None:
-            recording = PackageRun.of(recording, package)
+        run = functools.partial(Scenario.run, cast=cast, seed=seed, package=package)
+        recording = run(scenario)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
-        if scenario.prepare is not None:
-            return recording, verdicts
-        return recording, with_half(verdicts, self._without_slips(scenario, seed, cast, recording, verdicts))
+        return recording, with_half(verdicts, self._without_slips(scenario, run, recording, verdicts))
 
     def _without_slips(
-        self, scenario: Scenario, seed: int, cast: Cast, recording: Recording, verdicts: list[Verdict]
+        self, scenario: Scenario, run: Run, recording: Recording, verdicts: list[Verdict]
     ) -> list[Verdict]:
         """The verdicts on the program with its slips mended; the same ones where it has none.
 
@@ -245,6 +246,7 @@ class Exercise:
                 break
             slips += new
             if not in_what_was_sent(new):
-                recording = replace(scenario, prepare=functools.partial(mended, *slips)).run(cast, seed)
+                prepare = functools.partial(mended, told(scenario.prepare), *slips)
+                recording = run(replace(scenario, prepare=prepare))
             verdicts = judge(self.checks, retyped(recording, slips), scenario.name, may_end=self.may_end)
         return verdicts

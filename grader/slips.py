@@ -6,6 +6,7 @@ Names are those of topics, services and actions, and of parameters.
 from __future__ import annotations
 
 import ctypes
+import pkgutil
 import re
 import struct
 from collections.abc import Sequence
@@ -50,8 +51,17 @@ def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
     return found is not None and {found.type, found.other.type} == set(_PACKED)
 
 
-def mended(program: Any, *slips: str) -> Process:
-    """A student's program without these slips."""
+def mended(program: Any, preparation: Sequence[Any], *slips: str) -> Any:
+    """What a scenario makes of a student's program, without these slips; a launch file stays as it is.
+
+    preparation: the scenario's own: the name of a function, and further words for it; [] for none.
+    """
+    for name in preparation[:1]:
+        program = pkgutil.resolve_name(name)(program, *preparation[1:])
+    if isinstance(program, list):  # several programs were made of it
+        return [mended(one, [], *slips) for one in program]
+    if isinstance(program, str):
+        return program
     process = program if isinstance(program, Process) else Process(program)
     names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip not in FORGIVEN]
     rules = [(wrong, right) for wrong, right in names]

@@ -1,17 +1,23 @@
 """A slip of a number's type or of a name costs half of what the program would have earned."""
 
+import functools
+
 import pytest
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from std_msgs.msg import Float32, Float64, Int32
 
 from grader import Exercise, grade
+from grader.cast import RemoteCast
 from grader.checks import keeps_clear, publishes, rate, within
 from grader.diagnosis.names import misspelt
-from grader.slips import MENDED, slips_of
+from grader.exercise import Scenario
+from grader.slips import MENDED, mended, slips_of
 from sim import Process, Recording
 from sim.evidence import CallbackError, Endpoint, Graph
+from sim.ros.launching.respawned import respawned
 from tests.exercises.score_tables import students
+from tests.sim.ros.remote.apart import Apart
 
 warm = Exercise("warm", "A thermometer", seconds=5)
 
@@ -154,6 +160,46 @@ def test_names_of_services_nodes_actions_and_parameters_can_be_mended_too(assign
     score = grade(exercise, students(assignment, exercise)[student])
     missed = next(verdict for verdict in score.verdicts if verdict.status == "failed")
     assert missed.earned == missed.points / 2
+
+
+killed = Exercise(
+    "killed",
+    "A thermometer that is killed and started again",
+    checks=[is_published, is_warm],
+    scenarios=[Scenario(seconds=9, prepare=functools.partial(respawned, 3.0, 4.0, 0.5))],
+)
+
+
+@pytest.mark.parametrize(
+    ("student", "points"),
+    [(Warm, 8.0), (WholeNumber, 4.0), (MisspeltAndWhole, 4.0), (WholeAndCold, 2.0), (Text, 0.0)],
+)
+def test_a_slip_costs_half_in_what_a_scenario_makes_of_a_program_too(student, points):
+    assert float(killed.grade(student)) == points
+
+
+def test_it_does_so_where_the_program_lives_in_another_process():
+    apart = Apart()
+    with apart.serving(__name__, "MisspeltAndWhole") as remote:
+        score = killed.judge(RemoteCast(remote))
+    apart.close()
+    assert (score.broken, float(score)) == ([], 4.0)
+
+
+def twice(program):
+    """Two robots with the same program."""
+    return [program, program]
+
+
+def test_several_programs_that_a_scenario_makes_of_one_are_mended_each():
+    both = mended(Warm, [f"{__name__}:twice"], "numbers")
+    assert both == [Process(Warm, forgiving=True)] * 2
+
+
+def test_a_launch_file_has_no_slips_that_are_mended():
+    assert mended(None, ["grader.workspace.place:launched", "patrol", "patrol.launch.py"], "a:=b") == (
+        "patrol patrol.launch.py"
+    )
 
 
 def test_who_is_unsafe_without_a_slip_is_unsafe():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from sim.nanoseconds import SECOND
@@ -16,6 +17,7 @@ _GOLDEN = 0.618034  # its multiples, without their whole parts, are never near e
 def respawned(program: Any, earliest: float, latest: float, delay: float) -> Callable[[], None]:
     """This program, killed at a moment (s) between two, and back after `delay` (s).
 
+    The remappings with which it is started hold for the program, both times.
     Of several programs of a run each has a moment of its own, and it is the same in every run.
     """
     spec = program if isinstance(program, Process) else Process(program)
@@ -23,12 +25,13 @@ def respawned(program: Any, earliest: float, latest: float, delay: float) -> Cal
     def lives() -> None:
         run = engine()
         here = run.current.process
+        alike = replace(spec, remappings=[*spec.remappings, *here.spec.remappings])
         number = [process for process in run.processes if process.ours == here.ours].index(here)
-        first = run.start(spec, ours=here.ours)
+        first = run.start(alike, ours=here.ours)
         _pass(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
         kill(run, first)
         _pass(delay)
-        second = run.start(spec, ours=first.ours)
+        second = run.start(alike, ours=first.ours)
         while run.lives(second):
             _pass(0.1)
 
