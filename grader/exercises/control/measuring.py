@@ -13,7 +13,7 @@ from sim.nanoseconds import EPOCH, SECOND
 
 FLOAT, COUNT = "std_msgs/msg/Float64", "std_msgs/msg/Int32"
 ALLOWED = 0.01  # s of latency
-EXACT = 1e-4  # s
+EXACT, SOON = 1e-4, 0.05  # s
 
 jitter = Exercise("jitter", "How late is late?", seconds=5, companions=[Sensor], seeds=(1, 2))
 Beat = tuple[Seconds, Seconds]  # when it arrived, and when it was measured
@@ -36,7 +36,8 @@ def measures_the_latency(run: Recording) -> list[Beat]:
         tuple(EPOCH / SECOND + arrived for arrived, _ in beats): "That is the time of day: "
         "take the stamp away from it.",
     }
-    _compare("/latency", said, true, hints, "The latency is now minus the stamp in the header, in seconds.")
+    guess = "The latency is now minus the stamp in the header, in seconds."
+    _compare("/latency", said, true, beats, hints, guess)
     return beats
 
 
@@ -53,7 +54,7 @@ def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
         "loop feels is when messages arrive: by your own clock.",
     }
     guess = "Remember when the last message arrived, by your clock; abs(now - before - 0.02)."
-    _compare("/jitter", _said(run, "/jitter", FLOAT), true, hints, guess)
+    _compare("/jitter", _said(run, "/jitter", FLOAT), true, beats[1:], hints, guess)
 
 
 @jitter.check(3, after=measures_the_latency)
@@ -65,8 +66,8 @@ def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
         tuple(map(int, late)): "Each count is for one message alone: add them up, self.late += 1.",
         tuple(len(late[: n + 1]) - count for n, count in enumerate(true)): "Those came in time.",
     }
-    said = _said(run, "/late", COUNT)
-    _compare("/late", said, true, hints, "Count those whose latency is above 0.01 s, from the start on.")
+    guess = "Count those whose latency is above 0.01 s, from the start on."
+    _compare("/late", _said(run, "/late", COUNT), true, beats, hints, guess)
 
 
 def _beats(run: Recording) -> list[Beat]:
@@ -77,15 +78,24 @@ def _beats(run: Recording) -> list[Beat]:
     return [(heard.stamp, since_start(heard.message.stamp)) for heard in ours]
 
 
-def _said(run: Recording, topic: str, type_: str) -> list[float]:
+def _said(run: Recording, topic: str, type_: str) -> list[tuple[Seconds, float]]:
     with hinting(guess="Publish in the callback, each time it is called."):
-        return [heard.message.data for heard in publishes(run, topic, type_)]
+        return [(heard.stamp, heard.message.data) for heard in publishes(run, topic, type_)]
 
 
 def _compare(
-    topic: str, said: list[float], true: list[float], hints: dict[tuple[float, ...], str], guess: str
+    topic: str,
+    heard: list[tuple[Seconds, float]],
+    true: list[float],
+    beats: list[Beat],
+    hints: dict[tuple[float, ...], str],
+    guess: str,
 ) -> None:
-    """Raises Missed at the first number that is wrong, with the hint for numbers that are all alike."""
+    """Raises Missed at the first number that is wrong, with the hint for numbers that are all alike.
+
+    And at the first that comes long after its message. heard: when each number was said, and which.
+    """
+    said = [value for _, value in heard]
     if not len(true) - 1 <= len(said) <= len(true):  # the last may be under way in the end
         hint = "One number for each message: no more, and none left out."
         raise Missed(f"{len(true)} messages on {topic}", f"{len(said)}", hint)
@@ -93,6 +103,11 @@ def _compare(
         if not abs(one - right) < EXACT:
             hint = _alike(said, hints) or guess
             raise Missed(f"{right:.4g} as number {number} on {topic}", f"{round(one, 6):.4g}", hint)
+    for (stamp, _), (arrived, _) in zip(heard, beats, strict=False):
+        if not abs(stamp - arrived) < SOON:
+            hint = "Publish in the callback, as each message comes: later the number is of no use."
+            expected = f"a number on {topic} for the message of {arrived:.3g} s, within {SOON:g} s"
+            raise Missed(expected, f"it comes at {stamp:.3g} s", hint)
 
 
 def _alike(said: list[float], hints: dict[tuple[float, ...], str]) -> str:

@@ -12,7 +12,7 @@ from grader.exercises.safety.partners import JOY, NAV, Drivers
 from sim.evidence import Heard, Recording, Seconds
 
 FRESH, OLD, BRAKING = 0.42, 0.68, 1.0  # s: sure to be younger, and older, than the time-out; to stand
-STEP, STEADY = 0.1, 0.25  # s
+STEP, STEADY, BEGIN = 0.1, 0.25, 5  # s, s, steps
 ZERO = "A 0 of the joystick is a command, too: ask how old it is, not how fast."
 FIRST = "Look at the joystick first: while it is young, the navigator has to wait."
 
@@ -97,11 +97,15 @@ def _wanted(moment: Moment, topic: str) -> tuple[float, float]:
 
 
 def _moments(run: Recording) -> list[Moment]:
+    """Ten a second, and each at which a command went out: a wrong one among right ones moves the robot."""
     joy, nav, sent = ours(run, JOY), ours(run, NAV), publishes(run, OUT, TWIST)
+    # The ten are beside the moments at which timers fire.
+    times = [index * STEP + 0.07 for index in range(BEGIN, int(run.ended.stamp / STEP))]
+    looks = [(now, last(sent, now)) for now in times]
+    looks += [(heard.stamp, heard) for heard in sent if heard.stamp >= BEGIN * STEP]
     found = []
-    for index in range(5, int(run.ended.stamp / STEP)):
-        now = index * STEP + 0.07  # beside the moments at which timers fire
-        out, spoke = last(sent, now), last(joy, now)
+    for now, out in sorted(looks, key=lambda look: look[0]):
+        spoke = last(joy, now)
         found.append(
             Moment(
                 now,

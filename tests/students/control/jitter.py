@@ -115,6 +115,23 @@ class NoLatency(Meter):
             super().say(topic, value)
 
 
+class AllInTheEnd(Meter):
+    """Right numbers, when nobody needs them any more."""
+
+    def __init__(self):
+        super().__init__()
+        self.kept = []
+        self.create_timer(4.9, self.tell)
+
+    def say(self, topic, value):
+        self.kept.append((topic, value))
+
+    def tell(self):
+        self.say = super().say
+        for topic, value in self.kept:
+            self.say(topic, value)
+
+
 class ByTheStamps(Meter):
     """From one stamp to the next, not from arrival to arrival."""
 

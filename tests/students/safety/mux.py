@@ -1,7 +1,7 @@
 """Velocity muxes: right ones, and wrong ones named by their defect."""
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rclpy.node import Node
 
 
@@ -64,6 +64,35 @@ class CountsTicks(Mux):
 def main():
     rclpy.init()
     rclpy.spin(Mux())
+
+
+class RightOnceIn100Milliseconds(Mux):
+    """And drives as it likes for the rest of the time."""
+
+    ticks = 0
+
+    def __init__(self):
+        super().__init__()
+        self.create_timer(0.01, self.tick)
+
+    def choose(self):
+        pass
+
+    def tick(self):
+        self.ticks += 1
+        if self.ticks % 10 == 6:
+            super().choose()
+        elif self.ticks % 10 == 8 and any(map(self.is_young, self.topics)):
+            self.commands.publish(Twist(linear=Vector3(x=0.5)))
+
+
+class SaysBoth(Mux):
+    """The one that counts comes last each time."""
+
+    def choose(self):
+        if self.is_young(self.topics[1]):
+            self.commands.publish(self.heard[self.topics[1]][1])
+        super().choose()
 
 
 class NeverTimesOut(Mux):
