@@ -13,6 +13,7 @@ from grader.exercises.safety.partners import BUTTON, RAW, RESET, Operator
 from sim.evidence import Call, Recording, Seconds
 
 SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stand, and to stand where the button is silent
+LATELY = 0.25  # s, for which a command may be said again
 LATCH = (
     "It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that False "
     "again, and not a False from the button."
@@ -46,9 +47,9 @@ def stands_between(run: Recording) -> None:
 @latch.check(4, after=stands_between)
 def lets_through(run: Recording) -> None:
     """While it is not stopped, each command passes as it is: in the beginning, and after the reset."""
-    when, sent = _times(run), publishes(run, OUT, TWIST)
-    for command in ours(run, RAW, at_least=10):
-        if not (0.5 < command.stamp < when.press - 1e-6 or when.speak <= command.stamp < when.cut + 0.3):
+    when, sent, raw = _times(run), publishes(run, OUT, TWIST), ours(run, RAW, at_least=10)
+    for command in raw:
+        if not _is_free(command.stamp, when):
             continue
         wish = speeds(command)
         then = [one for one in sent if command.stamp - 1e-6 <= one.stamp <= command.stamp + SOON]
@@ -59,6 +60,13 @@ def lets_through(run: Recording) -> None:
                 saw,
                 _why_held(command.stamp, when),
             )
+    for one in sent:
+        if _is_free(one.stamp, when) and _is_free(one.stamp - SOON, when):
+            lately = [speeds(it) for it in raw if one.stamp - LATELY <= it.stamp <= one.stamp]
+            if not any(alike(speeds(one), wish) for wish in lately):
+                hint = "Publish the commands as they come, and no other between them."
+                expected = f"only what came on {RAW}, on {OUT} at {one.stamp:.3g} s"
+                raise Missed(expected, told(speeds(one)), hint)
 
 
 @latch.check(4, after=lets_through)
@@ -76,7 +84,7 @@ def stays_stopped(run: Recording) -> None:
     must_stand(
         run,
         when.release,
-        _resets(run)[1].asked,
+        _granted(run).asked,
         f"after the button was let go at {when.release:.3g} s",
         LATCH,
     )
@@ -85,7 +93,9 @@ def stays_stopped(run: Recording) -> None:
 @latch.check(3, after=stops)
 def answers(run: Recording) -> None:
     """/reset is refused while the button is in (success=False), and granted afterwards (success=True)."""
-    for call, right in zip(_resets(run), (False, True), strict=False):
+    granted = _granted(run)
+    for call in _resets(run):
+        right = call.asked >= granted.asked
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
             state = "let go" if right else "still in"
@@ -96,7 +106,7 @@ def answers(run: Recording) -> None:
 @latch.check(2, after=(lets_through, stays_stopped))
 def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stands until a new command comes."""
-    when, reset = _times(run), _resets(run)[1].asked
+    when, reset = _times(run), _granted(run).asked
     hint = "The command from before the stop is out of date: a reset lets go, and moves nothing by itself."
     must_stand(run, reset, when.speak, f"from the reset at {reset:.3g} s to the next command", hint)
 
@@ -120,12 +130,23 @@ def _times(run: Recording) -> Times:
     return Times(pressed[0], pressed[-1] + 0.1, *pauses[0], cuts[0])
 
 
+def _is_free(stamp: Seconds, when: Times) -> bool:
+    """Whether nothing stops the robot at that moment, for sure."""
+    return 0.5 < stamp < when.press - 1e-6 or when.speak <= stamp < when.cut + 0.3
+
+
 def _resets(run: Recording) -> list[Call]:
-    """Both of our calls."""
-    asked = [call for call in run.calls_of(RESET) if call.asked_by_us and call.asked is not None]
-    if len(asked) < 2:
+    """Our calls."""
+    return [call for call in run.calls_of(RESET) if call.asked_by_us and call.asked is not None]
+
+
+def _granted(run: Recording) -> Call:
+    """The one that comes when the button is out; there is one before it or two."""
+    asked, release = _resets(run), _times(run).release
+    after = [call for call in asked if call.asked > release]
+    if not after or len(asked) < 2:
         raise silence(run, f"two calls of {RESET}", f"{len(asked)}", run.graph.ends("client", RESET))
-    return asked
+    return after[0]
 
 
 def _why_held(stamp: Seconds, when: Times) -> str:

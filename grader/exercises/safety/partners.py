@@ -44,8 +44,9 @@ class Timed(Node):
 class Operator(Timed):
     """Drives (Twist on /cmd_vel_raw) and holds the emergency button (Bool on /emergency, all the time).
 
-    Presses it while driving, asks for /reset with the button in, lets it go, drives on all the while, falls
-    silent, asks for /reset again, and drives on later. Then the button's cable is broken for a while.
+    Presses it while driving, asks for /reset with the button in, once or twice, lets it go, drives on all the
+    while, falls silent, asks for /reset again, and drives on later. Then the button's cable is broken for a
+    while.
     """
 
     def __init__(self) -> None:
@@ -62,9 +63,10 @@ class Operator(Timed):
         ]
         times = list(itertools.accumulate(random.uniform(*step) for step in steps))
         self.press, refused, self.release, self.quiet, accepted, self.speak, self.cut, self.mend = times
-        self.resets = [accepted, refused]
         sides = random.choice((-1.0, 1.0)), random.choice((-1.0, 1.0))
         self.speeds = [(random.uniform(0.15, 0.35), side * random.uniform(0.1, 0.5)) for side in sides]
+        again = random.choice(([], [refused + 0.25]))  # who only counts the calls doesn't know how often
+        self.resets = [accepted, *again, refused]
         self.commands = self.create_publisher(Twist, RAW, 10)
         self.button = self.create_publisher(Bool, BUTTON, 10)
         self.client = self.create_client(Trigger, RESET)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import bisect
 import itertools
 import math
-from collections.abc import Iterator
 
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
@@ -16,7 +15,7 @@ from sim.evidence import Heard, Recording, Seconds
 TWIST, ASKED, SENT = "geometry_msgs/msg/Twist", "/joystick", "/cmd_vel"
 LAG = 0.12  # s, until a command has to be passed on
 SOON, STOPPED = 0.4, 1.0  # s of silence, after which zeros go out, and after which the robot stands
-LONGEST = 0.3  # s, a deadline that notices soon enough
+LONGEST, EXACT = 0.3, 1e-6  # s, a deadline that notices soon enough
 STEP, STANDING = 0.05, 0.02  # s, m/s
 PROFILE = "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline."
 Command = tuple[float, float]  # m/s, rad/s
@@ -47,8 +46,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
     for begin, end in _silences(run):
         speed = _speed(run.during(begin + STOPPED, end))
         unsafe = speed > STANDING
-        for moment in _moments(begin + SOON, end):
-            sent = _last(run.messages(SENT), moment)
+        for moment, sent in _looks(run, begin + SOON, end):
             if sent != (0.0, 0.0):
                 raise Missed(
                     f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
@@ -63,7 +61,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
 def asks_for_a_deadline(run: Recording) -> None:
     """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
     shortest = _deadline(run)
-    if not OFFERED <= shortest <= LONGEST:
+    if not OFFERED - EXACT <= shortest <= LONGEST + EXACT:
         saw = "none" if shortest == math.inf else f"{shortest:g} s"
         raise Missed(
             f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription", saw, PROFILE
@@ -88,23 +86,24 @@ def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
     return found
 
 
-def _moments(begin: Seconds, end: Seconds) -> Iterator[Seconds]:
-    """Moments beside those at which timers fire."""
-    count = max(0, int((end - begin) / STEP))
-    return (begin + index * STEP + 0.012 for index in range(count))
+def _looks(run: Recording, begin: Seconds, end: Seconds) -> list[tuple[Seconds, Command | None]]:
+    """What holds at moments beside those at which timers fire, and each command that is sent: in order."""
+    told = run.messages(SENT)
+    moments = [begin + index * STEP + 0.012 for index in range(max(0, int((end - begin) / STEP)))]
+    looks = [(moment, _last(told, moment)) for moment in moments]
+    looks += [(one.stamp, _command(one)) for one in told if begin <= one.stamp < end]
+    return sorted(looks, key=lambda look: look[0])
 
 
 def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
     """Raises Missed where what is sent isn't what the joystick asked for lately."""
-    asked = [one for one in run.messages(ASKED) if one.ours]
-    told, wrong = run.messages(SENT), []
-    moments = list(_moments(begin, end))
-    for moment in moments:
+    asked, wrong = [one for one in run.messages(ASKED) if one.ours], []
+    looks = _looks(run, begin, end)
+    for moment, sent in looks:
         wishes = {_last(asked, moment - lag) for lag in (0.0, LAG / 2, LAG)}
-        sent = _last(told, moment)
         if sent not in wishes:
             wrong.append((moment, _last(asked, moment), sent))
-    if len(wrong) > 0.05 * len(moments):
+    if len(wrong) > 0.05 * len(looks):
         moment, wish, sent = wrong[0]
         raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), guess=guess)
 
@@ -114,7 +113,11 @@ def _last(messages: list[Heard], moment: Seconds) -> Command | None:
     index = bisect.bisect_right(messages, moment, key=lambda one: one.stamp) - 1
     if index < 0 or moment - messages[index].stamp > LONGEST:
         return None
-    twist = messages[index].message
+    return _command(messages[index])
+
+
+def _command(heard: Heard) -> Command:
+    twist = heard.message
     return twist.linear.x, twist.angular.z
 
 
@@ -137,7 +140,7 @@ def _deadline(run: Recording) -> Seconds:
 
 
 def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
-    if _deadline(run) > LONGEST:
+    if _deadline(run) > LONGEST + EXACT:
         return f"Nobody is told that it is late, unless a deadline is asked for. {PROFILE}"
     if not run.during(begin, end).messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."

@@ -1,7 +1,7 @@
 """Emergency stops: right ones, and wrong ones named by their defect."""
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rclpy.node import Node
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
@@ -80,6 +80,29 @@ def main():
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
+
+
+class DrivesBetween(Stop):
+    """Each command passes, and then one of its own."""
+
+    def drive(self, msg):
+        super().drive(msg)
+        timer = self.create_timer(0.02, lambda: (timer.cancel(), self.push()))
+
+    def push(self):
+        if not self.stopped:
+            self.commands.publish(Twist(linear=Vector3(x=1.0)))
+
+
+class CountsTheResets(Stop):
+    """The second one is granted, whatever the button says."""
+
+    asked = 0
+
+    def reset(self, request, response):
+        self.asked += 1
+        self.pressed = self.asked < 2
+        return super().reset(request, response)
 
 
 class LetsGoByItself(Stop):

@@ -1,7 +1,7 @@
 """Drivers that stop when the joystick falls silent: right ones, and wrong ones named by their defect."""
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rclpy.duration import Duration
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -45,6 +45,10 @@ class AtOnce(Driver):
         self.repeat()
 
 
+class LongestDeadline(Driver):
+    deadline = 0.3
+
+
 class BestEffort(Driver):
     deadline = 0.25
 
@@ -70,6 +74,42 @@ def main_without_a_class():
     )
     node.create_timer(0.05, lambda: publisher.publish(last[-1]))
     rclpy.spin(node)
+
+
+class RightOnceIn50Milliseconds(Driver):
+    """And drives as it likes for the rest of the time, also where the joystick is silent."""
+
+    ticks = 0
+
+    def __init__(self):
+        super().__init__()
+        self.create_timer(0.01, self.tick)
+
+    def repeat(self):
+        pass
+
+    def tick(self):
+        self.ticks += 1
+        if self.ticks % 5 == 1:
+            self.publisher.publish(self.command)
+        elif self.ticks % 5 == 2:
+            self.publisher.publish(Twist(linear=Vector3(x=1.0)))
+
+
+class DrivesOnInSilence(Driver):
+    """Zeros go out as they should, and between them other commands."""
+
+    ticks = 0
+
+    def repeat(self):
+        self.publisher.publish(self.command)
+        self.ticks += 1
+        if self.command == Twist() and self.ticks > 20:
+            timer = self.create_timer(0.02, lambda: (timer.cancel(), self.push()))
+
+    def push(self):
+        self.publisher.publish(Twist(linear=Vector3(x=1.0)))
+        timer = self.create_timer(0.02, lambda: (timer.cancel(), self.publisher.publish(self.command)))
 
 
 class NoCallback(Driver):
