@@ -11,9 +11,9 @@ from grader.checks import Missed, hinting, publishes
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import OUT, TWIST, ours, speeds
 from grader.exercises.safety.partners import RAW, Rough
-from sim.evidence import Recording, Seconds
+from sim.evidence import Heard, Recording, Seconds
 
-NEAR = 1e-6
+NEAR, SOON = 1e-6, 0.1  # s, in which an answer comes
 LONG = 26  # commands, 20 in a second: time enough for whatever is asked for
 
 
@@ -55,6 +55,11 @@ def answers_each(run: Recording) -> None:
     if not len(wishes) - 2 <= len(sent) <= len(wishes):
         hint = "Publish once in the callback of /cmd_vel_raw, each time it is called."
         raise Missed(f"{len(wishes)} messages on {OUT}", f"{len(sent)}", hint)
+    for wish, one in _answered(wishes, sent):
+        if not 0.0 <= one.stamp - wish.stamp < SOON:
+            hint = "Publish in the callback of /cmd_vel_raw: who drives can't wait for the answer."
+            expected = f"the answer to the command of {wish.stamp:.3g} s within {SOON:g} s"
+            raise Missed(expected, f"it comes at {one.stamp:.3g} s", hint)
 
 
 @smooth.check(5, after=answers_each)
@@ -112,13 +117,17 @@ def _same(pair: Pair, right: float, hint: str, *, unsafe: bool = False) -> None:
         raise Missed(expected, f"{pair.sent:.3g}", hint, picture="topics", unsafe=unsafe)
 
 
-def _pairs(run: Recording) -> Iterator[Pair]:
+def _answered(wishes: list[Heard], sent: list[Heard]) -> list[tuple[Heard, Heard]]:
     """Each wish with its answer: the first wish may have been sent before the node was there."""
-    wishes, sent = ours(run, RAW, at_least=20), publishes(run, OUT, TWIST)
     late = len(wishes) - len(sent) if sent and sent[0].stamp > wishes[0].stamp + 0.04 else 0
+    return list(zip(wishes[max(0, late) :], sent, strict=False))
+
+
+def _pairs(run: Recording) -> Iterator[Pair]:
+    wishes, sent = ours(run, RAW, at_least=20), publishes(run, OUT, TWIST)
     for axis in AXES:
         before = 0.0
-        for wish, one in zip(wishes[late:], sent, strict=False):
+        for wish, one in _answered(wishes, sent):
             value = speeds(one)[axis.index]
             yield Pair(axis, one.stamp, speeds(wish)[axis.index], before, value)
             before = value
