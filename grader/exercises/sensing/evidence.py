@@ -60,18 +60,20 @@ def _scans(run: Recording) -> list[tuple[Seconds, Seconds, float]]:
 
 
 def moments_of(run: Recording) -> Iterator[Moment]:
-    """What a guard knew, and what it sent, every tenth of a second."""
+    """What a guard knew, and what it sent: every tenth of a second, and with each command that it sent."""
     scans, asked, sent = _scans(run), _commands(_ours(run, RAW)), _commands(run.messages(OUT))
     scan_at = _latest(scans)
     asked_at, sent_at = _latest(asked), _latest(sent)
-    for index in range(10, int(run.ended.stamp / STEP)):
-        now = index * STEP + 0.01  # beside the moments at which timers fire
+    # Those of a tenth are beside the moments at which timers fire.
+    times = [index * STEP + 0.01 for index in range(10, int(run.ended.stamp / STEP))]
+    looks = [(now, sent_at(now)) for now in times]
+    looks += [(command[0], command) for command in sent if command[0] > times[0]]
+    for now, last in sorted(looks, key=lambda look: look[0]):
         seen = [scan_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
         wishes = [asked_at(now - lag) for lag in (0.0, STEP, 2 * STEP, 3 * STEP)]
         good = all(seen) and all(age < FRESH and now - came < 0.5 for came, age, _ in seen)
         good = good and now - seen[0][0] < FRESH
         steady = all(wishes) and len({wish[1:] for wish in wishes}) == 1 and now - wishes[0][0] < FRESH
-        last = sent_at(now)
         yield Moment(
             now,
             wishes[0][1:] if steady else None,

@@ -3,7 +3,7 @@
 import math
 
 import rclpy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
@@ -139,6 +139,17 @@ class Watchdogs(Guard):
         if self.scan and self.command:
             self.filter(safe)
         self.publisher.publish(safe)
+
+
+class TurnsBetween(Guard):
+    """Right 20 times a second, and between that it does as it likes."""
+
+    def decide(self):
+        super().decide()
+        timer = self.create_timer(0.03, lambda: (timer.cancel(), self.turn()))
+
+    def turn(self):
+        self.publisher.publish(Twist(angular=Vector3(z=2.0)))
 
 
 class NoWatchdog(Guard):
