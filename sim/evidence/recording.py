@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
+from sim.evidence.by_topic import ByTopic
 from sim.evidence.crossings import Crossing
 from sim.evidence.exchanges import Call, Goal, is_node_service
 from sim.evidence.graph import Graph
@@ -150,10 +151,15 @@ class Recording:
 
         topic: resolved name with its leading slash, e.g. "/cmd_vel". sender: e.g. "/talker".
         """
-        wanted = self.heard if sender is None else [h for h in self.heard if h.sender == sender]
         if topic is None:
-            return [h for h in wanted if h.topic not in INFRASTRUCTURE_TOPICS]
-        return [h for h in wanted if h.topic == topic]
+            wanted = [h for h in self.heard if h.topic not in INFRASTRUCTURE_TOPICS]
+        else:
+            wanted = self._by_topic.of(self.heard, topic)
+        return wanted if sender is None else [h for h in wanted if h.sender == sender]
+
+    @functools.cached_property
+    def _by_topic(self) -> ByTopic:
+        return ByTopic()
 
     def calls_of(
         self, service: str | None = None, client: str | None = None, server: str | None = None

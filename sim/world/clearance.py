@@ -8,18 +8,28 @@ import numpy as np
 
 from sim.world.description import World
 
+AT_ONCE = 512  # points: with all walls, what a processor's cache holds
+
 
 def clearance(world: World, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """For points of the map frame (m), in arrays of one shape: the distance to what is nearest, 0 in it."""
-    gaps = np.full(x.shape, np.inf)
-    for x0, y0, x1, y1 in world.segments():
-        ex, ey = x1 - x0, y1 - y0
-        along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
-        gaps = np.minimum(gaps, np.hypot(x0 + along * ex - x, y0 + along * ey - y))
+    gaps = _from_segments(world, x.ravel(), y.ravel()).reshape(x.shape)
     for disc_x, disc_y, radius in world.discs():
         gaps = np.minimum(gaps, np.maximum(np.hypot(x - disc_x, y - disc_y) - radius, 0.0))
     for box in world.boxes:
         c, s = math.cos(box.yaw), math.sin(box.yaw)
         u, v = c * (x - box.x) + s * (y - box.y), c * (y - box.y) - s * (x - box.x)
         gaps[(np.abs(u) < box.width / 2) & (np.abs(v) < box.height / 2)] = 0.0
+    return gaps
+
+
+def _from_segments(world: World, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
+    x0, y0, x1, y1 = world.segments().T[:, :, None]
+    ex, ey = x1 - x0, y1 - y0
+    gaps = np.full(xs.shape, np.inf)
+    for begin in range(0, len(xs) if len(x0) else 0, AT_ONCE):
+        part = slice(begin, begin + AT_ONCE)
+        x, y = xs[part], ys[part]
+        along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
+        gaps[part] = np.hypot(x0 + along * ex - x, y0 + along * ey - y).min(axis=0)
     return gaps

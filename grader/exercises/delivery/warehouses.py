@@ -77,8 +77,8 @@ def _blocked(world: World, seed: int) -> World:
 def _middle(world: World, spot: Point) -> Point:
     """Where there is most room, in the neighbourhood of a point."""
     steps = [0.1 * step for step in range(-6, 7)]
-    around = [(spot[0] + right, spot[1] + up) for right in steps for up in steps]
-    x, y = max(around, key=lambda place: _room(world, *place))
+    around = np.array([(spot[0] + right, spot[1] + up) for right in steps for up in steps])
+    x, y = around[clearance(world, *around.T).argmax()].tolist()
     return round(x, 2), round(y, 2)
 
 

@@ -54,11 +54,10 @@ def inflate(cells, reach):
     inflated = cells.copy()
     rows, columns = np.nonzero(cells == 100)
     size = math.ceil(reach)
-    for up in range(-size, size + 1):
-        for right in range(-size, size + 1):
-            if math.hypot(up, right) <= reach:
-                row = np.clip(rows + up, 0, len(cells) - 1)
-                inflated[row, np.clip(columns + right, 0, len(cells[0]) - 1)] = 100
+    up, right = np.mgrid[-size : size + 1, -size : size + 1].reshape(2, -1, 1)
+    near = np.hypot(up, right)[:, 0] <= reach
+    row = np.clip(rows + up[near], 0, len(cells) - 1)
+    inflated[row, np.clip(columns + right[near], 0, len(cells[0]) - 1)] = 100
     return inflated
 
 

@@ -95,8 +95,9 @@ class Mapper(Localized):
         return points
 
     def is_blocked(self, path):
-        marks = [to_point(self.info, column, row) for row, column in np.argwhere(self.marked != self.known)]
-        return any(math.dist(mark, point) < 0.14 for mark in marks for point in path)
+        rows, columns = np.nonzero(self.marked != self.known)
+        marks = np.array(to_point(self.info, columns, rows))
+        return (((marks[:, :, None] - np.array(path).T[:, None]) ** 2).sum(axis=0) < 0.14**2).any()
 
     def drive(self, speed, turn):
         command = Twist()

@@ -1,0 +1,41 @@
+"""The messages of a topic, asked for again and again while a run goes on."""
+
+import pickle
+
+from sim.evidence import Heard
+from sim.evidence.by_topic import ByTopic
+
+SENT = [Heard(number / 10, f"/topic{number % 3}", "std_msgs/msg/Empty", "/node", b"") for number in range(30)]
+OF_TOPIC_2 = SENT[2::3]
+
+
+def test_a_list_that_grows_is_gone_on_with():
+    by_topic, heard = ByTopic(), []
+    assert by_topic.of(heard, "/topic2") == []
+    for message in SENT:
+        heard.append(message)
+        assert by_topic.of(heard, "/topic2") == [it for it in heard if it.topic == "/topic2"]
+    assert by_topic.of(heard, "/none") == []
+
+
+def test_what_was_given_is_a_list_of_its_own():
+    by_topic = ByTopic()
+    by_topic.of(SENT, "/topic2").clear()
+    assert by_topic.of(SENT, "/topic2") == OF_TOPIC_2
+
+
+def test_a_list_that_was_changed_is_looked_at_anew():
+    by_topic, heard = ByTopic(), list(SENT)
+    assert by_topic.of(heard, "/topic2") == OF_TOPIC_2
+    heard[:] = [message._replace(topic="/topic2") for message in heard]
+    assert by_topic.of(heard, "/topic2") == heard
+    del heard[10:]
+    assert by_topic.of(heard, "/topic2") == heard
+    heard.clear()
+    assert by_topic.of(heard, "/topic2") == []
+    assert by_topic.of(SENT, "/topic2") == OF_TOPIC_2
+
+
+def test_a_copy_finds_the_same():
+    by_topic = ByTopic()
+    assert by_topic.of(SENT, "/topic2") == pickle.loads(pickle.dumps(by_topic)).of(SENT, "/topic2")
