@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from typing import TypeVar
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -61,7 +62,8 @@ def png(figure: Figure) -> bytes:
 
 def small_png(figure: Figure) -> bytes:
     """The figure as a PNG of few colours: a quarter of its size."""
-    image = Image.open(io.BytesIO(png(figure))).convert("RGB")
+    figure.canvas.draw()  # once; savefig would draw it for the layout before
+    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     buffer = io.BytesIO()
     image.quantize(COLOURS, dither=Image.Dither.NONE).save(buffer, "PNG", optimize=True)
     return buffer.getvalue()
