@@ -4,15 +4,14 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Browser, Page
 
 from grader.marking.release.make_exercises import release
 from grader.marking.release.samples import SHARES, submit_samples
 from tests.browser.lab import ROOT, Lab, copy_for_students, server
-from tests.browser.pictures import COUNT_FRAMES
+from tests.browser.pictures import CHROMIUM, COUNT_FRAMES, chromium
 from tests.marking.tiny import tiny
 
-CHROMIUM = shutil.which("chromium")
 WINDOW = {"width": 1280, "height": 900}
 
 
@@ -23,16 +22,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(missing)
 
 
-@pytest.fixture(scope="module")
-def browser():
-    """Chromium. Not for the whole session: as long as playwright lives, an event loop runs in this thread."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        # Chromium's own sandbox does not run as root, the ordinary user in a container.
-        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield chromium
-        chromium.close()
+@pytest.fixture(scope="package")
+def browser() -> Iterator[Browser]:
+    """Chromium, as long as a test of this folder follows another; no longer: see `chromium`."""
+    with chromium() as started:
+        yield started
 
 
 @pytest.fixture(scope="module")
@@ -80,13 +74,13 @@ def address(students_folder) -> Iterator[str]:
         yield url
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def open_lab(browser, address) -> Iterator[Callable[[str], AbstractContextManager[Lab]]]:
     """Open a notebook; in the end it is closed, and its kernel is shut down.
 
-    JupyterLab itself is loaded once, which takes longer than most of what a test does there; where one could
-    not be opened or closed, it is loaded again. The page counts the frames that its pictures paint, as
-    `framesPainted`.
+    JupyterLab itself is loaded once for all files, which takes longer than most of what a test does there;
+    where one could not be opened or closed, it is loaded again. The page counts the frames that its pictures
+    paint, as `framesPainted`.
     """
     page = browser.new_page(viewport=WINDOW)
     page.add_init_script(COUNT_FRAMES)

@@ -1,9 +1,14 @@
-"""The live picture and the replay in a page, as somebody uses them."""
+"""The live picture and the replay in a page of Chromium, as somebody uses them."""
 
-from playwright.sync_api import Locator, Page
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from playwright.sync_api import Browser, Locator, Page, sync_playwright
 
 from tests.browser.lab import ARTIFACTS
 
+CHROMIUM = shutil.which("chromium")
 # A frame counts when something was drawn on a canvas before the browser painted next.
 COUNT_FRAMES = """
     window.framesPainted = 0;
@@ -30,6 +35,16 @@ COLOURS = """canvas => {
     return Object.keys(counts).filter((colour) => counts[colour] > 15);
 }"""
 SECONDS = 300  # only against hanging: a busy machine is slow
+
+
+@contextmanager
+def chromium() -> Iterator[Browser]:
+    """Start Chromium. Not for a whole session: as long as playwright lives, this thread has an event loop."""
+    with sync_playwright() as playwright:
+        # Chromium's own sandbox does not run as root, the ordinary user in a container.
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
 
 
 def watch(page: Page) -> list[str]:

@@ -12,9 +12,8 @@ import pytest
 from playwright.sync_api import expect
 
 from sim.standalone import live_page, server
-from tests.browser.conftest import browser  # noqa: F401  (a fixture)
 from tests.browser.lab import ARTIFACTS
-from tests.browser.pictures import COLOURS
+from tests.browser.pictures import COLOURS, chromium
 from tests.sim.standalone.programs import ended, robot
 
 GRAPH = {"words": "nobody"}
@@ -22,6 +21,12 @@ FACTS = {"world": {"name": "nowhere"}, "status": {}}
 DRIVE = json.dumps({"drive": [1, -0.5]})
 FORBIDDEN = (403, b"Forbidden\n")
 BAD = (400, b"Bad Request\n")
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as started:
+        yield started
 
 
 @pytest.fixture
@@ -134,7 +139,7 @@ def test_of_some_ports_the_first_that_is_free_is_taken():
 
 
 @pytest.mark.browser
-def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
+def test_a_browser_shows_the_robot_and_drives_it(browser):
     with robot("--world", "yard", "--port", "0") as running:
         address = re.search(r"See and drive it at (\S+)", running.offer)[1]
         page = browser.new_page()
@@ -164,7 +169,7 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):  # noqa: F811
 
 
 @pytest.mark.browser
-def test_a_machine_is_shown_without_a_pad(browser):  # noqa: F811
+def test_a_machine_is_shown_without_a_pad(browser):
     with robot("--world", "arm", "--port", "0") as running:
         page = browser.new_page()
         page.goto(re.search(r"at (http://\S+)", running.offer)[1])
@@ -175,7 +180,7 @@ def test_a_machine_is_shown_without_a_pad(browser):  # noqa: F811
 
 
 @pytest.mark.browser
-def test_turtles_and_their_lines_are_shown(browser):  # noqa: F811
+def test_turtles_and_their_lines_are_shown(browser):
     with robot("--world", "turtlesim", "--port", "0") as running:
         tab = browser.new_page()
         tab.faults = []
