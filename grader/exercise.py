@@ -24,7 +24,6 @@ offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
 """Set in a process whose nodes another one judges: what `Exercise.grade` does there, and gives."""
 
 Companions = Sequence[Any] | Callable[[int], Sequence[Any]]
-Run = Callable[["Scenario"], Recording]
 
 
 class CompanionError(Exception):
@@ -57,8 +56,7 @@ class Scenario:
     def run(self, cast: Cast, seed: int, package: Package | None = None) -> Recording:
         """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
 
-        Ours come first, as a robot's drivers are up before one's own node is. Raises CompanionError when one
-        of ours raised.
+        Ours come first, as a robot's drivers are up before. Raises CompanionError when one of ours raised.
         """
         recording = self._run(cast, seed) if self.seconds else Recording(seed=seed)
         return recording if package is None else PackageRun.of(recording, package)
@@ -233,7 +231,7 @@ class Exercise:
         return recording, with_half(verdicts, self._without_slips(scenario, run, recording, verdicts))
 
     def _without_slips(
-        self, scenario: Scenario, run: Run, recording: Recording, verdicts: list[Verdict]
+        self, scenario: Scenario, run: Callable[..., Recording], recording: Recording, verdicts: list[Verdict]
     ) -> list[Verdict]:
         """The verdicts on the program with its slips mended; the same ones where it has none.
 
@@ -246,7 +244,7 @@ class Exercise:
                 break
             slips += new
             if not in_what_was_sent(new):
-                prepare = functools.partial(mended, told(scenario.prepare), *slips)
-                recording = run(replace(scenario, prepare=prepare))
+                mend = functools.partial(mended, told(scenario.prepare), *slips)
+                recording = run(replace(scenario, prepare=mend))
             verdicts = judge(self.checks, retyped(recording, slips), scenario.name, may_end=self.may_end)
         return verdicts
