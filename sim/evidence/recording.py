@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import bisect
 import functools
-import hashlib
-import json
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 from sim.evidence.by_topic import ByTopic
 from sim.evidence.crossings import Crossing
+from sim.evidence.digest import digest_of
 from sim.evidence.exchanges import Call, Goal, is_node_service
 from sim.evidence.graph import Graph
 from sim.evidence.rows import (
@@ -195,40 +194,8 @@ class Recording:
 
     @functools.cached_property
     def digest(self) -> str:
-        """One hex string for the whole run: equal runs have equal digests.
-
-        What was printed is left out: it is for the screen, and may hold addresses, which differ every time.
-        """
-        digest = hashlib.blake2b(digest_size=16)
-        for heard in self.heard:
-            digest.update(
-                f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
-                f"{heard.early} {len(heard.raw)} ".encode()
-            )
-            digest.update(heard.raw)
-        for exchange in (*self.calls, *self.goals):
-            digest.update(repr(exchange).encode())
-        digest.update(json.dumps(self._evidence(), sort_keys=True).encode())
-        return digest.hexdigest()
-
-    def _evidence(self) -> dict[str, Any]:
-        of_network = {}
-        if self.network is not None:
-            of_network |= {"network": self.network.to_data(), "hosts": self.hosts}
-            of_network["crossings"] = [asdict(crossing) for crossing in self.crossings]
-        drawn = {} if self.drawing is None else {"drawing": asdict(self.drawing)}
-        return of_network | drawn | {
-            "seconds": self.seconds,
-            "seed": self.seed,
-            "path": self.path,
-            "tracks": self.tracks,
-            "contacts": self.contacts,
-            "logs": self.logs,
-            "errors": [error._replace(traceback="") for error in self.errors],
-            "callbacks": self.callbacks,
-            "graph": asdict(self.graph),
-            "ended": self.ended,
-        }
+        """One hex string for the whole run: equal runs have equal digests."""
+        return digest_of(self)
 
     def save(self, path: str | Path) -> Path:
         """Write an MCAP file: ROS's own recording format, which `ros2 bag` and Foxglove also open."""
