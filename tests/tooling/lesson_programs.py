@@ -106,6 +106,8 @@ def started(found: dict[str, Any], program: dict[str, Any], errors: Path) -> int
         return child
     os.dup2(os.open(errors, os.O_WRONLY | os.O_CREAT | os.O_APPEND), 2)
     os.dup2(2, 1)
+    # As in a terminal. What a shell's script starts with `&` ignores it, and so do all its children.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     status = 1
     try:
         _run(_named(found, program["name"]), program.get("arguments"))

@@ -240,7 +240,7 @@ def test_a_file_with_a_wrong_line(tmp_path, good, bad, sentence):
      "movable[0].height is missing; write a number from 0.0001 to 1000 (metres)."),
     ("[robots]\nname = 'leader'",
      "robots is {'name': 'leader'}; write a [[robots]] table for each, "
-     "with name, start, route and speed."),
+     "with name, start, route, speed and charger."),
     ("[[robots]]\nname = 'leader'",
      "robots[0].start is missing; write [x, y, yaw] (metres and radians)."),
     ("[joint]\n[arm]", "joint and arm are both here; keep one of them."),
