@@ -114,8 +114,10 @@ class World(Model):
                 self.refuse("robots", f"a speed of {self.robot.max_v:g} m/s or less, the robots' max_v")
             if not all(map(self._holds, (robot.start, *robot.route))):
                 self.refuse("robots", f"a start and a route for {robot.name} that lie inside the bounds")
-            if robot.charger is not None and self.battery is None:
+            if robot.charger and not self.battery:
                 self.refuse("robots", f"no charger for {robot.name}, where robots have no battery")
+            if robot.charger and not self._holds(robot.charger):
+                self.refuse("robots", f"a charger for {robot.name} that lies inside the bounds")
 
     def _refuse_mobile(self) -> None:
         """A machine stands alone: silently leaving out a robot that somebody described would puzzle them."""

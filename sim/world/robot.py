@@ -85,7 +85,7 @@ class OtherRobot(Model):
     start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
     route: Annotated[tuple[Point, ...], Wanted(ROUTE, is_loop)] = ()
     speed: Annotated[float, positive("m/s")] = 0.2
-    charger: Point | None = None
+    charger: Annotated[Point, Wanted("[x, y] (metres)")] | None = None
 
 
 class Odometry(NamedTuple):

@@ -37,7 +37,8 @@ class Process:
     def command_line(self) -> list[str]:
         """The words after the program's name that say the same."""
         rules = [("__node", self.name)] if self.name else []
-        rules += [("__ns", f"/{self.namespace.lstrip('/')}")] if self.namespace else []
+        if self.namespace:  # launch_ros, too, takes one without a slash
+            rules.append(("__ns", f"{'' if str(self.namespace).startswith('/') else '/'}{self.namespace}"))
         words = [word for left, right in (*rules, *self.remappings) for word in ("-r", f"{left}:={right}")]
         for group in [self.parameters] if isinstance(self.parameters, Mapping) else self.parameters:
             for name, value in group.items():

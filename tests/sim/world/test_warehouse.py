@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.world import OtherRobot, Simulation, World, WorldError
+from sim.world import BatteryModel, OtherRobot, Simulation, World, WorldError
 from sim.world.battery import NEAR
 from sim.world.clearance import clearance
 from sim.world.route import Route
@@ -169,9 +169,16 @@ def test_people_walk_past_the_robots_that_charge():
         assert all(robot.battery.current >= 0 for robot in simulation.robots.values())
 
 
-def test_a_charger_of_a_robot_without_a_battery_is_refused():
-    other = OtherRobot("two", (0, 0, 0), charger=(1, 1))
+@pytest.mark.parametrize(
+    ("battery", "charger", "sentence"),
+    [
+        (None, (1, 1), "write no charger for two, where robots have no battery."),
+        (BatteryModel((0, 0)), (9, 9), "write a charger for two that lies inside the bounds."),
+        (BatteryModel((0, 0)), (1,), "OtherRobot: charger is [1]; write [x, y] (metres)."),
+    ],
+)
+def test_a_charger_that_cannot_be_is_refused(battery, charger, sentence):
     with pytest.raises(WorldError) as caught:
-        World(*("floor", "", (-1, -1, 3, 1), (0, 0, 0)), robots=(other,))
-    sentence = "write no charger for two, where robots have no battery."
+        other = OtherRobot("two", (0, 0, 0), charger=charger)
+        World(*("floor", "", (-1, -1, 3, 1), (0, 0, 0)), robots=(other,), battery=battery)
     assert str(caught.value).endswith(sentence)
