@@ -25,8 +25,11 @@ class BuildInterfaces(build_ext):
         output = Path(self.build_temp).resolve()
         shutil.rmtree(output, ignore_errors=True)
         output.mkdir(parents=True)
-        for package in PACKAGES:
-            self._build(package, output)
+        # A process of its own, because a fixed hash seed is what makes two builds equal.
+        command = [sys.executable, "-m", "build_tools", "definitions", str(output)]
+        done = subprocess.run(command, cwd=HERE, env={**os.environ, "PYTHONHASHSEED": "0"}, check=False)
+        if done.returncode:
+            raise SystemExit(done.returncode)
         for file in sorted(output.glob("python/**/*.*")):
             if file.suffix in (".py", ".so"):
                 target = Path(self.build_lib, file.relative_to(output / "python"))
@@ -36,13 +39,6 @@ class BuildInterfaces(build_ext):
         for file in sorted(file for file in output.glob("share/**/*") if file.is_file()):
             shared.setdefault(str(file.parent.relative_to(output)), []).append(str(file))
         self.distribution.data_files = sorted(shared.items())
-
-    def _build(self, package: str, output: Path) -> None:
-        # A process of its own, because a fixed hash seed is what makes two builds equal.
-        command = [sys.executable, "-m", "build_tools", package, f"definitions/{package}", str(output)]
-        done = subprocess.run(command, cwd=HERE, env={**os.environ, "PYTHONHASHSEED": "0"}, check=False)
-        if done.returncode:
-            raise SystemExit(f"The interface package {package} could not be built; the reason is above.")
 
 
 setup(

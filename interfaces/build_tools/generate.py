@@ -3,7 +3,6 @@
 This is the part that upstream leaves to rosidl_generate_interfaces() in CMake.
 """
 
-import functools
 import json
 import multiprocessing
 import os
@@ -13,6 +12,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from build_tools.rosidl import read_once
 from build_tools.toolchain import BuildError, ros_prefix
 
 KINDS = ("msg", "srv", "action")
@@ -92,7 +92,7 @@ def generate(package: Package) -> list[str]:
     """
     if not package.interfaces:
         raise BuildError(f"{package.name} has no .msg, .srv or .action file under {package.source}.")
-    _parse_once()
+    read_once()
     _write_idls(package)
     _require_used_packages(package)
     _write_descriptions(package)
@@ -100,15 +100,6 @@ def generate(package: Package) -> list[str]:
     _write_visibility_headers(package)
     _write_index(package)
     return _dependencies(package)
-
-
-@functools.cache
-def _parse_once() -> None:
-    """Let all generators share one parsed tree of a file: parsing it for each is a third of their time."""
-    # The generators are imported where they run: without the ROS wheels, ros_prefix() has the word first.
-    from rosidl_parser import parser
-
-    parser.get_ast_from_idl_string = functools.cache(parser.get_ast_from_idl_string)
 
 
 def _write_idls(package: Package) -> None:
@@ -188,7 +179,7 @@ def _write_sources(package: Package) -> None:
         (generate_introspection, _arguments(package, INTROSPECTION, package.introspection)),
         (generate_dispatcher, _arguments(package, DISPATCHER, package.include), [FASTRTPS, INTROSPECTION]),
     ]
-    # Processes, as each generator takes over sys.stdout; forked ones, as they have the parsed trees already.
+    # Processes, as each generator takes over sys.stdout; forked ones, as they have what was read already.
     with ProcessPoolExecutor(os.cpu_count(), multiprocessing.get_context("fork")) as pool:
         for done in [pool.submit(*job) for job in jobs]:
             done.result()

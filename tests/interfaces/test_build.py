@@ -129,35 +129,35 @@ def test_a_library_that_does_not_load_is_refused_with_the_loaders_reason(monkeyp
         compile_package(made, dependencies)
 
 
-def test_the_build_of_one_package_stops_with_the_reason_alone(tmp_path, definitions):
-    (tmp_path / "empty").mkdir()
-    words = [
-        sys.executable,
-        "-m",
-        "build_tools",
-        "try_msgs",
-        str(tmp_path / "empty"),
-        str(tmp_path / "output"),
-    ]
-    done = subprocess.run(words, cwd=definitions.parent, capture_output=True, text=True, timeout=60)
+def test_the_build_stops_with_the_reason_and_the_package_alone(tmp_path, definitions):
+    (tmp_path / "definitions" / "try_msgs").mkdir(parents=True)
+    done = build(tmp_path / "definitions", tmp_path / "output")
     assert done.returncode == 1
-    assert done.stderr == f"try_msgs has no .msg, .srv or .action file under {tmp_path}/empty.\n"
+    reason, package = done.stderr.splitlines()
+    assert reason == f"try_msgs has no .msg, .srv or .action file under {tmp_path}/definitions/try_msgs."
+    assert package == "The interface package try_msgs could not be built; the reason is above."
+
+
+def build(definitions: Path, output: Path) -> subprocess.CompletedProcess:
+    """Build all packages of a folder, as setup.py does."""
+    words = [sys.executable, "-m", "build_tools", str(definitions), str(output)]
+    tools, seeded = Path(toolchain.__file__).parents[1], {**os.environ, "PYTHONHASHSEED": "0"}
+    return subprocess.run(words, cwd=tools, env=seeded, capture_output=True, text=True, timeout=120)
 
 
 @pytest.mark.parametrize("name", ["try_msgs", pytest.param("tf2_msgs", marks=pytest.mark.soak)])
 def test_two_builds_in_two_places_are_equal(tmp_path, definitions, name):
     source = definitions / name if name == "tf2_msgs" else package(tmp_path, Stamps=STAMPS).source
-    here, there = built(name, source, tmp_path / "here"), built(name, source, tmp_path / "there")
+    alone = tmp_path / "definitions"
+    shutil.copytree(source, alone / name)
+    here, there = built(alone, tmp_path / "here"), built(alone, tmp_path / "there")
     assert f"python/{name}/{name}_s__rosidl_typesupport_c.so" in here
     assert here == there
 
 
-def built(name: str, source: Path, place: Path) -> dict[str, bytes]:
-    """The files that a process makes of a package's definitions in this place."""
+def built(definitions: Path, place: Path) -> dict[str, bytes]:
+    """The files that a process makes of a folder's definitions in this place."""
     place.mkdir()
-    words = [sys.executable, "-m", "build_tools", name, str(source), str(place)]
-    seeded = {**os.environ, "PYTHONHASHSEED": "0"}
-    tools = Path(toolchain.__file__).parents[1]
-    subprocess.run(words, cwd=tools, env=seeded, check=True, capture_output=True, timeout=120)
+    assert build(definitions, place).returncode == 0
     files = [file for file in place.glob("[sp]*/**/*.*") if file.suffix in KEPT]
     return {str(file.relative_to(place)): file.read_bytes() for file in files}
