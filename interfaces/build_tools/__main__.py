@@ -1,30 +1,56 @@
 """Build all packages of a folder, in the alphabet's order: python -m build_tools DEFINITIONS OUTPUT"""
 
 import gc
+import os
 import sys
 import traceback
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 
-from build_tools.compile import compile_package
+from build_tools.compile import compiling, link
 from build_tools.generate import Package, generate
 from build_tools.toolchain import BuildError, require_compilers
 
 
 def main(definitions: str, output: str) -> None:
-    """Generate and compile each package of the folder DEFINITIONS into OUTPUT, or stop with the reason."""
+    """Build each package of the folder DEFINITIONS into OUTPUT, or stop with the reason."""
     # What is read is kept to the end: looking through it for garbage takes a tenth of the time.
     gc.disable()
-    for source in sorted(Path(definitions).resolve().iterdir()):
-        package = Package(source.name, source, Path(output).resolve())
-        try:
-            require_compilers()
-            compile_package(package, generate(package))
-        except Exception as error:
-            # The generators tell of a definition's mistakes by errors of many types.
-            reason = error if isinstance(error, BuildError) else traceback.format_exc()
-            sys.exit(
-                f"{reason}\nThe interface package {source.name} could not be built; the reason is above."
-            )
+    sources = sorted(Path(definitions).resolve().iterdir())
+    try:
+        require_compilers()
+        build(Package(source.name, source, Path(output).resolve()) for source in sources)
+    except BuildError as error:
+        sys.exit(str(error))
+
+
+def build(packages: Iterable[Package]) -> None:
+    """Build packages, each of which may use those before it: while one is written, those are compiled.
+
+    Raises:
+        BuildError: see generate() and link(); the message ends with the package's name.
+    """
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        started = []
+        for package in packages:
+            with _named(package):
+                started.append((package, generate(package), compiling(package, pool)))
+        for package, dependencies, compiled in started:
+            with _named(package):
+                link(package, dependencies, compiled)
+
+
+@contextmanager
+def _named(package: Package) -> Iterator[None]:
+    try:
+        yield
+    except Exception as error:
+        # The generators tell of a definition's mistakes by errors of many types.
+        reason = error if isinstance(error, BuildError) else traceback.format_exc()
+        said = f"The interface package {package.name} could not be built; the reason is above."
+        raise BuildError(f"{reason}\n{said}") from None
 
 
 main(*sys.argv[1:])

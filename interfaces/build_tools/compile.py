@@ -1,79 +1,89 @@
-"""Compile a generated package into the one shared object that rclpy imports."""
+"""Compile generated packages, each into the one shared object that rclpy imports."""
 
-import os
+import re
 import shlex
 import subprocess
 import sys
 import sysconfig
 from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, Future
 from pathlib import Path
 
 from build_tools.generate import DISPATCHER, FASTRTPS, GENERATOR_C, GENERATOR_PY, INTROSPECTION, Package
 from build_tools.toolchain import BuildError, ros_prefix
 
 HERE = Path(__file__).resolve().parent
-# Half the time of -O2; messages are not slower for it, for they are made of Python's objects.
+# As colcon builds a student's own: what a message takes is mostly making Python's objects.
 # NDEBUG as in the released ROS wheels: without it a wrong field type aborts the interpreter.
-FLAGS = ("-Og", "-g0", "-fPIC", "-w", "-DNDEBUG")
+FLAGS = ("-O0", "-g0", "-fPIC", "-w", "-DNDEBUG")
 STABLE_ABI = ("-DPy_LIMITED_API=0x030B0000", "-include", str(HERE / "stable_abi.h"))
 PARTS = (GENERATOR_C, FASTRTPS, INTROSPECTION, DISPATCHER, GENERATOR_PY)  # one library each in a ROS wheel
+STATIC = re.compile(r"^static .*?\b(\w+)(?:\[\])? =", re.MULTILINE)
 TOGETHER = 12  # interfaces in one compiler run: enough to share headers, and enough runs for some cores
 RUNTIME = (*PARTS[1:4], f"{FASTRTPS}pp", "rosidl_runtime_c", "rcutils", "rmw", "fastcdr")
 
 
-def compile_package(package: Package, dependencies: Iterable[str]) -> Path:
-    """Compile and link a generated package, check that it loads, and return the shared object.
-
-    Args:
-        package: a package that generate() has written.
-        dependencies: the packages to link with, as generate() returned them.
-
-    Raises:
-        BuildError: the compiler, the linker or the loader refused; the message holds their words.
-    """
+def compiling(package: Package, pool: Executor) -> list[Future[Path]]:
+    """Begin to compile a package that generate() has written."""
     objects = package.output / "objects" / package.name
     objects.mkdir(parents=True, exist_ok=True)
     entry_point = package.python / f"_{package.name}_s.ep.{DISPATCHER}.c"
     units = [*_units(package, objects), entry_point, HERE / "dispatch.cpp"]
     flags = _flags(package)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        compiled = list(pool.map(lambda unit: _compile(unit, objects, flags), units))
-    _run(["g++", "-shared", "-s", "-o", package.library, *compiled, *_link_flags(package, dependencies)])
+    return [pool.submit(_compile, unit, objects, flags) for unit in units]
+
+
+def link(package: Package, dependencies: Iterable[str], compiled: Iterable[Future[Path]]) -> Path:
+    """Link what was compiled of a package, check that it loads, and return the shared object.
+
+    Args:
+        package: a package that generate() has written.
+        dependencies: the packages to link with, as generate() returned them.
+        compiled: what compiling() returned.
+
+    Raises:
+        BuildError: the compiler, the linker or the loader refused; the message holds their words.
+    """
+    objects = [unit.result() for unit in compiled]
+    _run(["g++", "-shared", "-s", "-o", package.library, *objects, *_link_flags(package, dependencies)])
     _check_loads(package.library)
     return package.library
 
 
 def _units(package: Package, directory: Path) -> list[Path]:
-    """Write the files to compile: they include the generated ones, each of which reads the same long headers.
-
-    A type's description has static names that others have, too, and so a file of its own.
-    """
+    """Write the files to compile: they include the generated ones, each of which reads the same headers."""
     from rosidl_pycommon import convert_camel_case_to_lower_case_underscore
 
-    units: dict[str, list[Path]] = {}
+    units: dict[str, str] = {}
     for number, idl in enumerate(map(Path, package.idls)):
         kind, name = idl.parent, convert_camel_case_to_lower_case_underscore(idl.stem)
         detail = package.include / kind / "detail"
-        units[f"{kind}__{name}__description.c"] = [detail / f"{name}__description.c"]
-        units.setdefault(f"{number // TOGETHER}.c", []).extend(
-            [
-                detail / f"{name}__functions.c",
-                detail / f"{name}__type_support.c",
-                package.introspection / kind / "detail" / f"{name}__type_support.c",
-                package.python / kind / f"_{name}_s.c",
-            ]
-        )
-        units.setdefault(f"{number // TOGETHER}.cpp", []).extend(
-            [
-                detail / f"{name}__type_support_c.cpp",
-                package.include / kind / f"{name}__type_support.cpp",
-            ]
-        )
-    for unit, files in units.items():
-        (directory / unit).write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+        c = [
+            detail / f"{name}__functions.c",
+            detail / f"{name}__type_support.c",
+            package.introspection / kind / "detail" / f"{name}__type_support.c",
+            package.python / kind / f"_{name}_s.c",
+        ]
+        cpp = [detail / f"{name}__type_support_c.cpp", package.include / kind / f"{name}__type_support.cpp"]
+        described = _with_names_of_its_own(detail / f"{name}__description.c", number)
+        for suffix, text in (("c", _included(*c) + described), ("cpp", _included(*cpp))):
+            unit = f"{number // TOGETHER}.{suffix}"
+            units[unit] = units.get(unit, "") + text
+    for unit, text in units.items():
+        (directory / unit).write_text(text, encoding="utf-8")
     # The long ones first: no core waits for the last of them.
     return [directory / unit for unit in sorted(units, key=lambda unit: -len(units[unit]))]
+
+
+def _included(*files: Path) -> str:
+    return "".join(f'#include "{file}"\n' for file in files)
+
+
+def _with_names_of_its_own(description: Path, number: int) -> str:
+    """Include the description of a type; it has static names that those of other types have, too."""
+    names = STATIC.findall(description.read_text(encoding="utf-8"))
+    defined = "".join(f"#define {name} {name}__{number}\n" for name in names)
+    return defined + _included(description) + "".join(f"#undef {name}\n" for name in names)
 
 
 def _flags(package: Package) -> list[str]:
@@ -96,10 +106,8 @@ def _flags(package: Package) -> list[str]:
 
 def _compile(unit: Path, directory: Path, flags: list[str]) -> Path:
     compiled = directory / f"{unit.name}.o"
-    compiler = ["g++", "-std=c++17"] if unit.suffix == ".cpp" else ["gcc", "-std=gnu11"]
-    # Nothing of Python is in a description, and reading Python's headers takes longer than compiling one.
-    python = STABLE_ABI if unit.suffix == ".c" and not unit.stem.endswith("__description") else ()
-    _run([*compiler, *python, *flags, "-c", unit, "-o", compiled])
+    compiler = ["g++", "-std=c++17"] if unit.suffix == ".cpp" else ["gcc", "-std=gnu11", *STABLE_ABI]
+    _run([*compiler, *flags, "-c", unit, "-o", compiled])
     return compiled
 
 

@@ -4,11 +4,8 @@ This is the part that upstream leaves to rosidl_generate_interfaces() in CMake.
 """
 
 import json
-import multiprocessing
-import os
 import re
 import shutil
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,7 +77,7 @@ class Package:
         return self.python / f"{self.name}_s__{DISPATCHER}.so"
 
     def beside(self, name: str) -> "Package":
-        """Another package of the same output directory; whether it was built, its library tells."""
+        """Another package of the same output directory; whether it was written, its share/ tells."""
         return Package(name, self.source.parent / name, self.output)
 
 
@@ -119,10 +116,10 @@ def _used_packages(package: Package) -> set[str]:
 
 def _require_used_packages(package: Package) -> None:
     lib = ros_prefix() / "lib"
-    # The libraries are asked for, not the definitions: a package built here has only the latter.
+    # Of wheels the libraries are asked for: what was built and installed here has definitions there, too.
     used = sorted(_used_packages(package))
     in_wheels = {name for name in used if (lib / f"lib{name}__{GENERATOR_C}.so").exists()}
-    missing = [name for name in used if name not in in_wheels and not package.beside(name).library.exists()]
+    missing = [name for name in used if name not in in_wheels and not package.beside(name).share.exists()]
     if missing:
         raise BuildError(
             f"{package.name} uses {', '.join(missing)}, which no installed ROS wheel provides and which is "
@@ -179,10 +176,8 @@ def _write_sources(package: Package) -> None:
         (generate_introspection, _arguments(package, INTROSPECTION, package.introspection)),
         (generate_dispatcher, _arguments(package, DISPATCHER, package.include), [FASTRTPS, INTROSPECTION]),
     ]
-    # Processes, as each generator takes over sys.stdout; forked ones, as they have what was read already.
-    with ProcessPoolExecutor(os.cpu_count(), multiprocessing.get_context("fork")) as pool:
-        for done in [pool.submit(*job) for job in jobs]:
-            done.result()
+    for job, *arguments in jobs:
+        job(*arguments)
     (package.python / "__init__.py").touch()
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 @functools.cache
 def read_once() -> None:
-    """Keep what the generators read, in this process and its forks; what they write stays as it was."""
+    """Keep what the generators read in this process; what they write stays as it was."""
     # The generators are imported where they run: without the ROS wheels, ros_prefix() has the word first.
     import em
     from rosidl_parser import parser

@@ -4,11 +4,12 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from build_tools import toolchain
-from build_tools.compile import compile_package
+from build_tools.compile import compiling, link
 from build_tools.generate import Package, generate
 from build_tools.toolchain import BuildError, require_compilers, ros_prefix
 
@@ -35,6 +36,12 @@ def package(directory: Path, **definitions: str) -> Package:
     for name, text in definitions.items():
         (directory / "source" / "msg" / f"{name}.msg").write_text(text, encoding="utf-8")
     return Package("try_msgs", directory / "source", directory / "output")
+
+
+def compiled(package: Package) -> Path:
+    """The shared object of a package."""
+    with ThreadPoolExecutor(2) as pool:
+        return link(package, generate(package), compiling(package, pool))
 
 
 def command(directory: Path, name: str, script: str) -> None:
@@ -96,21 +103,20 @@ def test_a_definition_that_uses_a_package_that_is_built_later_is_refused_too(tmp
 
 def test_a_package_may_use_one_that_is_built_before_it(tmp_path):
     first = package(tmp_path / "first", Number="int32 data\n")
-    compile_package(first, generate(first))
+    compiled(first)
     second = package(tmp_path / "second", Numbers="try_msgs/Number[] all\n")
     later = Package("use_msgs", second.source, first.output)
-    library = compile_package(later, generate(later))
+    library = compiled(later)
     used = subprocess.run(["ldd", library], capture_output=True, text=True, check=True, timeout=60).stdout
     assert str(library.parent / ".." / "try_msgs" / first.library.name) in used
 
 
 def test_a_failing_compiler_is_quoted_with_its_command(monkeypatch, tmp_path):
     made = package(tmp_path, Number="int32 data\n")
-    dependencies = generate(made)
     command(tmp_path, "gcc", "echo no space left >&2; exit 1")
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     with pytest.raises(BuildError) as stop:
-        compile_package(made, dependencies)
+        compiled(made)
     first, words, last = str(stop.value).splitlines()
     assert first == "This step of the interface build failed:"
     assert words.startswith("gcc -std=gnu11 -DPy_LIMITED_API=0x030B0000 ")
@@ -119,14 +125,13 @@ def test_a_failing_compiler_is_quoted_with_its_command(monkeypatch, tmp_path):
 
 def test_a_library_that_does_not_load_is_refused_with_the_loaders_reason(monkeypatch, tmp_path):
     made = package(tmp_path, Number="int32 data\n")
-    dependencies = generate(made)
     # A linker that leaves everything out: the library links, and its first symbol is missing.
     linker = shutil.which("g++")
     lost = f'echo "int lost(); int x = lost();" | {linker} -shared -fPIC -x c++ - -o "$4"'
     command(tmp_path, "g++", f'case "$*" in *-shared*) {lost};; *) exec {linker} "$@";; esac')
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     with pytest.raises(BuildError, match=r"undefined symbol: _Z4lostv$"):
-        compile_package(made, dependencies)
+        compiled(made)
 
 
 def test_the_build_stops_with_the_reason_and_the_package_alone(tmp_path, definitions):
