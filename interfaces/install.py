@@ -89,7 +89,7 @@ def main() -> None:
             return  # elsewhere rclpy is ROS's own, and so are all interfaces
         wheel = cached_wheel()
         if not wheel.exists():
-            print("Building the ROS interfaces, once; this takes about a minute ...", flush=True)
+            print("Building the ROS interfaces, once; this takes half a minute ...", flush=True)
             build(wheel)
         install(wheel)
     except BuildError as error:
