@@ -160,6 +160,27 @@ def test_two_builds_in_two_places_are_equal(tmp_path, definitions, name):
     assert here == there
 
 
+def test_what_is_read_once_changes_nothing_that_is_written(tmp_path, definitions):
+    upstream = written(definitions / "tf2_msgs", tmp_path / "output", "generate.read_once = lambda: None")
+    assert len(upstream) > 60
+    assert written(definitions / "tf2_msgs", tmp_path / "output") == upstream
+
+
+def written(source: Path, output: Path, before: str = "") -> dict[Path, bytes]:
+    """The files that a process writes for a package; `before` is done there first."""
+    package = f"generate.Package({source.name!r}, Path({str(source)!r}), Path({str(output)!r}))"
+    words = (
+        f"from build_tools import generate; from pathlib import Path; {before}\ngenerate.generate({package})"
+    )
+    tools, seeded = Path(toolchain.__file__).parents[1], {**os.environ, "PYTHONHASHSEED": "0"}
+    subprocess.run(
+        [sys.executable, "-c", words], cwd=tools, env=seeded, check=True, capture_output=True, timeout=120
+    )
+    files = {file: file.read_bytes() for file in output.rglob("*.*") if file.is_file()}
+    shutil.rmtree(output)
+    return files
+
+
 def built(definitions: Path, place: Path) -> dict[str, bytes]:
     """The files that a process makes of a folder's definitions in this place."""
     place.mkdir()
