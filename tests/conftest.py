@@ -35,13 +35,15 @@ LAB = [f"tests/browser/test_{name}.py" for name in IN_LAB]
 class ByFile(LoadScopeScheduling):
     """A file's tests share its fixtures, so one worker runs them; score tables are dealt out by exercise.
 
-    And one worker drives JupyterLab, of which one server is enough.
+    And one worker drives JupyterLab, and one a cluster: of each, one is enough.
     """
 
     def _split_scope(self, nodeid: str) -> str:
         file, _, rest = nodeid.partition("::")
         if file in LAB:
             return "JupyterLab"
+        if file.startswith("tests/marking/machines/"):
+            return "cluster"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file
 

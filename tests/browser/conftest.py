@@ -67,7 +67,7 @@ def students_folder(tmp_path_factory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def address(students_folder) -> Iterator[str]:
     """A running JupyterLab in the students' folder."""
     with server(students_folder) as url:
