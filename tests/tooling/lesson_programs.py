@@ -35,7 +35,7 @@ def definitions(lesson: str) -> str:
     written = {cell.split()[1].removesuffix(".py") for cell in cells if cell.startswith("%%writefile")}
     missing, kept, ours = {"print", "display", *written}, [], set()
     for cell in cells:
-        plain = "" if cell.startswith("%%") else re.sub("^%.*", "", cell, flags=re.M)
+        plain = "" if cell.startswith("%%") else re.sub("^[%!].*", "", cell, flags=re.M)
         for statement in ast.parse(plain).body:
             if _is_ours(statement, folder):
                 ours |= set(_defined(statement))

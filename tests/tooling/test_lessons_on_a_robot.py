@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from tests.sim.standalone.programs import LIMIT, REPOSITORY, environment, robot
+from tests.tooling.lesson_programs import ROOT, definitions
 
 COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
 BOTH = pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
@@ -39,6 +40,11 @@ def told(yard, errors, lesson, names, number="SIGINT", seconds=1.0, listen=None,
         yard, errors,
         lesson=lesson, programs=programs, seconds=seconds, signal=number, listen=listen, says=says,
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("lesson", sorted(path.parent.name for path in ROOT.glob("course/*/lesson.ipynb")))
+def test_what_a_lesson_defines_can_be_taken_out_of_it(lesson):
+    assert "import " in definitions(lesson)
 
 
 @BOTH
