@@ -94,6 +94,8 @@ def main() -> None:
         install(wheel)
     except BuildError as error:
         sys.exit(str(error))
+    except KeyboardInterrupt:
+        sys.exit("Stopped: the ROS interfaces are built when the same command is run again.")
 
 
 if __name__ == "__main__":

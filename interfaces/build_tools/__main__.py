@@ -5,7 +5,7 @@ import os
 import sys
 import traceback
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -24,6 +24,8 @@ def main(definitions: str, output: str) -> None:
         build(Package(source.name, source, Path(output).resolve()) for source in sources)
     except BuildError as error:
         sys.exit(str(error))
+    except KeyboardInterrupt:
+        sys.exit(130)
 
 
 def build(packages: Iterable[Package]) -> None:
@@ -32,14 +34,28 @@ def build(packages: Iterable[Package]) -> None:
     Raises:
         BuildError: see generate() and link(); the message ends with the package's name.
     """
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        started = []
+    started: list[tuple[Package, list[str], list[Future[Path]]]] = []
+    with _compilers() as pool:
         for package in packages:
+            for earlier, _, compiled in started:
+                with _named(earlier):
+                    [unit.result() for unit in compiled if unit.done()]  # one that failed is told of at once
             with _named(package):
                 started.append((package, generate(package), compiling(package, pool)))
         for package, dependencies, compiled in started:
             with _named(package):
                 link(package, dependencies, compiled)
+
+
+@contextmanager
+def _compilers() -> Iterator[Executor]:
+    """As many as there are cores. After an error or Ctrl-C they end what they do, and begin nothing more."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
 
 
 @contextmanager

@@ -143,6 +143,21 @@ def test_the_build_stops_with_the_reason_and_the_package_alone(tmp_path, definit
     assert package == "The interface package try_msgs could not be built; the reason is above."
 
 
+def test_a_failing_compiler_stops_the_packages_that_come_after(monkeypatch, tmp_path):
+    (tmp_path / "definitions").mkdir()
+    for name in ("a_msgs", "b_msgs", "c_msgs", "d_msgs"):
+        package(tmp_path / name, Number="int32 data\n").source.rename(tmp_path / "definitions" / name)
+    broken = 'case "$*" in *a_msgs*) echo no space left >&2; exit 1;; esac'
+    command(tmp_path, "gcc", f'{broken}; exec {shutil.which("gcc")} "$@"')
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    done = build(tmp_path / "definitions", tmp_path / "output")
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-2:] == [
+        "no space left", "The interface package a_msgs could not be built; the reason is above.",
+    ]  # fmt: skip
+    assert not (tmp_path / "output" / "objects" / "d_msgs").exists()
+
+
 def build(definitions: Path, output: Path) -> subprocess.CompletedProcess:
     """Build all packages of a folder, as setup.py does."""
     words = [sys.executable, "-m", "build_tools", str(definitions), str(output)]

@@ -3,6 +3,7 @@
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 from importlib import metadata
@@ -130,3 +131,19 @@ def test_a_packages_folder_of_launch_files_hides_nothing(tmp_path):
     asked = [sys.executable, "-c", "import launch; print(launch.__file__)"]
     said = subprocess.check_output(asked, env={**os.environ, "PYTHONPATH": str(tmp_path)}, text=True)
     assert said.strip() == str(Path(install.ROOT, "launch", "__init__.py"))
+
+
+def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):
+    (changed / "definitions" / "a_msgs" / "msg" / "Broken.msg").write_text("int32 whole\n", encoding="utf-8")
+    words = [sys.executable, "-u", str(changed / "install.py")]
+    with subprocess.Popen(
+        words, env={**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    ) as terminal:  # fmt: skip
+        assert [terminal.stdout.readline() for _ in range(2)][1] == "  1 of 9: a_msgs\n"
+        os.killpg(terminal.pid, signal.SIGINT)
+        said = terminal.communicate(timeout=120)[1]
+    assert said == "Stopped: the ROS interfaces are built when the same command is run again.\n"
+    assert terminal.returncode == 1
+    assert not (tmp_path / "cache").exists()
