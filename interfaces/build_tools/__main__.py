@@ -62,9 +62,9 @@ def _compilers() -> Iterator[Executor]:
 def _named(package: Package) -> Iterator[None]:
     try:
         yield
-    except Exception as error:
-        # The generators tell of a definition's mistakes by errors of many types.
-        reason = error if isinstance(error, BuildError) else traceback.format_exc()
+    except (Exception, SystemExit) as error:
+        # The generators tell of a definition's mistakes by errors of many types, or say it and exit.
+        reason = error if isinstance(error, (BuildError, SystemExit)) else traceback.format_exc()
         said = f"The interface package {package.name} could not be built; the reason is above."
         raise BuildError(f"{reason}\n{said}") from None
 

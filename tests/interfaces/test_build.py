@@ -143,6 +143,16 @@ def test_the_build_stops_with_the_reason_and_the_package_alone(tmp_path, definit
     assert package == "The interface package try_msgs could not be built; the reason is above."
 
 
+def test_a_definition_that_makes_a_generator_exit_is_told_of_with_its_package(tmp_path):
+    (tmp_path / "definitions").mkdir()
+    text = "int32 data  # a path: C:\\\n"
+    package(tmp_path / "one", Number=text).source.rename(tmp_path / "definitions" / "try_msgs")
+    done = build(tmp_path / "definitions", tmp_path / "output")
+    assert done.returncode == 1
+    assert "\\ at end of string" in done.stderr
+    assert done.stderr.endswith("\nThe interface package try_msgs could not be built; the reason is above.\n")
+
+
 def test_a_failing_compiler_stops_the_packages_that_come_after(monkeypatch, tmp_path):
     (tmp_path / "definitions").mkdir()
     for name in ("a_msgs", "b_msgs", "c_msgs", "d_msgs"):
