@@ -193,16 +193,15 @@ class World(Model):
             WorldError: no world has this name, or the file cannot be read or holds a wrong value.
         """
         path = Path(world)
-        if path.suffix != ".toml":
-            path = cls._path(str(world))
-        return worldfile.read(path, cls)
+        return worldfile.read(path, cls) if path.suffix == ".toml" else cls._of_the_course(str(world))
 
     @classmethod
-    def _path(cls, name: str) -> Path:
+    @functools.cache  # nearly every run begins with one
+    def _of_the_course(cls, name: str) -> World:
         names = cls.names()
         if name not in names:
             raise WorldError(unknown("world", name, names))
-        return _FOLDER / f"{name}.toml"
+        return worldfile.read(_FOLDER / f"{name}.toml", cls)
 
     @classmethod
     def generate(cls, kind: str, *, seed: int = 0, **figures: Any) -> World:

@@ -44,6 +44,9 @@ class Elsewhere(Protocol):
     def alive(self, node: str, topic: str) -> None:
         """A publisher of this process says that it is alive."""
 
+    def seek(self, service: str | None = None) -> None:
+        """A node of this process looks for services of this name, or for all that there are."""
+
 
 class Engine(Scheduler):
     """One run on the real rclpy. Between open() and close(), it can be awake again and again."""

@@ -74,9 +74,25 @@ def create_client(original: Callable) -> Callable:
                 "client", self, name, srv_type, client.qos_profile, handle=client.handle
             )
             run.recorder.calls.client_made(client, self, name)
+            if run.link is not None:
+                run.link.seek(name)
         return client
 
     return create_client
+
+
+def _looking(original: Callable) -> Callable:
+    def looking(self: Node, *arguments: Any, **keywords: Any) -> Any:
+        run = engine()
+        if run is not None and run.link is not None:
+            run.link.seek()
+        return original(self, *arguments, **keywords)
+
+    return looking
+
+
+for _name in ("get_service_names_and_types", "get_service_names_and_types_by_node", "count_services"):
+    hook(Node, _name, "services of another process are made when somebody looks for them")(_looking)
 
 
 @hook(

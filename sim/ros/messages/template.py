@@ -7,12 +7,14 @@ ten times as much as writing the numbers where CDR has them.
 from __future__ import annotations
 
 import array
+import functools
 import struct
 from collections.abc import Sequence
 from typing import Any
 
 from sim.ros.messages.cdr import Canonical, canonical
 from sim.ros.messages.codec import encode, type_name
+from sim.ros.messages.decoder import decode_message
 
 _MARK = b"\x11"  # fills a field, to find where it is
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
@@ -39,7 +41,7 @@ class Template:
     def __init__(self, message: Any, fields: Sequence[str]) -> None:
         raw = canonical(type_name(type(message)), encode(message))
         self._buffer = bytearray(raw)
-        self._writers = [writer for field in fields for writer in self._find(message, field)]
+        self._writers = _writers(type(message), raw, tuple(fields))
 
     def fill(self, *values: Any) -> bytes:
         """The message's bytes with these values, in the order of the fields; float32 sequences as bytes."""
@@ -51,26 +53,36 @@ class Template:
                 place.pack_into(buffer, offset, value)
         return Canonical(buffer)
 
-    def _find(self, message: Any, field: str) -> list[tuple[struct.Struct | None, int]]:
-        *path, name = field.split(".")
-        owner = message
-        for step in path:
-            owner = _get(owner, step)
-        before = _get(owner, name)
-        if isinstance(before, array.array):
-            place = None if before.typecode == "f" else _FLOAT64
-            mark = array.array(before.typecode, _MARK * len(before) * before.itemsize)
-            size, count = len(before) * before.itemsize, len(before) if place else 1
-        else:
-            whole = hasattr(owner, "get_fields_and_field_types")  # else it is an array, of float64
-            place = _PLACES[owner.get_fields_and_field_types()[name]] if whole else _FLOAT64
-            size, count = place.size, 1
-            mark = place.unpack(_MARK * size)[0]
-        _set(owner, name, mark)
-        raw = canonical(type_name(type(message)), encode(message))
-        _set(owner, name, before)
-        offset = raw.index(_MARK * size)
-        return [(place, offset + 8 * index) for index in range(count)]
+
+_Writer = tuple[struct.Struct | None, int]  # what writes a value, or None for bytes; and where
+
+
+@functools.lru_cache(maxsize=256)  # the robots of all runs have the same few
+def _writers(cls: type, raw: bytes, fields: tuple[str, ...]) -> list[_Writer]:
+    message = decode_message(cls, raw)
+    return [writer for field in fields for writer in _find(message, field)]
+
+
+def _find(message: Any, field: str) -> list[_Writer]:
+    *path, name = field.split(".")
+    owner = message
+    for step in path:
+        owner = _get(owner, step)
+    before = _get(owner, name)
+    if isinstance(before, array.array):
+        place = None if before.typecode == "f" else _FLOAT64
+        mark = array.array(before.typecode, _MARK * len(before) * before.itemsize)
+        size, count = len(before) * before.itemsize, len(before) if place else 1
+    else:
+        whole = hasattr(owner, "get_fields_and_field_types")  # else it is an array, of float64
+        place = _PLACES[owner.get_fields_and_field_types()[name]] if whole else _FLOAT64
+        size, count = place.size, 1
+        mark = place.unpack(_MARK * size)[0]
+    _set(owner, name, mark)
+    raw = canonical(type_name(type(message)), encode(message))
+    _set(owner, name, before)
+    offset = raw.index(_MARK * size)
+    return [(place, offset + 8 * index) for index in range(count)]
 
 
 def _get(owner: Any, step: str) -> Any:

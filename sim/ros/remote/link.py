@@ -40,6 +40,7 @@ class Link:
     def __init__(self, engine: Engine, keys: int) -> None:
         self.engine, self.recording = engine, engine.recording
         self.puppets = Puppets(engine)
+        self.seek = self.puppets.seek
         self.news: list[Any] = []  # events
         self.keys = itertools.count(keys, 2)
         self.own = OwnEnds(engine.recorder.ends, self.keys)

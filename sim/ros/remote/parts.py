@@ -7,11 +7,12 @@ process.
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 
 from sim.ros.engine.delivery.qos import NO_LIMIT
 from sim.ros.engine.delivery.reader import Reader, Sent
@@ -55,13 +56,9 @@ class Part:
 
     def __init__(self, node: PuppetNode, type_: type, name: str, profile: QoSProfile) -> None:
         self.node, self.type, self.name, self.qos_profile = node, type_, name, profile
+        self.of_action = "/_action/" in name  # a part of one: rclpy's classes show nothing of it
         with node.handle:
             self.handle = self.made_by(node.handle, type_, name, profile.get_c_qos_profile())
-
-    @property
-    def of_action(self) -> bool:
-        """Whether it is a part of an action, of which rclpy's classes show nothing."""
-        return "/_action/" in self.name
 
 
 class PuppetPublisher(Part):
@@ -171,6 +168,23 @@ class PuppetClient(Part):
         if header is None:
             return None
         return self.asked.pop(header.request_id.sequence_number, None), response
+
+
+def parts_of_action(kind: str, type_: Any, name: str) -> Iterator[tuple[str, type, str, QoSProfile]]:
+    """Kind, type, name and settings of each part that one end of an action has."""
+    serves, impl = kind == "action server", type_.Impl
+    for part, service in (
+        ("send_goal", impl.SendGoalService),
+        ("cancel_goal", impl.CancelGoalService),
+        ("get_result", impl.GetResultService),
+    ):
+        role = "service" if serves else "client"
+        yield role, service, f"{name}/_action/{part}", qos_profile_services_default
+    role = "publisher" if serves else "subscription"
+    yield role, impl.FeedbackMessage, f"{name}/_action/feedback", QoSProfile(depth=10)
+    # A late joiner of a latched topic gets its last message at some wall time: here only publishers are.
+    status = qos_profile_action_status_default if serves else QoSProfile(depth=10)
+    yield role, impl.GoalStatusMessage, f"{name}/_action/status", status
 
 
 def destroy(handle: Any) -> None:

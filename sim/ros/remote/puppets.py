@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import contextlib
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rclpy.qos import (
-    QoSProfile,
-    qos_profile_action_status_default,
-    qos_profile_services_default,
-)
+from rclpy.exceptions import NameValidationException
+from rclpy.qos import QoSProfile
+from rclpy.validate_full_topic_name import validate_full_topic_name
 
+from sim.ros.fibers.scheduler import outside_student_code
 from sim.ros.remote.checked import MOST_NAME, Nonsense, interface, qos, text, whole
 from sim.ros.remote.parts import (
     Part,
@@ -27,6 +27,7 @@ from sim.ros.remote.parts import (
     PuppetSubscription,
     RCLError,
     destroy,
+    parts_of_action,
 )
 
 if TYPE_CHECKING:
@@ -54,22 +55,6 @@ ALL_ENDS = 5_000  # made in a run: some take 10 ms
 Declared = tuple[str, PuppetNode, str, type, QoSProfile | None]  # kind, node, name, type, settings
 
 
-def _parts_of_action(kind: str, type_: Any, name: str) -> Iterator[tuple[str, type, str, QoSProfile]]:
-    serves, impl = kind == "action server", type_.Impl
-    for part, service in (
-        ("send_goal", impl.SendGoalService),
-        ("cancel_goal", impl.CancelGoalService),
-        ("get_result", impl.GetResultService),
-    ):
-        role = "service" if serves else "client"
-        yield role, service, f"{name}/_action/{part}", qos_profile_services_default
-    role = "publisher" if serves else "subscription"
-    yield role, impl.FeedbackMessage, f"{name}/_action/feedback", QoSProfile(depth=10)
-    # A late joiner of a latched topic gets its last message at some wall time: here only publishers are.
-    status = qos_profile_action_status_default if serves else QoSProfile(depth=10)
-    yield role, impl.GoalStatusMessage, f"{name}/_action/status", status
-
-
 class Puppets:
     """All puppets of one run, found by what the events on the wire call them."""
 
@@ -77,6 +62,8 @@ class Puppets:
         self._engine = engine
         self.nodes: dict[int, PuppetNode] = {}
         self._ends: dict[int, list[Part]] = {}
+        # Services that no node of this side has looked for: their names, and what makes them.
+        self._unsought: dict[int, tuple[str, Callable[[], None]]] = {}
         self.actions: dict[int, PuppetAction] = {}
         self.publishers: dict[str, list[PuppetPublisher]] = defaultdict(list)  # by topic
         self.services: list[PuppetService] = []
@@ -117,8 +104,11 @@ class Puppets:
         namespace, _, short = of.rpartition("/")
         try:
             puppet = self._node(node, namespace or "/", short)
-            self._make(number, puppet, kind, cls, name, settings)
-        except ValueError:
+            if kind == "service" and not self._is_sought(name):
+                self._make_later(number, puppet, cls, name, settings)
+            else:
+                self._make(number, puppet, kind, cls, name, settings)
+        except (ValueError, NameValidationException):
             raise Nonsense(f"the name {name!r} or {of!r}, which ROS does not allow") from None
         return kind, puppet, name, cls, settings
 
@@ -130,7 +120,7 @@ class Puppets:
 
     def _make(self, number: int, node: PuppetNode, kind: str, type_: type, name: str, profile: Any) -> None:
         """Make what stands for one end of a topic, service or action. Raises ValueError for a bad name."""
-        asked = _parts_of_action(kind, type_, name) if kind in ACTIONS else [(kind, type_, name, profile)]
+        asked = parts_of_action(kind, type_, name) if kind in ACTIONS else [(kind, type_, name, profile)]
         parts = self._ends[number] = []
         node.ends.add(number)
         for what, part_type, part_name, part_profile in asked:
@@ -143,6 +133,24 @@ class Puppets:
             serves = kind == "action server"
             self._engine.recorder.goals.end_made(action, node, name, type_, serves=serves)
         self._engine.endpoints_changed()
+
+    def _make_later(self, number: int, node: PuppetNode, type_: type, name: str, profile: QoSProfile) -> None:
+        """Each node has six services for its parameters, which take a third of a short run to make."""
+        validate_full_topic_name(name, is_service=True)
+        self._ends[number] = []
+        node.ends.add(number)
+        self._unsought[number] = name, partial(self._make, number, node, "service", type_, name, profile)
+
+    def _is_sought(self, service: str) -> bool:
+        return any(end.kind == "client" and end.name == service for end in self._engine.recorder.ends)
+
+    def seek(self, service: str | None = None) -> None:
+        """A node of this side looks for services of this name, or for all that there are."""
+        with outside_student_code():  # it doesn't make them
+            for number, (name, make) in list(self._unsought.items()):
+                if service in (None, name):
+                    del self._unsought[number]
+                    make()
 
     def _suited(self, kind: str, name: str, profile: QoSProfile) -> QoSProfile:
         if kind != "subscription" or "/_action/" in name:
@@ -195,6 +203,7 @@ class Puppets:
 
     def remove(self, number: int) -> None:
         """Destroy what stands for one end, and the node with its last one. Raises KeyError for none."""
+        self._unsought.pop(number, None)
         for part in self._ends.pop(number):
             if isinstance(part, PuppetPublisher):
                 self.publishers[part.name].remove(part)
