@@ -6,7 +6,7 @@ import contextlib
 import sys
 from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
@@ -17,6 +17,7 @@ from sim.ros.engine.agenda import Agenda
 from sim.ros.engine.delivery.channels import Links
 from sim.ros.engine.delivery.post import Post
 from sim.ros.engine.delivery.topics import Topics
+from sim.ros.engine.elsewhere import Elsewhere
 from sim.ros.engine.endings import conclusion
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import Limits
@@ -33,19 +34,6 @@ from sim.ros.recorder.tracebacks import student_line
 
 INTERRUPTED = "The user interrupted the run."
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
-
-
-class Elsewhere(Protocol):
-    """Another process, in which some of the run's nodes live, as far as the engine has to do with it."""
-
-    def close(self) -> None:
-        """Leave nothing of it here."""
-
-    def alive(self, node: str, topic: str) -> None:
-        """A publisher of this process says that it is alive."""
-
-    def seek(self, service: str | None = None) -> None:
-        """A node of this process looks for services of this name, or for all that there are."""
 
 
 class Engine(Scheduler):

@@ -119,6 +119,11 @@ def test_a_file_of_ones_own_can_be_loaded_by_a_path_in_a_string(tmp_path):
     assert World.load(str(tmp_path / "mine.toml")).start == (0, 0, 0)
 
 
+def test_a_file_of_ones_own_is_read_each_time(tmp_path):
+    load(tmp_path, GOOD)
+    assert load(tmp_path, GOOD.replace("[0, 0, 0]", "[1, 0, 0]")).start == (1, 0, 0)
+
+
 def test_segments_are_the_walls_and_then_the_sides_of_the_boxes():
     world = World(
         "t", "", (-9, -9, 9, 9), (0, 0, 0), walls=(((5, 5), (6, 6)),), boxes=(Box(1, 2, math.pi / 2, 4, 2),)

@@ -4,8 +4,12 @@ import importlib
 from dataclasses import asdict
 
 import pytest
+from example_interfaces.srv import AddTwoInts
+from rcl_interfaces.srv import SetParameters
+from rclpy.node import Node
 
 from sim import Recording, run
+from sim.ros.fibers.scheduler import engine
 from tests.sim.ros.remote import observers
 
 ENGINE = "tests.students.engine"
@@ -142,6 +146,36 @@ def test_a_node_elsewhere_is_seen_as_it_is(apart):
         there = run(observers.Observer, remote, seconds=2, quiet=True)
     here = run(observers.Observer, found("actions", "Server"), seconds=2, quiet=True)
     assert [line.text for line in there.logs] == [line.text for line in here.logs]
+
+
+@pytest.mark.parametrize(
+    "look",
+    [
+        lambda node: sorted(node.get_service_names_and_types()),
+        lambda node: sorted(node.get_service_names_and_types_by_node("adder", "/")),
+        lambda node: node.count_services("/add"),
+        lambda node: node.create_client(AddTwoInts, "add").service_is_ready(),
+        lambda node: node.create_client(SetParameters, "adder/set_parameters").service_is_ready(),
+    ],
+)
+def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look):
+    made = []
+
+    class Looker(Node):
+        def __init__(self):
+            super().__init__("looker", start_parameter_services=False)
+            self.create_timer(0.5, self.look)
+
+        def look(self):
+            if link := engine().link:
+                made.append(len(link.puppets.services))
+            self.get_logger().info(f"{look(self)}")
+
+    with apart.serving(f"{ENGINE}.services", "Adder") as remote:
+        there = run(Looker, remote, seconds=0.7, quiet=True)
+    here = run(Looker, found("services", "Adder"), seconds=0.7, quiet=True)
+    assert made == [0]
+    assert [line.text for line in there.logs] == [line.text for line in here.logs] != ["[]"]
 
 
 def test_several_nodes_of_a_student_live_in_one_process(apart):

@@ -30,6 +30,7 @@ def packed(message) -> str:
 TWIST = packed(Twist())
 TOO_SHORT = base64.b64encode(b"\0\1\0\0\xff\xff\xff\xff").decode()  # a text that would be longer
 TALKS = ["end", 1, 3, "/talker", "publisher", "/chat", "std_msgs/msg/String", QOS]
+SERVES = ["end", 11, 3, "/talker", "service", "/add", "example_interfaces/srv/AddTwoInts", QOS]
 ASKS = ["end", 5, 3, "/talker", "client", "/add", "example_interfaces/srv/AddTwoInts", QOS]
 ACTS = ["end", 7, 3, "/talker", "action client", "/fib", "example_interfaces/action/Fibonacci", None]
 CALL = ["call", 9, "/add", "example_interfaces/srv/AddTwoInts", "/talker", True, TWIST, False]
@@ -99,6 +100,10 @@ def test_who_says_nothing_new_is_fine():
         ([[*TALKS[:3], "talker", *TALKS[4:]]], "the end '/chat' of 'talker', which can't be"),
         ([[*TALKS[:3], "/tal ker", *TALKS[4:]]], "the name '/chat' or '/tal ker', which ROS does not allow"),
         ([[*TALKS[:5], "/ch at", *TALKS[6:]]], "the name '/ch at' or '/talker', which ROS does not allow"),
+        (
+            [[*SERVES[:5], "/ad d", *SERVES[6:]]],
+            "the name '/ad d' or '/talker', which ROS does not allow",
+        ),
         ([["end", "1", *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
         ([["end", True, *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
         ([[*TALKS[:4], "robot", *TALKS[5:]]], "an end of no known kind"),
@@ -345,10 +350,9 @@ class Asker(Node):
 
 def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it():
     type_ = "example_interfaces/srv/AddTwoInts"
-    offers = ["end", 11, 3, "/talker", "service", "/add", type_, QOS]
     again = ["call", 13, "/add", type_, "/asker", True, packed(AddTwoInts.Request(a=1, b=2)), False]
     half = QUIET | {"next": END // 2}
-    with answering(half | {"news": [offers]}, half, news(again)) as remote:
+    with answering(half | {"news": [SERVES]}, half, news(again)) as remote:
         made = run(Asker, remote, seconds=1, quiet=True).calls
     assert [(call.client, call.asked) for call in made] == [("/asker", 0.25)] * 2
 
