@@ -95,6 +95,26 @@ def test_what_comes_is_measured_until_ctrl_c(system, command):
     assert {form.sub("N", line) for line in lines} <= known
 
 
+def test_ctrl_c_is_not_lost_where_an_object_goes():
+    program = """
+import signal, time
+from sim.ros2 import terminal
+
+class Going:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+def obey(*_):
+    Going()
+    while True:
+        time.sleep(0.1)
+
+terminal.words.obey = obey
+raise SystemExit(terminal.main())
+"""
+    assert ended([sys.executable, "-c", program, "topic", "list"], free_domain()) == (2, "", "")
+
+
 def test_the_command_itself_says_what_is_wrong_on_stderr(system):
     for _ in range(20):  # a busy machine may have found nobody yet
         said = ended([*ROS2, "param", "get", "/talkr", "speed"], system)
