@@ -135,7 +135,7 @@ class Puppets:
         self._engine.endpoints_changed()
 
     def _make_later(self, number: int, node: PuppetNode, type_: type, name: str, profile: QoSProfile) -> None:
-        """Each node has six services for its parameters, which take a third of a short run to make."""
+        """Each node has six services for its parameters: to make them takes a quarter of a short run."""
         validate_full_topic_name(name, is_service=True)
         self._ends[number] = []
         node.ends.add(number)
