@@ -20,7 +20,8 @@ from sim.ros2.live import Live
 from sim.ros2.surroundings import environment_before
 from sim.ros2.system import Wrong
 
-SOON = 0.1  # s without news, until names are completed: who waits for them can ask again; and to a new Ctrl-C
+SOON = 0.1  # s without news, until names are completed: who waits for them can ask again
+ONCE_MORE = 0.1  # s, until Ctrl-C that got lost is pressed again
 STOPPED = 2  # exit status after Ctrl-C, as the official command's
 MARK = b"sim.ros2"  # what the script that starts this one holds, wherever it is installed
 
@@ -56,7 +57,7 @@ def _again(unheard: Any) -> None:
     # Where it hits rclpy while an object goes, nobody hears of it. Not at once: here it would be the same.
     if unheard.exc_type is KeyboardInterrupt:
         signal.signal(signal.SIGALRM, _interrupted)
-        signal.setitimer(signal.ITIMER_REAL, SOON)
+        signal.setitimer(signal.ITIMER_REAL, ONCE_MORE)
 
 
 def _say(line: str) -> None:

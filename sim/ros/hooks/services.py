@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
@@ -17,9 +18,18 @@ from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 
 
+def _seek(node: Node, service: Any) -> None:
+    """Let those of another process be made first: a service has one type, and who comes later is refused."""
+    run = engine()
+    if run is not None and run.link is not None:
+        with contextlib.suppress(_rclpy.RCLError, TypeError):  # no name: rclpy says so, when the end is made
+            run.link.seek(node.resolve_service_name(service))
+
+
 @hook(Node, "create_service", "the graph")
 def create_service(original: Callable) -> Callable:
     def create_service(self: Node, srv_type: Any, srv_name: str, *arguments: Any, **keywords: Any) -> Any:
+        _seek(self, srv_name)
         service = original(self, srv_type, srv_name, *arguments, **keywords)
         run = engine()
         if run is not None:
@@ -64,6 +74,7 @@ def service_init(original: Callable) -> Callable:
 @hook(Node, "create_client", "the graph; and services are asked for requests only once there is a client")
 def create_client(original: Callable) -> Callable:
     def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
+        _seek(self, srv_name)
         client = original(self, srv_type, srv_name, **keywords)
         run = engine()
         if run is not None:
@@ -74,8 +85,6 @@ def create_client(original: Callable) -> Callable:
                 "client", self, name, srv_type, client.qos_profile, handle=client.handle
             )
             run.recorder.calls.client_made(client, self, name)
-            if run.link is not None:
-                run.link.seek(name)
         return client
 
     return create_client

@@ -9,6 +9,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 LATCHED = QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -153,3 +154,38 @@ class LogReader(Node):
         super().__init__("log_reader")
         self.out = self.create_publisher(String, "read", 10)
         self.create_subscription(Log, "/rosout", lambda log: self.out.publish(String(data=log.msg)), 10)
+
+
+class OtherService(Node):
+    """Offers what another node offers, with another type."""
+
+    def __init__(self):
+        super().__init__("other")
+        self.create_service(Trigger, "add", lambda request, response: response)
+
+
+class OtherClient(Node):
+    """Asks for what another node offers, with another type."""
+
+    def __init__(self):
+        super().__init__("other")
+        self.create_client(Trigger, "add")
+
+
+class LateOtherService(Node):
+    """As `OtherService`, a second later."""
+
+    def __init__(self):
+        super().__init__("other")
+        self.create_timer(1.0, self.offer)
+
+    def offer(self):
+        self.create_service(Trigger, "add", lambda request, response: response)
+
+
+class NoName(Node):
+    """Offers a service whose name is none."""
+
+    def __init__(self):
+        super().__init__("other")
+        self.create_service(Trigger, "add two", lambda request, response: response)

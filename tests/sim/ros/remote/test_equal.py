@@ -178,6 +178,15 @@ def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look
     assert [line.text for line in there.logs] == [line.text for line in here.logs] != ["[]"]
 
 
+@pytest.mark.parametrize("name", ["OtherService", "OtherClient", "LateOtherService", "NoName"])
+def test_a_service_that_has_another_type_elsewhere_is_refused_as_in_one(apart, name):
+    with apart.serving(OBSERVERS, name) as remote:
+        there = run(found("services", "Adder"), remote, seconds=2, quiet=True)
+    here = run(found("services", "Adder"), getattr(observers, name), seconds=2, quiet=True)
+    assert evidence(there) == evidence(here)
+    assert there.ended.reason == "error"
+
+
 def test_several_nodes_of_a_student_live_in_one_process(apart):
     with apart.serving(f"{ENGINE}.callers", "First", "Second") as remote:
         there = run(found("services", "SlowAdder"), remote, seconds=8, quiet=True)
