@@ -21,7 +21,9 @@ import grader.pictures  # noqa: F401
 import sim.ros
 import sim.view
 from grader.catalogue import exercises
+from sim.ros.robots.sensor_messages import SensorMessages
 from sim.view.figure import plot
+from sim.world import World
 
 LATER = "service_msgs.msg", "type_description_interfaces.msg"  # rclpy imports them for the first node
 
@@ -35,6 +37,8 @@ for name in [name for name in sys.modules if re.fullmatch(r"\w+\.(msg|srv|action
     support = f"{package}.{package}_s__rosidl_typesupport_c"  # else loaded with the first message
     if importlib.util.find_spec(support):
         importlib.import_module(support)
+for name in World.names():
+    SensorMessages(World.load(name).lidar)  # and what is made for the first message of a type
 PIL.Image.preinit()
 sim.view.png(plot(1, 1)[0])  # the first figure looks for fonts
 nbformat.validate(nbformat.v4.new_notebook())  # the first time, it makes code of the format's rules

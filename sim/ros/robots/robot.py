@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import array
 import math
 
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
@@ -15,17 +14,13 @@ from std_msgs.msg import Bool, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.nanoseconds import SECOND
-from sim.ros.messages.codec import encode
-from sim.ros.messages.template import STAMP, Template
 from sim.ros.robots.battery import BatteryTopic
 from sim.ros.robots.imu import ImuTopic
 from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
+from sim.ros.robots.sensor_messages import SensorMessages
 from sim.world import CommandError, MobileRobot, World
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-WHEELS = ["wheel_left_joint", "wheel_right_joint"]
-POSE = ("position.x", "position.y", "orientation.z", "orientation.w")
-TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
 class Robot(Node):
@@ -50,11 +45,8 @@ class Robot(Node):
             "robot", namespace=None if self.first else robot.name, start_parameter_services=False
         )
         self.world, self.robot = world, robot
-        frames = "" if self.first else f"{robot.name}/"
-        self.odom_frame, self.base_frame = f"{frames}odom", f"{frames}base_link"
-        self.scan_frame = f"{frames}base_scan"
+        self.messages = SensorMessages(world.lidar, "" if self.first else f"{robot.name}/")
         self._commands = 0  # since the last sense
-        self._make_templates()
         if world.robot.stamped:
             self.create_subscription(TwistStamped, "cmd_vel", lambda msg: self.on_cmd_vel(msg.twist), 10)
         else:
@@ -71,41 +63,19 @@ class Robot(Node):
         self.create_timer(1.0 / SENSOR_RATE, self.sense)
         imu = world.imu
         if imu is not None:
-            self.imu = ImuTopic(self, robot, imu, self.base_frame)
+            self.imu = ImuTopic(self, robot, imu, self.messages.base_frame)
             self.feel()
             self.create_timer(1.0 / imu.rate, self.feel)
         if robot.battery is not None:
-            battery = BatteryTopic(self, robot.battery, self.base_frame)
+            battery = BatteryTopic(self, robot.battery, self.messages.base_frame)
             battery.publish()
             self.create_timer(1.0, battery.publish)
 
-    def _make_templates(self) -> None:
-        self.clock = Template(Clock(), ["clock.sec", "clock.nanosec"])
-        odom = Odometry(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
-        pose = [f"pose.pose.{name}" for name in POSE]
-        self.odom = Template(odom, [*STAMP, *pose, "twist.twist.linear.x", "twist.twist.angular.z"])
-        transform = TransformStamped(header=Header(frame_id=self.odom_frame), child_frame_id=self.base_frame)
-        fields = [*STAMP, *(f"transform.{name}" for name in TRANSFORM)]
-        self.tf = Template(TFMessage(transforms=[transform]), [f"transforms.0.{field}" for field in fields])
-        joints = JointState(name=WHEELS, position=[0.0, 0.0], velocity=[0.0, 0.0])
-        self.joints = Template(joints, [*STAMP, "position", "velocity"])
-        lidar = self.world.lidar
-        scan = LaserScan(
-            header=Header(frame_id=self.scan_frame),
-            angle_max=math.tau - lidar.angle_increment,
-            angle_increment=lidar.angle_increment,
-            scan_time=1 / SENSOR_RATE,
-            range_min=lidar.range_min,
-            range_max=lidar.range_max,
-            ranges=array.array("f", [0.0] * lidar.rays),
-        )
-        self.scan = Template(scan, [*STAMP, "ranges"])
-        self.bumper = [encode(Bool(data=pressed)) for pressed in (False, True)]
-
     def _mounting(self) -> TFMessage:
         """Where the lidar sits."""
-        header = Header(frame_id=self.base_frame, stamp=self.get_clock().now().to_msg())
-        transform, lidar = TransformStamped(header=header, child_frame_id=self.scan_frame), self.world.lidar
+        messages, lidar = self.messages, self.world.lidar
+        header = Header(frame_id=messages.base_frame, stamp=self.get_clock().now().to_msg())
+        transform = TransformStamped(header=header, child_frame_id=messages.scan_frame)
         move = transform.transform
         move.translation.x, move.translation.y = lidar.x, lidar.y
         move.rotation.z, move.rotation.w = math.sin(lidar.yaw / 2), math.cos(lidar.yaw / 2)
@@ -125,7 +95,7 @@ class Robot(Node):
 
     def sense(self) -> None:
         """Publish what the other sensors see."""
-        robot, now = self.robot, self.get_clock().now().nanoseconds
+        robot, messages, now = self.robot, self.messages, self.get_clock().now().nanoseconds
         if self._commands > MOST_COMMANDS / SENSOR_RATE:
             self._warn_of_flood()
         self._commands = 0
@@ -133,13 +103,13 @@ class Robot(Node):
         x, y, yaw, v, w = robot.odometry
         pose = x, y, math.sin(yaw / 2), math.cos(yaw / 2)
         if self.clock_pub is not None:
-            self.clock_pub.publish(self.clock.fill(*stamp))
-        self.odom_pub.publish(self.odom.fill(*stamp, *pose, v, w))
-        self.tf_pub.publish(self.tf.fill(*stamp, *pose))
-        self.joint_pub.publish(self.joints.fill(*stamp, *robot.wheels))
+            self.clock_pub.publish(messages.clock.fill(*stamp))
+        self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w))
+        self.tf_pub.publish(messages.tf.fill(*stamp, *pose))
+        self.joint_pub.publish(messages.joints.fill(*stamp, *robot.wheels))
         if robot.sees:
-            self.scan_pub.publish(self.scan.fill(*stamp, robot.scan().tobytes()))
-        self.bumper_pub.publish(self.bumper[bool(robot.bumper)])
+            self.scan_pub.publish(messages.scan.fill(*stamp, robot.scan().tobytes()))
+        self.bumper_pub.publish(messages.bumper[bool(robot.bumper)])
 
     def _warn_of_flood(self) -> None:
         self.get_logger().warning(
