@@ -1,0 +1,36 @@
+"""What warm processes make before they fork."""
+
+import shutil
+import subprocess
+import sys
+
+from sim.world import description
+
+LOOK = """
+import sys
+from pathlib import Path
+from sim.world import World, description
+description._FOLDER = Path(sys.argv[1])
+import grader.marking.preload
+from sim.ros.messages.template import _writers
+from sim.ros.robots.sensor_messages import SensorMessages
+worlds, fields = World._of_the_course.cache_info().misses, _writers.cache_info().misses
+SensorMessages(World.load("room").lidar)
+print(World._of_the_course.cache_info().misses - worlds, _writers.cache_info().misses - fields, fields > 0)
+try:
+    World.load("mine")
+except description.WorldError as error:
+    print(error)
+"""
+
+
+def test_worlds_and_messages_are_made_before_and_a_broken_world_holds_up_only_who_runs_in_it(tmp_path):
+    shutil.copy(description._FOLDER / "room.toml", tmp_path)
+    (tmp_path / "mine.toml").write_text("walls = 3")
+    looked = subprocess.run(
+        [sys.executable, "-c", LOOK, str(tmp_path)], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert looked.returncode == 0, looked.stderr
+    made, reason = looked.stdout.splitlines()
+    assert made == "0 0 True"
+    assert reason.startswith("mine.toml: ")
