@@ -3,6 +3,7 @@
 from grader.exercises import services
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import executed, students
+from tests.exercises.seeds import fallen_short
 from tests.students.services._client import main as client_main
 
 
@@ -38,3 +39,8 @@ class TestServices(Assignment):
         assert cells["check-values-run"].text.count("successful=False") == 2
         assert "ZeroDivisionError" in cells["check-values-without-run"].text
         assert "power off" in cells["together-run"].text
+
+
+def test_a_robot_that_is_armed_for_a_moment_only_is_as_fast_as_ever():
+    """With this seed it is armed for 1.25 s, of which half a second is judged."""
+    assert list(fallen_short("services", "arming", range(24, 25))) == []
