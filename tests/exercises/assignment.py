@@ -92,12 +92,15 @@ class Assignment:
     @classmethod
     @functools.cache
     def telling(cls, exercise: str) -> list[str]:
-        """A right node, and as many wrong ones as miss every sentence of the page."""
-        names, missed = cls.right(exercise)[:1], set()
-        for name, text in page(cls.topic(), exercise).items():
-            more = {line for line in text.splitlines() if line.startswith("- ")} - missed
-            missed |= more
-            names += [name] if more else []
+        """A right node, and as few wrong ones as miss every sentence of the page: those with most first."""
+        missed = {
+            name: {line for line in text.splitlines() if line.startswith("- ")}
+            for name, text in page(cls.topic(), exercise).items()
+        }
+        names, left = cls.right(exercise)[:1], set().union(*missed.values())
+        while left:
+            names.append(max(missed, key=lambda name: len(missed[name] & left)))
+            left -= missed[names[-1]]
         return names
 
     @classmethod

@@ -11,6 +11,7 @@ import os
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -30,6 +31,8 @@ class Apart:
         ours, theirs = socket.socketpair()
         command = [sys.executable, "-m", "tests.sim.ros.remote.apart", str(theirs.fileno())]
         environment = {name: value for name, value in os.environ.items() if name != "COURSE_SECRET"}
+        self._folder = tempfile.TemporaryDirectory(prefix="apart-")  # what it leaves when it is killed
+        environment["TMPDIR"] = self._folder.name
         self.process = subprocess.Popen(command, cwd=ROOT, env=environment, pass_fds=[theirs.fileno()])
         theirs.close()
         self.wire = Wire(ours)
@@ -52,6 +55,7 @@ class Apart:
         self.wire.close()
         self.process.kill()
         self.process.wait()
+        self._folder.cleanup()
 
 
 def main() -> None:
