@@ -27,14 +27,20 @@ from tests.exercises.score_tables import (
 from tests.exercises.seeds import fallen_short, right_nodes
 from tests.students.teams import programs_of
 
-PRIVATE = 8  # other seeds, as students get them when a class is marked; tests.exercises.seeds tries more
+PRIVATE = 8, 40  # other seeds, at least and at most, as students get them; tests.exercises.seeds tries more
+PRIVATE_SECONDS = 1500.0  # of simulated time, for which an exercise is tried with other seeds
 LONG = 15.0  # s of simulated time, of all runs of an exercise
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
 
+def simulated(exercise: Exercise) -> float:
+    """Seconds of simulated time of all its runs together."""
+    return sum(scenario.seconds for scenario, _ in exercise.runs())
+
+
 def is_long(exercise: Exercise) -> bool:
     """Whether its runs are so long that soak tests alone run all that is tried with it."""
-    return sum(scenario.seconds for scenario, _ in exercise.runs()) >= LONG
+    return simulated(exercise) >= LONG
 
 
 def first_run(exercise: Exercise) -> Exercise:
@@ -142,7 +148,9 @@ class Assignment:
 
     @pytest.mark.soak
     def test_right_nodes_earn_everything_with_every_students_seeds(self, exercise):
-        assert list(fallen_short(self.topic(), exercise, range(PRIVATE))) == []
+        (least, most), judge = PRIVATE, self.judge(exercise)
+        number = least if judge.package else min(max(int(PRIVATE_SECONDS / simulated(judge)), least), most)
+        assert list(fallen_short(self.topic(), exercise, range(number))) == []
 
     def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
         """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""
