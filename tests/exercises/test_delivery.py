@@ -7,6 +7,7 @@ from rclpy.node import Node
 from grader.exercises import delivery
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import ROOT
+from tests.exercises.seeds import fallen_short
 
 
 class TestDelivery(Assignment):
@@ -49,3 +50,8 @@ def test_a_shift_asks_whoever_hands_in_a_robot():
         *((0.0, 48.0), (2.0, 77.0), (58.3, 133.3)),  # it charged, left an order, and stood
     ]
     assert delivery.questions(delivery.shift_of(unsolved)) == []
+
+
+def test_a_box_whose_side_comes_into_view_is_not_asked_for():
+    """The lidar is off the middle of a robot that turns; with these seeds it sees more of a box by and by."""
+    assert list(fallen_short("delivery", "perceive", range(18, 20))) == []
