@@ -42,6 +42,7 @@ class Scenario:
     prepare: a module's function that makes of each of the student's programs the one that runs in its place.
     name: by which checks that hold in some scenarios only name this one.
     network: what lies between the robot and the student's nodes, as in sim.run.
+    fair: the seeds of which students get one each when they are marked, where luck decides in others.
     """
 
     world: Any = None
@@ -52,6 +53,7 @@ class Scenario:
     prepare: Prepare | None = None
     name: str = ""
     network: Network | None = None
+    fair: Sequence[int] = ()
 
     def run(self, cast: Cast, seed: int, package: Package | None = None) -> Recording:
         """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
@@ -173,13 +175,11 @@ class Exercise:
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
         """Scenarios with their seeds: public ones, or private ones from a secret."""
-        one = Scenario(
-            self.world, self.seconds, 0, self.companions, self.until, network=self.network
-        )
+        one = Scenario(self.world, self.seconds, 0, self.companions, self.until, network=self.network)
         public = [(scenario, scenario.seed) for scenario in self.scenarios] or [(one, s) for s in self.seeds]
         if not secret:
             return public
-        return [(run[0], seeds.private_seed(secret, self.name, index)) for index, run in enumerate(public)]
+        return [(s, seeds.private_seed(secret, self.name, i, s.fair)) for i, (s, _) in enumerate(public)]
 
     def grade(self, *nodes: Any) -> Score:
         """Run a student's nodes, judge the recordings, give the score. No mistake of the student's raises.

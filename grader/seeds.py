@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import hmac
 import os
+from collections.abc import Sequence
 
 VARIABLE = "COURSE_SECRET"  # set by nbgrader's hooks in kernels that mark, and nowhere else
 
@@ -23,7 +24,11 @@ def secret_of_student(secret: str, student: str) -> str:
     return hmac.new(secret.encode(), name, hashlib.sha256).hexdigest() if secret else ""
 
 
-def private_seed(secret: str, exercise: str, index: int) -> int:
-    """The seed of an exercise's run: the first 4 bytes of HMAC-SHA256(secret, "exercise index")."""
+def private_seed(secret: str, exercise: str, index: int, fair: Sequence[int] = ()) -> int:
+    """The seed of an exercise's run: the first 4 bytes of HMAC-SHA256(secret, "exercise index").
+
+    Where there are seeds that alone are fair it is one of these.
+    """
     digest = hmac.new(secret.encode(), f"{exercise} {index}".encode(), hashlib.sha256).digest()
-    return int.from_bytes(digest[:4], "big")
+    drawn = int.from_bytes(digest[:4], "big")
+    return fair[drawn % len(fair)] if fair else drawn

@@ -178,17 +178,17 @@ def _plain(page: str) -> str:
 
 def exercise_of(answer: Answer, exercises: Any) -> Exercise:
     """The exercise that a test cell such as `nodes.hello.grade(Hello)` grades."""
-    return getattr(exercises, _GRADES.fullmatch(answer.source)[1])
+    return getattr(exercises, GRADES.fullmatch(answer.source)[1])
 
 
 def graded_exercises(assignment: str) -> tuple[str, ...]:
     """The names of the exercises that the test cells of a notebook in solutions/ grade, in order."""
     (path,) = (ROOT / "solutions" / assignment).glob("*.ipynb")
     sources = [cell.source for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
-    return tuple(found[1] for source in sources if (found := _GRADES.fullmatch(source)))
+    return tuple(found[1] for source in sources if (found := GRADES.fullmatch(source)))
 
 
-_GRADES = re.compile(r"(?:\w+\.)?(\w+)\.grade\(.*\)")
+GRADES = re.compile(r"(?:\w+\.)?(\w+)\.grade\((.*)\)")
 
 
 if __name__ == "__main__":

@@ -2,10 +2,13 @@
 
 import ast
 
+import pytest
 from rclpy.node import Node
 
+from grader.cast import LocalCast
 from grader.exercises import delivery
 from tests.exercises.assignment import Assignment
+from tests.exercises.fair import solution
 from tests.exercises.score_tables import ROOT
 from tests.exercises.seeds import fallen_short
 
@@ -55,3 +58,10 @@ def test_a_shift_asks_whoever_hands_in_a_robot():
 def test_a_box_whose_side_comes_into_view_is_not_asked_for():
     """The lidar is off the middle of a robot that turns; with these seeds it sees more of a box by and by."""
     assert list(fallen_short("delivery", "perceive", range(18, 20))) == []
+
+
+@pytest.mark.soak
+def test_the_solutions_robot_earns_everything_when_a_class_is_marked():
+    for number in range(4):
+        score = delivery.deliver.judge(LocalCast(solution("13_delivery", "deliver")), f"secret {number}")
+        assert float(score) == delivery.deliver.points

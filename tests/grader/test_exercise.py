@@ -321,6 +321,15 @@ def test_seeds_are_derived_from_the_secret_where_there_is_one(monkeypatch):
     assert len(others) == 4
 
 
+def test_where_some_seeds_alone_are_fair_a_student_gets_one_of_these():
+    scenario = Scenario(seconds=1, seed=3, fair=(5, 6, 7))
+    exercise = Exercise("talk", "A talker", checks=[sends], scenarios=[scenario])
+    assert [seed for _, seed in exercise.runs()] == [3]
+    assert {exercise.runs(f"secret {number}")[0][1] for number in range(40)} == {5, 6, 7}
+    (seed,) = (seed for _, seed in exercise.runs("hush"))
+    assert seed == (5, 6, 7)[private_seed("hush", "talk", 0) % 3]
+
+
 @pytest.mark.parametrize(
     "changes, sentence",
     [
