@@ -11,7 +11,7 @@ from typing import Any
 from grader.checks import Missed, nearest_person, shift, travelled
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
-from grader.exercises.delivery.warehouses import warehouse
+from grader.exercises.delivery.warehouses import FAIR, warehouse
 from grader.exercises.navigator.measures import after_a_touch, stood_still
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
@@ -39,7 +39,7 @@ def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
     until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
     world = functools.partial(warehouse, kind)
-    return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind)
+    return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind, fair=FAIR[kind])
 
 
 deliver = Exercise(
