@@ -2,17 +2,17 @@
 import argparse
 import os
 import sys
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
-from grader.marking.command.mark_class import OpenMarker, Outcome, Settings, mark_class
+from grader.marking.command.mark_class import Marker, OpenMarker, Outcome, Settings, mark_class
 from grader.marking.command.summary import summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
-from grader.marking.machines import DaskPool
 from grader.marking.pool import Pool
 from grader.marking.progress import printable
 from grader.marking.whole_file import write_whole
@@ -89,8 +89,10 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     return replace(Settings(**kept), **anew)
 
 
-def _open_pool(settings: Settings, secret: str) -> Pool | DaskPool:
+def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[Marker]:
     if settings.dask:
+        from grader.marking.machines import DaskPool  # half a second, which others need not wait
+
         return DaskPool(settings.dask, settings.unsafe, secret)
     return Pool(settings.jobs, settings.unsafe, secret)
 
