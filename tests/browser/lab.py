@@ -30,7 +30,11 @@ KERNEL_READY = """async () => {
     await panel.sessionContext.ready;
     await panel.sessionContext.session.kernel.info;
 }"""
-OPEN = """async path => { await window.jupyterapp.commands.execute('docmanager:open', {path}); }"""
+OPEN = """async path => {
+    await window.jupyterapp.restored;
+    await window.jupyterapp.commands.execute('docmanager:open', {path});
+}"""
+LOADED_AGAIN = "performance.getEntriesByType('navigation')[0].type === 'reload'"
 # Without a question whether to save: a notebook that was run is changed.
 CLOSE_ALL = """() => {
     for (const widget of [...window.jupyterapp.shell.widgets('main')]) {
@@ -65,8 +69,9 @@ ASK = """async code => {
     const kernel = window.notebook().sessionContext.session.kernel;
     let said = '';
     const future = kernel.requestExecute({code, store_history: false, stop_on_error: false});
-    future.onIOPub = ({content}) => {
-        said += content.text || (content.data || {})['text/plain'] || content.evalue || '';
+    future.onIOPub = ({content, header}) => {
+        if (header.msg_type === 'stream') said += content.text;
+        if (header.msg_type === 'error') said += content.evalue;
     };
     await future.done;
     return said;
@@ -146,10 +151,12 @@ class Lab:
         self.address = address
 
     def open(self, notebook: str = "") -> None:
-        """Open a notebook, by its path in the course, or Lab's default page; wait for the kernel."""
+        """Load JupyterLab with a notebook, by its path in the course, or its default page; await the kernel."""
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
-        path = f"lab/workspaces/{workspace}/tree/{notebook}" if notebook else ""
-        self.page.goto(f"{self.address}/{path}")
+        self.page.goto(f"{self.address}/lab/workspaces/{workspace}" if notebook else self.address)
+        self.page.wait_for_function("window.jupyterapp")
+        if notebook:
+            self.page.evaluate(OPEN, notebook)
         self.wait_for_kernel()
 
     def turn_to(self, notebook: str) -> None:
@@ -161,9 +168,15 @@ class Lab:
         self.wait_for_kernel()
 
     def leave(self) -> None:
-        """Close all notebooks, and shut down their kernels, so that what plays ends here."""
+        """Close all notebooks, and shut down their kernels, so that what plays ends here.
+
+        A page that was loaded again is left, too: some seconds later it opens the notebook of its address
+        once more, in front of the next test's.
+        """
         self.page.evaluate(CLOSE_ALL)
         self.shut_down()
+        if self.page.evaluate(LOADED_AGAIN):
+            self.page.goto("about:blank")
 
     def wait_for_kernel(self) -> None:
         """Wait until the notebook shows and its kernel is idle."""

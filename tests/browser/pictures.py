@@ -78,6 +78,7 @@ class Picture:
     def scrub(self, share: float) -> None:
         """Move the scrub bar to this share of the run."""
         bar = self.root.get_by_role("slider")
+        bar.hover()  # when it shows and has come to rest: it has no box before
         size = bar.bounding_box()
         bar.click(position={"x": 7 + share * (size["width"] - 14), "y": size["height"] / 2})
 

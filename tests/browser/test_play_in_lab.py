@@ -1,6 +1,7 @@
 """A robot plays in the notebook: it moves, it is driven, and other cells go on meanwhile."""
 
 import time
+from contextlib import contextmanager
 
 import pytest
 
@@ -40,18 +41,33 @@ CIRCLE = "player = play(Circle, world='room', seconds=600)"
 ENDED = "list(player.recording.ended)"
 
 
-@pytest.fixture
-def playing(request, students_folder, open_lab):
-    """JupyterLab with a notebook whose second cell, the test's parameter, plays; more cells may follow."""
+@contextmanager
+def lab_that_ran(request, folder, open_lab):
+    """JupyterLab with a notebook whose second cell, the test's parameter, was run; more cells may follow."""
     cells = request.param if isinstance(request.param, tuple) else (request.param,)
     name = f"pictures/{request.node.originalname}.ipynb"
-    write_notebook(students_folder / name, IMPORTS, *cells)
+    write_notebook(folder / name, IMPORTS, *cells)
     with open_lab(name) as lab:
         lab.run_cell(0)
         lab.run_cell(1)
+        yield lab
+
+
+@pytest.fixture
+def playing(request, students_folder, open_lab):
+    """JupyterLab while the cell that was run plays."""
+    with lab_that_ran(request, students_folder, open_lab) as lab:
         live(lab).wait_for_time(0.2)
         yield lab
         lab.page.keyboard.up("ArrowUp")  # some tests end with it held
+
+
+@pytest.fixture
+def played(request, students_folder, open_lab):
+    """JupyterLab when the cell that was run has played: nobody may have seen it play, if it was short."""
+    with lab_that_ran(request, students_folder, open_lab) as lab:
+        eventually(lab, f"{ENDED}[0] == 'time'")
+        yield lab
 
 
 def live(lab) -> Picture:
@@ -292,18 +308,17 @@ def test_a_closed_panel_and_a_page_that_is_loaded_again_find_the_robot(playing):
 SHORT = "player = play(Circle, world='room', seconds=3, speed=4)"
 
 
-@pytest.mark.parametrize("playing", [SHORT], indirect=True)
-def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(playing):
-    eventually(playing, f"{ENDED}[0] == 'time'")
-    replay(playing).plays()
+@pytest.mark.parametrize("played", [SHORT], indirect=True)
+def test_what_is_left_is_a_replay_that_is_saved_and_equal_to_a_run(played):
+    replay(played).plays()
     same = "player.recording.digest == run(Circle, world='room', seconds=3, quiet=True).digest"
-    assert playing.ask(same)
-    playing.save()
-    name = playing.page.evaluate("window.notebook().context.path")
-    playing.shut_down()
-    playing.open(name)
-    replay(playing).plays()
-    (shown,) = [output["data"] for output in playing.outputs(1) if "data" in output]
+    assert played.ask(same)
+    played.save()
+    name = played.page.evaluate("window.notebook().context.path")
+    played.shut_down()
+    played.open(name)
+    replay(played).plays()
+    (shown,) = [output["data"] for output in played.outputs(1) if "data" in output]
     assert set(shown) == {"text/html", "text/plain"}
     assert len(shown["text/html"]) < 100 * 1024
 
