@@ -151,7 +151,7 @@ class Lab:
         self.address = address
 
     def open(self, notebook: str = "") -> None:
-        """Load JupyterLab with a notebook, by its path in the course, or its default page; await the kernel."""
+        """Load JupyterLab with a notebook (its path in the course) or its default page; await its kernel."""
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
         self.page.goto(f"{self.address}/lab/workspaces/{workspace}" if notebook else self.address)
         self.page.wait_for_function("window.jupyterapp")
