@@ -34,6 +34,13 @@ def waiting(tmp_path, gate) -> Task:
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
 
 
+@pytest.fixture
+def staying(tmp_path, gate) -> Task:
+    """A submission whose cell says at the gate that it is there, and stays."""
+    cell = f"open({str(gate)!r}, 'w').write('x')\nopen({str(gate)!r}).read()  # nobody writes"
+    return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
+
+
 @pytest.fixture(scope="session")
 def template(tmp_path_factory) -> Path:
     """A class in which anna, bob and eve have handed in; made once, for nbgrader takes its time."""

@@ -199,7 +199,7 @@ with Pool(1, unsafe=True) as pool, ThreadPoolExecutor(1) as thread:
 
 
 @pytest.mark.soak
-def test_a_marker_that_is_killed_leaves_no_process(waiting, gate, tmp_path):
+def test_a_marker_that_is_killed_leaves_no_process(staying, gate, tmp_path):
     command = [sys.executable, "-c", KILLED, str(tmp_path)]
     pipe = subprocess.PIPE
     place = {**os.environ, "TMPDIR": str(tmp_path)}

@@ -96,11 +96,11 @@ def test_a_submission_that_ends_every_worker_is_left_to_the_instructor(
     assert found == {"ann": refused.grade_json(), "right": here["right"]}
 
 
-def test_who_closes_it_ends_what_is_marked(shared, waiting, gate):
+def test_who_closes_it_ends_what_is_marked(shared, staying, gate):
     shared.with_workers(1)
     with ThreadPoolExecutor(1) as thread:
         with DaskPool(shared.address, **REMOTE) as pool:
-            result = thread.submit(next, pool.mark([waiting]))
+            result = thread.submit(next, pool.mark([staying]))
             gate.read_text()
             left = shared.children()
         assert isinstance(result.exception(), DaskPoolError)
@@ -109,10 +109,10 @@ def test_who_closes_it_ends_what_is_marked(shared, waiting, gate):
 
 
 @pytest.mark.soak
-def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(cluster, tasks, waiting, gate):
+def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(cluster, tasks, staying, gate):
     cluster.with_workers(1)
     with DaskPool(cluster.address, **HOW, wait_s=1.0) as pool, ThreadPoolExecutor(1) as thread:
-        marking = pool.mark([tasks[0], waiting])
+        marking = pool.mark([tasks[0], staying])
         assert next(marking).points == 23.0
         result = thread.submit(next, marking)
         gate.read_text()
