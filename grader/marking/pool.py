@@ -17,6 +17,7 @@ from dataclasses import replace
 from time import monotonic
 
 from grader.marking.building import builder
+from grader.marking.cores import Cores
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result
 from grader.marking.sandbox import ConfinedProcess, Limits, Sandbox
@@ -49,6 +50,7 @@ class Pool:
         limits: Limits = Limits(),  # noqa: B008
     ) -> None:
         self._jobs, self._secret, self._time_limits = jobs, secret, time_limits
+        self._cores = Cores(jobs)
         self._running: set[ConfinedProcess] = set()
         self._closed = False
         self._unsafe, self._lock = unsafe, threading.Lock()
@@ -119,7 +121,8 @@ class Pool:
     def _once(self, task: Task) -> Result:
         """Mark in fresh processes. Raises Failed and SandboxFailed."""
         with contextlib.ExitStack() as stack:
-            sock, judge = self._start(self._judges, stack)
+            core = stack.enter_context(self._cores.one())
+            sock, judge = self._start(self._judges, stack, core)
             wire = Wire(sock, RESULT)
             deadline = monotonic() + self._longest(task)
             students: list[ConfinedProcess] = []
@@ -129,12 +132,12 @@ class Pool:
                 while True:
                     match wire.receive(max(deadline - monotonic(), 0.001)):
                         case {"student": True}:
-                            student, process = self._start(self._students, stack)
+                            student, process = self._start(self._students, stack, core)
                             students.append(process)
                             socket.send_fds(sock, [b"."], [student.fileno()])
                             student.close()
                         case {"build": True}:
-                            theirs, process = self._start(self._building(), stack)
+                            theirs, process = self._start(self._building(), stack, None)
                             builders.append(process)
                             deadline += BUILD_S
                             socket.send_fds(sock, [b"."], [theirs.fileno()])
@@ -157,11 +160,15 @@ class Pool:
     def _longest(self, task: Task) -> float:
         return SPARE_S + len(task.release.notebooks) * (self._time_limits.start + self._time_limits.notebook)
 
-    def _start(self, sandbox: Sandbox, stack: contextlib.ExitStack) -> tuple[socket.socket, ConfinedProcess]:
-        """A new process, and the socket to it; both are gone when the stack is."""
+    def _start(
+        self, sandbox: Sandbox, stack: contextlib.ExitStack, core: int | None
+    ) -> tuple[socket.socket, ConfinedProcess]:
+        """A new process, and the socket to it; both are gone when the stack is. core: if it keeps to one."""
         ours, theirs = socket.socketpair()
         stack.enter_context(ours)
         process = sandbox.start(theirs)
+        if core is not None:
+            process.keep_to(core)
         stack.callback(self._end, process)
         self._running.add(process)
         if self._closed:

@@ -1,6 +1,5 @@
 """`python -m grader mark ASSIGNMENT`: the command line of marking a class."""
 import argparse
-import os
 import sys
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -10,6 +9,7 @@ from grader.marking.command.mark_class import Marker, OpenMarker, Outcome, Setti
 from grader.marking.command.summary import summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
+from grader.marking.cores import usable
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
@@ -24,7 +24,7 @@ takes in what comes later. Results are kept in class/marking/; points go to nbgr
 class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
 `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # as a shell says it
-USUAL_JOBS = (os.cpu_count() or 1) + 1  # judge and student take turns, and wait for each other in between
+USUAL_JOBS = len(usable())
 
 
 def parser() -> argparse.ArgumentParser:
@@ -34,7 +34,7 @@ def parser() -> argparse.ArgumentParser:
     add = made.add_argument
     add("assignment", metavar="ASSIGNMENT")
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
-    add("--jobs", type=_count, metavar="N", help="submissions at a time; default: cores, and one more")
+    add("--jobs", type=_count, metavar="N", help="submissions at a time; default: as many as cores")
     add("--force", action="store_true", help="mark again what is marked already")
     add("--resume", action="store_true", help="go on with the last run of the assignment, with its options")
     add("--unsafe", action="store_true", help="no sandbox: students' code can do all that you can")

@@ -1,13 +1,13 @@
 """`python -m grader league`: the command line."""
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
+from grader.marking.cores import usable
 from grader.marking.errors import CourseError, SandboxFailed, SandboxMissing
 from grader.marking.journal import Journal
 from grader.marking.league.contest import Contest
@@ -46,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
     add("--draw", action="store_true", help="draw new warehouses for a class that has played already")
     which = f"whose last exercise gets the programs; default: {ASSIGNMENT}"
     add("--assignment", default=ASSIGNMENT, help=which)
-    add("--jobs", type=_number, metavar="N", help="robots at a time; default: cores, and one more")
+    add("--jobs", type=_number, metavar="N", help="robots at a time; default: as many as cores")
     add("--unsafe", action="store_true", help="no sandbox: the notebooks' code can do all that you can")
     return made
 
@@ -102,7 +102,7 @@ def _open_pool(options: argparse.Namespace, contest: Contest) -> Pool:
     whole = int(contest.worlds * contest.seconds)
     usual = Limits()
     limits = replace(usual, cpu_s=usual.cpu_s + whole, wall_s=usual.wall_s + whole)
-    jobs = options.jobs or (os.cpu_count() or 1) + 1
+    jobs = options.jobs or len(usable())
     return Pool(jobs, options.unsafe, time_limits=time_limits(contest), limits=limits)
 
 

@@ -25,6 +25,12 @@ class ConfinedProcess:
         self._report = report
         self._ending: Ending | None = None
 
+    def keep_to(self, core: int) -> None:
+        """Let it run on this core alone, with what it starts from now on."""
+        with contextlib.suppress(OSError):  # it may have ended
+            if self.pid > 0:  # 0 would be ourselves
+                os.sched_setaffinity(self.pid, {core})
+
     def kill(self) -> None:
         """End it with all it started, at once. Does nothing if it has ended."""
         with self._lock, contextlib.suppress(ProcessLookupError):
