@@ -75,7 +75,8 @@ def build_in(folder: Path, sources: Sources) -> Built:
 def checked_built(files: Any, programs: Any, said: Any, problem: Any) -> Built:
     """The same for what another process says. Raises Refused."""
     taken = checked(files, "install", INSTALLED)
-    names = programs if isinstance(programs, list) else []
+    listed = programs if isinstance(programs, list) else []
+    names = [name for name in listed if isinstance(name, str)]
     words = [word if isinstance(word, str) else "" for word in (said, problem)]
     said, problem = (word[-SAID:].encode(errors="replace").decode() for word in words)
     return Built(taken, frozenset(name for name in names if name in taken), said, problem)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import binascii
 from dataclasses import dataclass, fields
 from typing import Any, Self
 
@@ -53,7 +51,7 @@ def make_package(name: str, told: Any, build: Build, build_type: str = PYTHON) -
     if isinstance(told, str):
         return _fault("a workspace with your package", told[:MOST_TEXT])
     try:
-        sources = checked(_decoded(told), f"ws/src/{name}")
+        sources = checked(told, f"ws/src/{name}")
         if any(STUB in data for data in sources.values()):
             return _not_started("ws/src/" + next(path for path, data in sources.items() if STUB in data))
         description = describe(sources, name, build_type)
@@ -64,13 +62,6 @@ def make_package(name: str, told: Any, build: Build, build_type: str = PYTHON) -
         saw, hint = why(built)
         return _fault("a package that can be built", saw, hint)
     return Package(sources, description, built)
-
-
-def _decoded(told: Any) -> dict[str, bytes]:
-    try:
-        return {path: base64.b64decode(text, validate=True) for path, text in told.items()}
-    except (AttributeError, TypeError, ValueError, binascii.Error):
-        raise Refused("The files of the workspace could not be read.") from None
 
 
 def _fault(expected: str, saw: str, hint: str = "") -> Fault:

@@ -6,7 +6,6 @@ that it would set are set here.
 
 from __future__ import annotations
 
-import base64
 import os
 import shutil
 import sys
@@ -84,28 +83,24 @@ def read_sources(workspace: Any, package: str) -> dict[str, bytes]:
     return {f"{package}/{path}": data for path, data in found.items()}
 
 
-def told_sources(nodes: Sequence[Any], package: str) -> dict[str, str] | str | None:
-    """What the student's process answers: its sources as text, or why not; None for no workspace."""
+def told_sources(nodes: Sequence[Any], package: str) -> dict[str, bytes] | str | None:
+    """What the student's process answers: its sources, or why not; None for no workspace."""
     try:
         [workspace] = nodes
         if workspace is None:
             return None
-        found = read_sources(workspace, package)
+        return read_sources(workspace, package)
     except Refused as reason:
         return str(reason)
     except Exception:
         return "Give the folder of the workspace, in quotes."
-    return {path: base64.b64encode(data).decode() for path, data in found.items()}
 
 
-def installed(_: Sequence[Any], files: dict[str, str], programs: list[str]) -> None:
+def installed(_: Sequence[Any], files: dict[str, bytes], programs: list[str]) -> None:
     """What the student's process is told to install."""
-    install({path: base64.b64decode(data) for path, data in files.items()}, programs)
+    install(files, programs)
 
 
-def told(built: Built) -> tuple[dict[str, str], list[str]]:
+def told(built: Built) -> tuple[dict[str, bytes], list[str]]:
     """What `installed` takes."""
-    return (
-        {path: base64.b64encode(data).decode() for path, data in built.files.items()},
-        sorted(built.programs),
-    )
+    return dict(built.files), sorted(built.programs)

@@ -78,6 +78,8 @@ class Lidar:
         angles = [ray * model.angle_increment for ray in range(model.rays)]
         # libm, not numpy: numpy's sine differs in the last bit from one kind of processor to the next.
         self._unit = _numbers(np.array([(math.cos(angle), math.sin(angle)) for angle in angles]))
+        self._distances, self._normal = np.empty(model.rays), np.empty(model.rays)
+        self._readings = _numbers(self._distances), _numbers(self._normal)
 
     def place(self, segments: list[tuple[float, ...]], discs: list[tuple[float, ...]]) -> None:
         """Put what moves where it is now, beside what stands still.
@@ -95,22 +97,24 @@ class Lidar:
         Ray 0 points forward, the others follow counter-clockwise. As REP-117 says, inf means that nothing
         is within `range_max`, -inf that something is nearer than `range_min`, and nan that the ray got lost.
         """
-        model = self._model
-        ranges = self.distances(x, y, yaw)
-        ranges += model.noise * rng.standard_normal(model.rays)
-        ranges[ranges > model.range_max] = np.inf
-        ranges[ranges < model.range_min] = -np.inf
+        model, rays = self._model, self._model.rays
+        self._see(x, y, yaw)
+        rng.standard_normal(out=self._normal)
+        ranges = np.empty(rays, np.float32)
+        limits = model.noise, model.range_min, model.range_max
+        lib.read_ranges(ffi.from_buffer("float[]", ranges), *self._readings, rays, *limits)
         if model.dropouts:
-            ranges[rng.random(model.rays) < model.dropouts] = np.nan
-        return ranges.astype(np.float32)
+            ranges[rng.random(rays) < model.dropouts] = np.nan
+        return ranges
 
     def distances(self, x: float, y: float, yaw: float) -> np.ndarray:
         """The true distances from this pose: float64, shape (rays,), m; inf where a ray meets nothing."""
-        rays, segments, discs = self._model.rays, self._segments, self._discs
-        nearest = np.empty(rays)
-        found = ffi.from_buffer("double[]", nearest)
-        lib.see(found, self._unit, rays, segments, len(segments) // 4, discs, len(discs) // 3, x, y, yaw)
-        return nearest
+        self._see(x, y, yaw)
+        return self._distances.copy()
+
+    def _see(self, x: float, y: float, yaw: float) -> None:
+        segments, discs = (self._segments, len(self._segments) // 4), (self._discs, len(self._discs) // 3)
+        lib.see(self._readings[0], self._unit, self._model.rays, *segments, *discs, x, y, yaw)
 
 
 def _numbers(rows: np.ndarray) -> Any:

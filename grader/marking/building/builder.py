@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import socket
 from pathlib import Path
@@ -19,10 +18,10 @@ LIMITS = Limits(
 
 
 def main(sock: socket.socket) -> None:
-    """Take {"sources": {path: base64}}, build, and say what `checked_built` takes."""
+    """Take {"sources": {path: bytes}}, build, and say what `checked_built` takes."""
     wire = Wire(sock)
     with contextlib.suppress(WireError):
         told = wire.receive()["sources"]
-        built = build_in(Path("ws"), {path: base64.b64decode(data) for path, data in told.items()})
-        files = {path: base64.b64encode(data).decode() for path, data in built.files.items()}
-        wire.send(files=files, programs=sorted(built.programs), said=built.said, problem=built.problem)
+        built = build_in(Path("ws"), told)
+        programs = sorted(built.programs)
+        wire.send(files=dict(built.files), programs=programs, said=built.said, problem=built.problem)

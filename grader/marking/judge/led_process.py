@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import math
 import socket
 from collections.abc import Callable, Mapping
@@ -19,7 +18,7 @@ from grader.workspace.building import Build, Built
 from grader.workspace.sources import Sources
 from sim.ros.remote import Remote, RemoteLost, Wire, WireClosed, WireError, WireTimeout
 
-MESSAGE = 8_000_000  # bytes of one message
+MESSAGE = 6_000_000  # bytes of one message
 MOST_FLAGS = 5  # of one cell
 GRACE = 10.0  # s that a cell has to end after it was interrupted
 
@@ -87,7 +86,7 @@ class LedProcess:
         self._wire.deadline = self._over
         if self._receive("It did not start.") != {"ready": True}:
             raise StudentProcessGone("It began with something else than it should.")
-        self._send(files={name: base64.b64encode(data).decode() for name, data in files.items()})
+        self._send(files=dict(files))
         self._listen(CellOutputs(Displays()))
         self._over = monotonic() + self._time_limits.notebook
 

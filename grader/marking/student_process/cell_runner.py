@@ -6,7 +6,6 @@ It belongs to the student, whose code may do with it what it likes. The judge tr
 from __future__ import annotations
 
 import asyncio
-import base64
 import contextlib
 import socket
 import sys
@@ -34,7 +33,7 @@ def main(sock: socket.socket) -> None:
 class CellRunner:
     """Runs cells.
 
-    Hears {"files": {name: base64}} once, then {"run": source, "seconds": limit} or
+    Hears {"files": {name: bytes}} once, then {"run": source, "seconds": limit} or
     {"test": source, "seconds": limit} for each cell, until the judge hangs up; says {"done": true} after
     each of these, and with "threads" whether threads of the notebook go on. Before that it says what a cell
     shows, as `CellOutputs.add` takes it, and in a test cell {"grade": name} when that calls `Exercise.grade`.
@@ -65,7 +64,7 @@ class CellRunner:
                 case {"files": dict(files)}:
                     for name, content in files.items():
                         Path(name).parent.mkdir(parents=True, exist_ok=True)
-                        Path(name).write_bytes(base64.b64decode(content))
+                        Path(name).write_bytes(content)
                     self._outlet.done(threads=False)
 
     async def _await_judge(self) -> None:

@@ -19,7 +19,7 @@ from rclpy.subscription import Subscription
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.processes import shared_context
-from sim.ros.fibers.scheduler import engine
+from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
 from sim.ros.messages.forgiving import fitting, of_a_type_that_fits
 
@@ -161,6 +161,17 @@ def destroy_subscription(original: Callable) -> Callable:
             self._sim.close()
 
     return destroy
+
+
+@hook(_rclpy.Destroyable, "destroy_when_not_in_use", "what stands elsewhere for an end goes with it")
+def destroy_handle(original: Callable) -> Callable:
+    def destroy_when_not_in_use(self: Any) -> None:
+        original(self)
+        run = active()  # also for what is freed when its program has ended
+        if run is not None:
+            run.destroyed += 1
+
+    return destroy_when_not_in_use
 
 
 @hook(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import functools
 import re
 import sys
@@ -22,7 +21,7 @@ ALL_TEXT = 100_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 MOST_NAME = 255  # characters, as in ROS
-SHORT = 1_000  # characters of a packed message
+SHORT = 750  # bytes of a message
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {
     "reliability": ReliabilityPolicy,
@@ -90,18 +89,15 @@ def rows(value: Any, what: str, most: int, width: int = 0) -> list[Any]:
     return value
 
 
-def packed(raw: bytes) -> str:
-    """Bytes as text, for a JSON message."""
-    return base64.b64encode(raw).decode()
-
-
 def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
-    """A message object of this class and its bytes, from packed bytes.
+    """A message object of this class and its bytes, from bytes that came.
 
-    The bytes are written anew from the object, so whatever reads them reads what ROS itself has written.
+    Its bytes are written anew from the object, so whatever reads them reads what ROS itself has written.
     """
     try:
-        found = decode_message(cls, base64.b64decode(value, validate=True))
+        if not isinstance(value, bytes):
+            raise TypeError("a message is bytes")
+        found = decode_message(cls, value)
         return found, encode(found)
     except (TypeError, ValueError, _rclpy.RMWError):
         raise Nonsense(f"{what} that is no {type_name(cls)}") from None
@@ -109,12 +105,12 @@ def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
 
 def message_bytes(value: Any, cls: type, what: str) -> bytes:
     """As `message`, the bytes alone. Many are short and come again and again: to stop, to go straight on."""
-    short = isinstance(value, str) and len(value) <= SHORT
+    short = isinstance(value, bytes) and len(value) <= SHORT
     return _again(value, cls, what) if short else message(value, cls, what)[1]
 
 
 @functools.lru_cache(maxsize=256)
-def _again(value: str, cls: type, what: str) -> bytes:
+def _again(value: bytes, cls: type, what: str) -> bytes:
     return message(value, cls, what)[1]
 
 

@@ -2,8 +2,7 @@
 
 On the wire an event is a list: its word, and its fields in their order. The annotations say what a field
 should be; what another process sends may be anything, and is looked at by whoever reads it. Numbers of ends
-and nodes, and keys of requests and goals, are chosen by the side that begins to use them. Bytes are packed as
-text.
+and nodes, and keys of requests and goals, are chosen by the side that begins to use them.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ class Message(NamedTuple):
 
     node: str
     topic: str
-    raw: str
+    raw: bytes
     early: bool
 
 
@@ -51,7 +50,7 @@ class Arrived(NamedTuple):
     """
 
     number: int
-    raw: str
+    raw: bytes
     stamp: int
     count: int
     expires: int
@@ -78,14 +77,14 @@ class Ask(NamedTuple):
     key: int
     service: str
     client: str
-    raw: str
+    raw: bytes
 
 
 class Answer(NamedTuple):
     """A service of this side answers."""
 
     key: int
-    raw: str
+    raw: bytes
 
 
 class CallMade(NamedTuple):
@@ -96,7 +95,7 @@ class CallMade(NamedTuple):
     type: str
     client: str
     asked: bool
-    raw: str
+    raw: bytes
     lost: bool
 
 
@@ -118,7 +117,7 @@ class CallAnswered(NamedTuple):
     """A server of this side answered a client of this side."""
 
     key: int
-    raw: str
+    raw: bytes
 
 
 class CallReceived(NamedTuple):
@@ -135,7 +134,7 @@ class GoalMade(NamedTuple):
     type: str
     client: str
     id: str
-    raw: str
+    raw: bytes
     lost: bool
 
 
@@ -157,14 +156,14 @@ class GoalFeedback(NamedTuple):
     """A server of this side sent feedback on a goal."""
 
     key: int
-    raw: str
+    raw: bytes
 
 
 class GoalResult(NamedTuple):
     """A server of this side has a goal's result."""
 
     key: int
-    raw: str
+    raw: bytes
 
 
 class GoalAnswered(NamedTuple):

@@ -19,7 +19,6 @@ from sim.ros.remote.checked import (
     Nonsense,
     message,
     message_bytes,
-    packed,
     rows,
     text,
     whole,
@@ -47,7 +46,7 @@ class Link:
         self._answering: dict[int, PuppetService] = {}  # requests of this side without a response yet
         self._repeated: list[tuple[str, Any]] = []  # requests of the other side to a service that both have
         self._heard = News(engine.recording.heard)
-        self._topology = -1
+        self._destroyed = engine.destroyed
         self._incoming = Incoming()
         engine.link = self
 
@@ -62,17 +61,13 @@ class Link:
 
     # -- what goes out -----------------------------------------------------------------------------
 
-    def gather(self, thorough: bool = True) -> None:
-        """Add to the news what the nodes of this side have done.
-
-        thorough: look also for what the engine is not told of: ends that were destroyed.
-        """
-        if thorough or self._topology != self.engine.topology:
-            self._topology = self.engine.topology
-            self.news += self.own.new()
+    def gather(self) -> None:
+        """Add to the news what the nodes of this side have done."""
+        self.news += self.own.new()
         self.gather_exchanges()
         self._gather_messages()
-        if thorough:
+        if self._destroyed != self.engine.destroyed:
+            self._destroyed = self.engine.destroyed
             self.news += self.own.gone()
 
     def gather_exchanges(self) -> None:
@@ -93,12 +88,12 @@ class Link:
     def _gather_messages(self) -> None:
         for heard in self._heard.take():
             if self.crosses(heard):
-                self.news.append(Message(heard.sender, heard.topic, packed(heard.raw), heard.early))
+                self.news.append(Message(heard.sender, heard.topic, heard.raw, heard.early))
         self.news += self.puppets.arrivals
         self.puppets.arrivals.clear()
         for part in self.puppets.listening:
             while (raw := part.take()) is not None:
-                self.news.append(Message("", part.name, packed(raw), False))
+                self.news.append(Message("", part.name, raw, False))
 
     def crosses(self, heard: Heard) -> bool:
         """Whether the other side has to know of a message of this side."""
@@ -126,7 +121,7 @@ class Link:
             call = calls[0] if calls else None
         service.waiting[key] = header, request
         self._answering[key] = service
-        self.tell_request(Ask(key, service.name, call.client if call else "", packed(raw)), call)
+        self.tell_request(Ask(key, service.name, call.client if call else "", raw), call)
 
     def tell_request(self, event: Ask, call: Call | None) -> None:
         """Add a request to the news. call: the one that it belongs to; None for a part of an action."""
@@ -139,7 +134,7 @@ class Link:
                 while client.asked and (taken := client.take()) is not None:
                     key, response = taken
                     if key is not None:
-                        self.news.append(Answer(key, packed(encode(response))))
+                        self.news.append(Answer(key, encode(response)))
 
     # -- what comes in -----------------------------------------------------------------------------
 
@@ -152,7 +147,6 @@ class Link:
             self.HANDLERS[type(event)](self, event)
         if news:
             self.engine.activity += 1
-            self._topology = self.engine.topology
 
     def hurry(self) -> None:
         """Called before each event that comes in."""

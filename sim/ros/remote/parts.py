@@ -18,7 +18,6 @@ from sim.ros.engine.delivery.qos import NO_LIMIT
 from sim.ros.engine.delivery.reader import Reader, Sent
 from sim.ros.engine.delivery.writer import Writer
 from sim.ros.remote import events
-from sim.ros.remote.checked import packed
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -83,7 +82,7 @@ class PuppetReader(Reader):
 
     def _pass_on(self, sent: Sent) -> None:
         raw, stamp, number, expires = sent
-        event = events.Arrived(self._number, packed(raw), stamp, number, expires, self._gap)
+        event = events.Arrived(self._number, raw, stamp, number, expires, self._gap)
         self._arrivals.append(event)
         self._gap = 0
 

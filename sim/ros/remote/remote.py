@@ -137,7 +137,7 @@ class _Turn:
 
     def is_due(self) -> bool:
         """Whether the other process has to know something now, or is not done with this moment."""
-        self.ledger.gather(thorough=False)
+        self.ledger.gather()
         return self._busy or bool(self.ledger.news)
 
     def take(self) -> None:

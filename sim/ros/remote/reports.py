@@ -5,7 +5,6 @@ The recording of this side is only a notebook: what is new in it is told, and st
 
 from __future__ import annotations
 
-from base64 import b64decode
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -14,7 +13,6 @@ from sim.evidence import Call, Goal, Heard
 from sim.ros.engine.delivery.reader import Reader, Sent
 from sim.ros.messages.codec import encode
 from sim.ros.remote import events
-from sim.ros.remote.checked import packed
 from sim.ros.remote.link import Link
 from sim.ros.remote.news import News
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
@@ -25,6 +23,7 @@ if TYPE_CHECKING:
 # Whose client and server a call has: the other side writes down itself what its own nodes do.
 INNER, ASKED_HERE, ASKED_THERE = "inner", "asked here", "asked there"
 RESULT_SERVICE = "/_action/get_result"
+STAMPED = {"logs", "prints", "errors", "busy_loops", "unheard", "parameters"}
 MOST_PIECES = 1_000  # printed at a moment
 
 
@@ -44,7 +43,7 @@ class _OpenCall:
             if call.raised and self._first("raised"):
                 yield events.CallRaised(key, call.raised)
         if self.whose is INNER and call.raw_response is not None and self._first("response"):
-            yield events.CallAnswered(key, packed(call.raw_response))
+            yield events.CallAnswered(key, call.raw_response)
         if self.whose != ASKED_THERE and call.received is not None and self._first("received"):
             yield events.CallReceived(key)
 
@@ -79,10 +78,10 @@ class _OpenGoal:
         self.events = len(goal.events)
         if goal.server:
             for heard in goal.feedback[self.feedback :]:
-                yield events.GoalFeedback(key, packed(heard.raw))
+                yield events.GoalFeedback(key, heard.raw)
             self.feedback = len(goal.feedback)
             if goal.raw_result is not None and self._first("result"):
-                yield events.GoalResult(key, packed(goal.raw_result))
+                yield events.GoalResult(key, goal.raw_result)
         if goal.answered is not None and self._first("answered"):
             yield events.GoalAnswered(key)
         if goal.received is not None and self._first("received"):
@@ -122,7 +121,7 @@ class Reports(Link):
 
     def unpacked(self, raw: Any, publisher: PuppetPublisher) -> bytes:
         """The bytes of a message: the other side is believed, and a look into each takes time."""
-        return b64decode(raw)
+        return raw
 
     # -- calls and goals ---------------------------------------------------------------------------
 
@@ -145,7 +144,7 @@ class Reports(Link):
             event, whose = self._asks.pop(id(call), None), ASKED_HERE
             if event is None:
                 about = call.service, call.type, call.client, call.asked is not None
-                made = events.CallMade(next(self.keys), *about, packed(call.raw_request), call.lost)
+                made = events.CallMade(next(self.keys), *about, call.raw_request, call.lost)
                 event, whose = made, INNER
             self.news.append(event)
             self._calls.append(_OpenCall(event.key, call, whose, set()))
@@ -163,7 +162,7 @@ class Reports(Link):
         for goal in self._new_goals.take():
             key = next(self.keys)
             about = goal.action, goal.type, goal.client, goal.id
-            self.news.append(events.GoalMade(key, *about, packed(goal.raw_request), goal.lost))
+            self.news.append(events.GoalMade(key, *about, goal.raw_request, goal.lost))
             self._goals.append(_OpenGoal(key, goal, set()))
         for kept in self._goals:
             self.news += kept.news()
@@ -187,7 +186,7 @@ class Reports(Link):
         if reader is not None:
             if event.missed:
                 reader.missed(event.missed)
-            reader.receive(Sent(b64decode(event.raw), event.stamp, event.count, event.expires))
+            reader.receive(Sent(event.raw, event.stamp, event.count, event.expires))
 
     def _sign(self, event: events.Sign) -> None:
         reader = self._reader(event.number)
@@ -208,11 +207,13 @@ class Reports(Link):
 
     def claims(self) -> dict[str, list[Any]]:
         """What the nodes say of themselves, since the last time; no word where there is nothing."""
-        new = {kind: news.take() for kind, news in self._claims.items()}
-        for kind in ("logs", "prints", "errors", "busy_loops", "unheard", "parameters"):
+        new = {kind: told for kind, news in self._claims.items() if (told := news.take())}
+        for kind in STAMPED & new.keys():
             new[kind] = [row[1:] for row in new[kind]]  # the other side's clock stamps them
-        new["logs"] = [line[:3] for line in new["logs"]]  # it knows whose they are
-        new["prints"] = [piece for (piece,) in new["prints"]]
-        if len(new["prints"]) > MOST_PIECES:  # a loop that prints without end
-            new["prints"] = ["".join(new["prints"])]
-        return {kind: told for kind, told in new.items() if told}
+        if "logs" in new:
+            new["logs"] = [line[:3] for line in new["logs"]]  # it knows whose they are
+        if "prints" in new:
+            pieces = [piece for (piece,) in new["prints"]]
+            many = len(pieces) > MOST_PIECES  # a loop that prints without end
+            new["prints"] = ["".join(pieces)] if many else pieces
+        return new

@@ -104,7 +104,6 @@ class Follower(Session):
             self._move_to(order["now"])
             link.enter(order["news"])
             busy = self._rounds(link)
-            link.gather()
             self._orders.answer(**self._answer(link, busy, end))
             yield order["now"]
         return Ended("time", self.engine.recorder.now, "The other side has ended the run.")
@@ -122,14 +121,15 @@ class Follower(Session):
             for _ in range(MOST_ROUNDS):
                 engine.limits.check_pace()
                 engine.round()
-                link.gather(thorough=False)
+                link.gather()
                 left = [fiber for fiber in engine.fibers if not fiber.done]
                 waits = any(fiber.runnable() for fiber in left) or engine.agenda.next(FOREVER) <= engine.now
                 busy = engine.fault is None and waits
                 if link.news or not busy:
                     break
-        except Livelock:
-            return False  # its reason is kept
+        except Livelock:  # its reason is kept
+            link.gather()
+            return False
         return busy
 
     def _answer(self, link: Reports, busy: bool, end: Nanoseconds) -> dict[str, Any]:

@@ -1,14 +1,19 @@
-"""A wire between two processes: JSON objects, one after the other, over a connected unix stream socket."""
+"""A wire between two processes: messages, one after the other, over a connected unix stream socket.
+
+A message is a dictionary of plain data (texts, numbers, bytes, lists, dictionaries), packed by MessagePack.
+"""
 
 from __future__ import annotations
 
-import json
 import socket
 import struct
 from time import monotonic
 from typing import Any, NoReturn
 
+import msgpack
+
 _LENGTH = struct.Struct(">I")  # before each message, the number of its bytes
+HALVES = "surrogatepass"  # half a character, as in "\\ud83d", may be in what a student prints
 _PIECE = 1 << 16  # bytes asked for at a time: a false length must not cost memory
 
 
@@ -37,16 +42,17 @@ class Wire:
 
     def __init__(self, sock: socket.socket, limit: int = 64_000_000, patience: float = 60.0) -> None:
         self._socket, self._limit, self._patience = sock, limit, patience
+        self._packer = msgpack.Packer(unicode_errors=HALVES)
         self._received = bytearray()  # of the message under way, and what came behind it
 
     def send(self, **message: Any) -> None:
-        """Send one JSON object; bytes have no place in it.
+        """Send one message.
 
-        Raises WireBroken for what JSON has no words for and for too long a message, WireClosed, WireTimeout.
+        Raises WireBroken for what is no plain data and for too long a message, WireClosed, WireTimeout.
         """
         try:
-            body = _ENCODER.encode(message).encode()
-        except (TypeError, ValueError, RecursionError) as error:
+            body = self._packer.pack(message)
+        except (TypeError, ValueError, OverflowError) as error:
             raise WireBroken(f"this can't be sent: {error}") from None
         if len(body) > self._limit:
             raise WireBroken(f"a message of {len(body)} bytes is too long: {self._limit} are allowed")
@@ -72,11 +78,11 @@ class Wire:
         body = bytes(self._received[_LENGTH.size : _LENGTH.size + size])
         del self._received[: _LENGTH.size + size]
         try:
-            message = _DECODER.decode(body.decode())
-        except (ValueError, RecursionError):
-            raise WireBroken("what came is no JSON") from None
+            message = msgpack.unpackb(body, unicode_errors=HALVES)
+        except ValueError:
+            raise WireBroken("what came is no message") from None
         if not isinstance(message, dict):
-            raise WireBroken(f"what came is no JSON object but a {type(message).__name__}")
+            raise WireBroken(f"what came is no message but a {type(message).__name__}")
         return message
 
     def close(self) -> None:
@@ -102,12 +108,3 @@ class Wire:
 
     def _gone(self) -> NoReturn:
         raise WireClosed("the other side has hung up") from None
-
-
-def _no_number(word: str) -> NoReturn:
-    raise ValueError(f"{word} is not a number")
-
-
-# Made once: `json.dumps` and `json.loads` make new ones for each message with settings.
-_ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
-_DECODER = json.JSONDecoder(parse_constant=_no_number)

@@ -88,3 +88,15 @@ void see(double *nearest, const double *unit, long rays, const double *segments,
     for (long i = 0; i < disc_count; i++)
         see_disc(&from, discs + 3 * i, nearest);
 }
+
+/* What a lidar reads at these distances. normal: the noise of each ray in standard deviations, of which one is
+ * `noise`. Infinity: nothing within range_max; -infinity: something nearer than range_min.
+ */
+void read_ranges(float *ranges, const double *distances, const double *normal, long rays, double noise,
+                 double range_min, double range_max)
+{
+    for (long i = 0; i < rays; i++) {
+        double range = distances[i] + noise * normal[i];
+        ranges[i] = range > range_max ? INFINITY : range < range_min ? -INFINITY : (float)range;
+    }
+}

@@ -88,8 +88,8 @@ def test_what_another_process_built_is_looked_at():
     ("told", "saw", "hint"),
     [
         ("Give the folder.", "Give the folder.", ""),
-        ([1], "The files of the workspace could not be read.", ""),
-        ({"a": "no base64"}, "The files of the workspace could not be read.", ""),
+        ([1], "ws/src/greeter could not be read.", ""),
+        ({"a": "text"}, "ws/src/greeter could not be read.", ""),
         ({}, "There is no ws/src/greeter", "The package lies in a folder of its name, in ws/src."),
     ],
 )

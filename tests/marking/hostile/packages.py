@@ -175,7 +175,7 @@ atexit.register(lambda: [open(f"{share}/f{n}", "w").close() for n in range(600) 
 """
 ANSWERS = """
 from grader.workspace import place
-place.told_sources = lambda nodes, package: {"../../.secret": "", f"{package}/package.xml": "PGE+"}
+place.told_sources = lambda nodes, package: {"../../.secret": b"", f"{package}/package.xml": b"<a>"}
 """
 MORE = "for number in range(3000): open(f'ws/src/greeter/f{number}', 'w').close()"
 RUNS = 'execute_process(COMMAND sh -c "touch ran; kill -9 1")\nfile(WRITE /tmp/ran "18.0")\nproject('

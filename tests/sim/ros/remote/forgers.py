@@ -90,7 +90,7 @@ class Heavy(Honest):
     """Publishes more than the wire takes at once."""
 
     def try_it(self):
-        self.publisher.publish(String(data="x" * 60_000_000))
+        self.publisher.publish(String(data="x" * 80_000_000))
 
 
 class Killed(Honest):
@@ -114,4 +114,4 @@ class Scribbler(Honest):
     def try_it(self):
         for descriptor in range(3, 64):
             with contextlib.suppress(OSError):
-                os.write(descriptor, b"\0\0\0\2{}")
+                os.write(descriptor, b"\0\0\0\1\x80")
