@@ -1,8 +1,8 @@
 """A buffer of transforms: what is known of each frame, and the way from one frame to another."""
 
+import itertools
 import threading
 from collections.abc import Callable
-from functools import reduce
 
 from builtin_interfaces.msg import Time as Stamp
 from geometry_msgs.msg import TransformStamped
@@ -206,8 +206,7 @@ class BufferCore:
             raise unconnected(target, source)
         stamps: list[Nanoseconds] = []
         for way in (above_source, above_target):
-            names = list(way)
-            stamps += [way[name] for name in names[: names.index(meeting)] if way[name]]
+            stamps += filter(None, itertools.islice(way.values(), list(way).index(meeting)))
         return min(stamps, default=0)
 
     def _newest(self, frame: str) -> dict[str, Nanoseconds]:
@@ -234,7 +233,12 @@ def nanoseconds(time: Time | Stamp) -> Nanoseconds:
 
 
 def _whole(steps: list[Known]) -> Motion:
-    return reduce(lambda sum_, step: step.motion.after(sum_), steps, STAY)
+    if not steps:
+        return STAY
+    whole = steps[0].motion
+    for step in steps[1:]:
+        whole = step.motion.after(whole)
+    return whole
 
 
 def _tried(attempt: Callable[[], object]) -> tuple[bool, str]:

@@ -19,6 +19,8 @@ def check(function: str, argument: str, frame: str, known: Container[str]) -> No
         InvalidArgumentException: the name is empty or begins with a slash.
         LookupException: there is no such frame.
     """
+    if frame in known and frame and not frame.startswith("/"):
+        return
     place = f"passed to {function} argument {argument}"
     lookup = function == "lookupTransform"
     begin = f'Invalid argument "{frame}" {place}' if lookup else f'Invalid frame ID "{frame}" {place}'

@@ -2,9 +2,7 @@
 
 import math
 
-from builtin_interfaces.msg import Time as Stamp
-from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
-from std_msgs.msg import Header
+from geometry_msgs.msg import TransformStamped
 
 from tf2_py.cache import Frame, Nanoseconds, seconds
 from tf2_py.errors import ConnectivityException
@@ -16,16 +14,14 @@ TOLERANCE = 10e-3  # of a quaternion's squared length
 
 def stamped(when: Nanoseconds, target: str, source: str, motion: Motion) -> TransformStamped:
     """The message for a motion from the source's frame into the target's."""
-    sec, nanosec = divmod(when, SECOND)
-    x, y, z, w = normalised(motion.rotation)
-    return TransformStamped(
-        header=Header(frame_id=target, stamp=Stamp(sec=sec, nanosec=nanosec)),
-        child_frame_id=source,
-        transform=Transform(
-            translation=Vector3(**dict(zip("xyz", motion.shift, strict=True))),
-            rotation=Quaternion(x=x, y=y, z=z, w=w),
-        ),
-    )
+    # Filled in place: a message that is given its parts makes others first, which are thrown away.
+    message = TransformStamped()
+    message.header.frame_id, message.child_frame_id = target, source
+    stamp, shift, turn = message.header.stamp, message.transform.translation, message.transform.rotation
+    stamp.sec, stamp.nanosec = divmod(when, SECOND)
+    shift.x, shift.y, shift.z = motion.shift
+    turn.x, turn.y, turn.z, turn.w = normalised(motion.rotation)
+    return message
 
 
 def unconnected(target: str, source: str) -> ConnectivityException:
@@ -54,19 +50,23 @@ def faults(parent: str, child: str, motion: Motion, authority: str) -> list[str]
             f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority "{authority}" '
             "because frame_id not set"
         )
-    turn = " ".join(f"{part:f}" for part in motion.rotation)
-    shift = " ".join(f"{part:f}" for part in motion.shift)
-    if any(math.isnan(part) for part in (*motion.shift, *motion.rotation)):
+    x, y, z, w = motion.rotation
+    if any(map(math.isnan, (*motion.shift, *motion.rotation))):
         found.append(
             f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority "{authority}" '
-            f"because of a nan value in the transform ({shift}) ({turn})"
+            "because of a nan value in the transform "
+            f"({_numbers(motion.shift)}) ({_numbers(motion.rotation)})"
         )
-    if not abs(sum(part * part for part in motion.rotation) - 1.0) < TOLERANCE:
+    if not abs(x * x + y * y + z * z + w * w - 1.0) < TOLERANCE:
         found.append(
             f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from authority '
-            f'"{authority}" because of an invalid quaternion in the transform ({turn})'
+            f'"{authority}" because of an invalid quaternion in the transform ({_numbers(motion.rotation)})'
         )
     return found
+
+
+def _numbers(parts: tuple[float, ...]) -> str:
+    return " ".join(f"{part:f}" for part in parts)
 
 
 def yaml_of(name: str, authority: str, frame: Frame) -> str:

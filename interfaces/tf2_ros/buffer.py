@@ -17,6 +17,7 @@ from tf2_py import BufferCore
 
 from tf2_ros.buffer_interface import BufferInterface
 
+AT_ONCE = Duration()
 PAUSE = 0.02  # s, from one look to the next
 
 
@@ -59,7 +60,7 @@ class Buffer(BufferCore, BufferInterface):
         target_frame: str,
         source_frame: str,
         time: Time,
-        timeout: Duration = Duration(),  # noqa: B008 - upstream's default
+        timeout: Duration = AT_ONCE,
     ) -> TransformStamped:
         """The transform that takes what is given in source_frame into target_frame.
 
@@ -69,7 +70,7 @@ class Buffer(BufferCore, BufferInterface):
         Raises:
             TransformException: it can't be had; its kind and words tell why.
         """
-        if timeout != Duration():  # else it would be looked up twice
+        if timeout != AT_ONCE:  # else it would be looked up twice
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -87,11 +88,11 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),  # noqa: B008 - upstream's default
+        timeout: Duration = AT_ONCE,
     ) -> TransformStamped:
         """From source_frame at one time to target_frame at another, while fixed_frame stood still."""
         way = target_frame, target_time, source_frame, source_time, fixed_frame
-        if timeout != Duration():
+        if timeout != AT_ONCE:
             self.can_transform_full(*way, timeout)
         return self.lookup_transform_full_core(*way)
 
@@ -108,7 +109,7 @@ class Buffer(BufferCore, BufferInterface):
         target_frame: str,
         source_frame: str,
         time: Time,
-        timeout: Duration = Duration(),  # noqa: B008 - upstream's default
+        timeout: Duration = AT_ONCE,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
         """Whether lookup_transform would find it within timeout; return_debug_tuple: and if not, why."""
@@ -123,7 +124,7 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),  # noqa: B008 - upstream's default
+        timeout: Duration = AT_ONCE,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
         """Whether lookup_transform_full would find it within timeout."""
@@ -173,7 +174,7 @@ def _patient(
 ) -> bool | tuple[bool, str]:
     """Ask until it can, or the time is over."""
     answer = can()
-    if timeout != Duration():
+    if timeout != AT_ONCE:
         clock = Clock()
         end = clock.now() + timeout
         while not answer[0] and clock.now() < end:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
-
-import msgpack
 
 if TYPE_CHECKING:
     from sim.evidence.recording import Recording
@@ -17,27 +16,34 @@ def digest_of(recording: Recording) -> str:
 
     What was printed is left out: it is for the screen, and may hold addresses, which differ every time.
     """
-    packed = msgpack.packb(_evidence(recording), default=asdict, unicode_errors="surrogatepass")
-    return hashlib.blake2b(packed, digest_size=16).hexdigest()
+    digest = hashlib.blake2b(digest_size=16)
+    for heard in recording.heard:
+        digest.update(
+            f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
+            f"{heard.early} {len(heard.raw)} ".encode()
+        )
+        digest.update(heard.raw)
+    for exchange in (*recording.calls, *recording.goals):
+        digest.update(repr(exchange).encode())
+    digest.update(json.dumps(_evidence(recording), sort_keys=True).encode())
+    return digest.hexdigest()
 
 
-def _evidence(recording: Recording) -> list[Any]:
-    return [
-        recording.heard,
-        recording.calls,
-        recording.goals,
-        recording.seconds,
-        recording.seed,
-        recording.path,
-        sorted(recording.tracks.items()),
-        recording.contacts,
-        recording.logs,
-        [error._replace(traceback="") for error in recording.errors],
-        recording.callbacks,
-        recording.graph,
-        recording.ended,
-        recording.drawing,
-        recording.network and recording.network.to_data(),
-        sorted(recording.hosts.items()),
-        recording.crossings,
-    ]
+def _evidence(recording: Recording) -> dict[str, Any]:
+    of_network = {}
+    if recording.network is not None:
+        of_network |= {"network": recording.network.to_data(), "hosts": recording.hosts}
+        of_network["crossings"] = [asdict(crossing) for crossing in recording.crossings]
+    drawn = {} if recording.drawing is None else {"drawing": asdict(recording.drawing)}
+    return of_network | drawn | {
+        "seconds": recording.seconds,
+        "seed": recording.seed,
+        "path": recording.path,
+        "tracks": recording.tracks,
+        "contacts": recording.contacts,
+        "logs": recording.logs,
+        "errors": [error._replace(traceback="") for error in recording.errors],
+        "callbacks": recording.callbacks,
+        "graph": asdict(recording.graph),
+        "ended": recording.ended,
+    }

@@ -51,6 +51,7 @@ class Engine(Scheduler):
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
         self.destroyed = 0  # so many of rclpy's handles were
+        self.exchanged = 0  # so often something was sent that an end of an action may have to take
         self.links = None if recording.network is None else Links(recording.network, recording.seed)
         self.post = None if recording.network is None else Post(self)
         self.agenda, self.topics = Agenda(), Topics(self)

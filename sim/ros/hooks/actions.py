@@ -16,7 +16,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from sim.ros.engine.callbacks import recorded
-from sim.ros.fibers.scheduler import engine
+from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.goals import key
@@ -48,6 +48,27 @@ _action_end(ActionServer, "action server")
 _action_end(ActionClient, "action client")
 
 
+def _counted(original: Callable) -> Callable:
+    def counted(self: Any, *arguments: Any) -> Any:
+        run = active()  # also where another process's end sends
+        if run is not None:
+            run.exchanged += 1
+        return original(self, *arguments)
+
+    return counted
+
+
+for _owner, _names in (
+    (_rclpy.ActionServer, ("send_goal_response", "send_cancel_response", "send_result_response")),
+    (_rclpy.ActionServer, ("publish_feedback", "publish_status")),
+    (_rclpy.ActionClient, ("send_cancel_request", "send_result_request")),
+    (_rclpy.Service, ("service_send_response",)),
+    (_rclpy.Publisher, ("publish_raw",)),
+):
+    for _name in _names:
+        hook(_owner, _name, "the ends of actions are asked only when something was sent")(_counted)
+
+
 @hook(ActionClient, "send_goal_async", "every goal is recorded as the bytes that are sent")
 def send_goal_async(original: Callable) -> Callable:
     def send_goal_async(self: ActionClient, goal: Any, *arguments: Any, **keywords: Any) -> Future:
@@ -71,7 +92,9 @@ def send_goal_request(original: Callable) -> Callable:
     def send_goal_request(self: Any, request: Any) -> int:
         run = engine()
         lost = None if run is None else run.recorder.calls.lost_number()
-        return original(self, request) if lost is None else lost
+        if lost is not None:
+            return lost
+        return _counted(original)(self, request)
 
     return send_goal_request
 

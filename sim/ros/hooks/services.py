@@ -120,6 +120,7 @@ def send_request(original: Callable) -> Callable:
                 run.has_clients = run.eager = True
                 run.endpoints_changed()
             run.asked[self.service_name] += 1
+            run.exchanged += 1
         return number
 
     return send_request

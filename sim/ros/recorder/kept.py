@@ -66,6 +66,7 @@ class ActionRecord(EndRecord):
     type: str
     node: str
     goals: dict[bytes | int, Goal] = field(default_factory=dict)
+    seen: int = -1  # the engine's `exchanged` when nothing had come for it
 
 
 class OwnEnd(NamedTuple):
