@@ -181,7 +181,8 @@ class Questions:
         if not self._free(server):
             return None
         data = self._come_to(server, taken_by_server, Post.at_server)
-        if server._goal_handles:
+        if server._goal_handles and server._sim.swept != self.engine.now:
+            server._sim.swept = self.engine.now
             with server._lock:
                 expired = server._handle.expire_goals(len(server._goal_handles))
             if expired:

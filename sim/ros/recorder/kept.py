@@ -67,6 +67,7 @@ class ActionRecord(EndRecord):
     node: str
     goals: dict[bytes | int, Goal] = field(default_factory=dict)
     seen: int = -1  # the engine's `exchanged` when nothing had come for it
+    swept: Nanoseconds = -1  # when it last looked for goals that have expired
 
 
 class OwnEnd(NamedTuple):
