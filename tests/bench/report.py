@@ -7,12 +7,15 @@ from collections.abc import Sequence
 from typing import Any
 
 
-def avoider_run(**settings: Any) -> Any:
-    """The recording of the benchmarks' program, run quietly. Raises RuntimeError if it did not go its way."""
+def avoider_run(program: Any = None, **settings: Any) -> Any:
+    """The recording of the benchmarks' program, run quietly. Raises RuntimeError if it did not go its way.
+
+    program: stands for it where it lives in another process.
+    """
     from sim import run
     from tests.bench.avoider import main
 
-    recording = run(main, quiet=True, **settings)
+    recording = run(program or main, quiet=True, **settings)
     if recording.ended.reason != "time" or recording.errors:
         raise RuntimeError(f"the run should last {recording.seconds:g} s. {recording.ended.detail}")
     return recording

@@ -4,26 +4,45 @@ Both run the same robot node and the same student's node, with set-up and tear-d
 the whole main(), records every message and guards against hangs, which the other does not. The engine stops
 at every moment at which any timer is due; /clock has a fixed rate, so the other is measured with two: the
 slowest that serves these nodes, and that of the physics, which serves other periods to within 10 ms.
+The engine runs once more with the student's node in another process, on the same core, as in marking.
 """
 
+import atexit
 import contextlib
 import json
+import os
 import statistics
 import sys
 import time
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 from tests.bench.report import avoider_run, fresh, table
+from tests.sim.ros.remote.apart import Apart
 
 SECONDS, SECOND = 60, 1_000_000_000
 ROUNDS, RUNS = 3, 3
 Counts = dict[str, Any]
 
 
-def lockstep() -> Counts:
-    """Through `sim.run`, as a student's cell does it."""
-    recording = avoider_run(world="room", seconds=SECONDS)
+@cache
+def _other_process() -> Apart:
+    """Where the student's node lives: on one core with this one, as in marking."""
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    made = Apart()
+    atexit.register(made.close)
+    return made
+
+
+def apart() -> Counts:
+    """As `lockstep`, with the student's node in another process."""
+    with _other_process().serving("tests.bench.avoider", "main") as remote:
+        return lockstep(remote)
+
+
+def lockstep(program: Any = None) -> Counts:
+    """Through `sim.run`, as a student's cell does it. program: stands for one in another process."""
+    recording = avoider_run(program, world="room", seconds=SECONDS)
     called = [(call.node, call.callback) for call in recording.callbacks]
     return {
         "clocks": len([heard for heard in recording.messages("/clock") if heard.stamp > 0]),
@@ -96,6 +115,7 @@ def settle(executor: Any) -> None:
 
 VARIANTS = {
     "engine": lockstep,
+    "engine, two processes": apart,
     "stock, /clock 20 Hz": partial(stock, 20),
     "stock, /clock 100 Hz": partial(stock, 100),
 }

@@ -1,5 +1,6 @@
 """The benchmarks compare like with like, and say so when they can't."""
 import importlib
+import os
 
 import pytest
 
@@ -11,6 +12,11 @@ def test_the_engine_and_rclpys_own_executor_do_the_same_work(monkeypatch):
     monkeypatch.setattr(scenario, "SECONDS", 6)
     done = scenario.lockstep()
     assert (done["clocks"], done["scans"], done["odoms"], done["commands"]) == (120, 120, 120, 60)
+    with pytest.MonkeyPatch.context() as on_any_core:
+        on_any_core.setattr(os, "sched_setaffinity", lambda pid, cores: None)
+        assert done == scenario.apart()
+        scenario._other_process().close()
+        scenario._other_process.cache_clear()
     assert done == scenario.stock(20)
     assert done | {"clocks": 600} == scenario.stock(100)
 
