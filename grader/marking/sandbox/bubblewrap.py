@@ -59,7 +59,6 @@ def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, st
         "LANG": "C.UTF-8",
         "PYTHONPATH": os.pathsep.join(modules),  # the same course as here, wherever it is from
         "PYTHONHASHSEED": "0",
-        "PYTHONDONTWRITEBYTECODE": "1",
         "OPENBLAS_NUM_THREADS": "1",
         "OMP_NUM_THREADS": "1",
         "MALLOC_ARENA_MAX": "2",  # an arena takes 64 MB of address space, and threads would take one each

@@ -73,6 +73,8 @@ def _load(order: dict[str, Any]) -> EntryFunction:
         importlib.import_module(name)
     module, _, function = order["entry"].partition(":")
     entry = getattr(importlib.import_module(module), function)
+    # What was compiled until here is kept for the next time; what belongs to students leaves nothing.
+    sys.dont_write_bytecode, os.environ["PYTHONDONTWRITEBYTECODE"] = True, "1"
     gc.collect()
     gc.freeze()  # pages of what is warm stay shared with all confined processes
     return entry

@@ -1,10 +1,12 @@
 """What a sandbox is for those who use it: confined processes start warm, answer, end, and say how."""
 import socket
+import subprocess
+from pathlib import Path
 
 import pytest
 
 from grader.marking.errors import SandboxFailed
-from grader.marking.sandbox import Sandbox
+from grader.marking.sandbox import Sandbox, linux
 from tests.marking.sandbox.commanded import sandbox
 
 
@@ -63,3 +65,45 @@ def test_an_import_that_fails_is_named():
     assert str(caught.value) == (
         "The sandbox could not import what it needs: ModuleNotFoundError: No module named 'nowhere'"
     )
+
+
+MINE = Path("/proc/self/personality")
+WHERE = "answer = sorted({line.split('-')[0] for line in open('/proc/self/maps') if '.so' in line})"
+
+
+@pytest.mark.skipif(
+    subprocess.run(["setarch", "-R", "true"], check=False).returncode != 0,
+    reason="this system lets nobody choose: it is a container, as it seems",
+)
+def test_code_lies_at_the_same_addresses_with_and_without_walls(usual_sandbox, make_commanded):
+    before = MINE.read_text()
+    with sandbox(unsafe=True) as box:
+        outside = make_commanded(box)
+        assert len(outside.ask(WHERE)) > 5
+        assert outside.ask(WHERE) == make_commanded(usual_sandbox).ask(WHERE)
+        outside.leave()
+    assert MINE.read_text() == before
+
+
+def test_where_the_system_forbids_it_a_process_starts_at_any_addresses(monkeypatch, make_commanded):
+    class Forbidding:
+        def personality(self, wanted) -> int:
+            return 0 if wanted.value == 0xFFFFFFFF else -1
+
+    monkeypatch.setattr(linux, "_libc", Forbidding())
+    with sandbox(unsafe=True) as box:
+        commanded = make_commanded(box)
+        assert commanded.ask("answer = open('/proc/self/personality').read()") == "00000000\n"
+        commanded.leave()
+
+
+def test_what_is_preloaded_is_compiled_once_and_what_comes_later_leaves_nothing(tmp_path, make_commanded):
+    for name in ("early", "later"):
+        (tmp_path / f"{name}.py").write_text("import sys; kept = sys.dont_write_bytecode")
+    imports = [Path(__file__).parent, tmp_path]
+    with Sandbox("entries:obey", preload=["early"], unsafe=True, imports=imports) as box:
+        commanded = make_commanded(box)
+        assert commanded.ask("import early, later; answer = [early.kept, later.kept]") == [False, True]
+        assert commanded.ask("import os; answer = os.environ['PYTHONDONTWRITEBYTECODE']") == "1"
+        commanded.leave()
+    assert [path.name.split(".")[0] for path in tmp_path.glob("__pycache__/*")] == ["early"]
