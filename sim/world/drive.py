@@ -6,6 +6,8 @@ import pymunk
 
 from sim.world.robot import DT, RATE, CommandError, Odometry, Pose, RobotModel, Wheels, wrap
 
+# As an assignment, for which pymunk looks at the attribute's name each time.
+_set_velocity, _set_angular_velocity = pymunk.Body.velocity.fset, pymunk.Body.angular_velocity.fset
 
 class Drive:
     """Two driven wheels under the robot's body.
@@ -25,6 +27,7 @@ class Drive:
         self._wheels.position = self.body.position
         space.add(self.body, self.shape, self._wheels, *_joints(self._wheels, self.body, model))
         self._v = self._w = 0.0
+        self._chord = _chord(0.0, 0.0)
         self._target_v = self._target_w = 0.0
         self._steps_left = 0
         self._x, self._y, self._turn = model.odometry
@@ -51,7 +54,7 @@ class Drive:
     def roll(self) -> None:
         """Roll the wheels through one step; call before each step of the space."""
         v, w = self._v, self._w
-        stride, half_turn = _chord(v, w)
+        stride, half_turn = self._chord
         heading = self._turn + half_turn
         self._x += stride * DT * math.cos(heading)
         self._y += stride * DT * math.sin(heading)
@@ -69,10 +72,10 @@ class Drive:
         # A step of pymunk first moves the body at its old velocity and then solves for the new one, which is
         # thus used from the pose at the end of this step: that pose's heading is the one to aim from.
         body = self.body
-        stride, half_turn = _chord(v, w)
+        self._chord = stride, half_turn = _chord(v, w)
         heading = body.angle + body.angular_velocity * DT + half_turn
-        self._wheels.velocity = (stride * math.cos(heading), stride * math.sin(heading))
-        self._wheels.angular_velocity = w
+        _set_velocity(self._wheels, (stride * math.cos(heading), stride * math.sin(heading)))
+        _set_angular_velocity(self._wheels, w)
 
     @property
     def odometry(self) -> Odometry:

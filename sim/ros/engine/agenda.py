@@ -29,7 +29,10 @@ class Agenda:
 
     def next(self, end: Nanoseconds) -> Nanoseconds:
         """When something is to be done; `end` at the latest."""
-        return min(plans[0][0] if plans else end for plans in (self._arrivals, self._limits, [(end,)]))
+        for plans in (self._arrivals, self._limits):
+            if plans and plans[0][0] < end:
+                end = plans[0][0]
+        return end
 
     def let_arrive(self, now: Nanoseconds) -> None:
         """Do what is to be done as a moment begins."""

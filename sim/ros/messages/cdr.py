@@ -22,7 +22,7 @@ from rosidl_parser.definition import (
 from sim.ros.messages.codec import message_class
 
 HEADER = 4  # bytes of encapsulation; alignment counts from behind them
-LITTLE_ENDIAN_PLAIN = b"\x00\x01"
+LITTLE_ENDIAN_PLAIN, NO_OPTIONS = b"\x00\x01", b"\x00\x00"
 SIZES = {
     **dict.fromkeys(("boolean", "octet", "char", "int8", "uint8"), 1),
     **dict.fromkeys(("int16", "uint16"), 2),
@@ -53,6 +53,17 @@ def canonical(type_name: str, raw: bytes) -> bytes:
     buffer = bytearray(raw)
     end = _walk(buffer, HEADER, layout)
     return bytes(buffer[:end])
+
+
+def of_numbers_alone(type_name: str, raw: bytes) -> bool:
+    """Whether these are canonical bytes of a type that has only numbers of one size, of more than a byte.
+
+    Of such a type any bytes of the right length are a message. (A single byte may stand for a boolean.)
+    """
+    layout = _layout_of(type_name)
+    if layout is None or len(layout) > 1 or layout[0][0] is not VALUES or layout[0][1] == 1:
+        return False
+    return raw[:HEADER] == LITTLE_ENDIAN_PLAIN + NO_OPTIONS and len(raw) == HEADER + layout[0][2]
 
 
 def forget_layouts() -> None:

@@ -13,6 +13,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.type_support import check_for_type_support
 
+from sim.ros.messages.cdr import Canonical, of_numbers_alone
 from sim.ros.messages.codec import encode, message_class, type_name
 from sim.ros.messages.decoder import decode_message
 
@@ -21,7 +22,6 @@ ALL_TEXT = 100_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 MOST_NAME = 255  # characters, as in ROS
-SHORT = 750  # bytes of a message
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {
     "reliability": ReliabilityPolicy,
@@ -49,6 +49,7 @@ class Texts:
 
     def __init__(self) -> None:
         self._characters = 0
+        self._names: dict[str, str] = {}
 
     def take(self, value: Any, what: str, most: int = MOST_TEXT) -> str:
         """The next one. Raises Nonsense."""
@@ -57,6 +58,14 @@ class Texts:
         if self._characters > ALL_TEXT:
             raise Nonsense(f"more than {ALL_TEXT} characters of log lines, names and the like")
         return taken
+
+    def name(self, value: Any, what: str) -> str:
+        """A name. Names come again and again: each is looked at, and kept, once. Raises Nonsense."""
+        known = self._names.get(value) if isinstance(value, str) else None
+        if known is None:
+            known = self.take(value, what, MOST_NAME)
+            self._names[known] = known
+        return known
 
 
 def printable(words: str, most: int) -> str:
@@ -104,13 +113,9 @@ def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
 
 
 def message_bytes(value: Any, cls: type, what: str) -> bytes:
-    """As `message`, the bytes alone. Many are short and come again and again: to stop, to go straight on."""
-    short = isinstance(value, bytes) and len(value) <= SHORT
-    return _again(value, cls, what) if short else message(value, cls, what)[1]
-
-
-@functools.lru_cache(maxsize=256)
-def _again(value: bytes, cls: type, what: str) -> bytes:
+    """As `message`, the bytes alone. Of numbers alone, as in a Twist, they need not be read for that."""
+    if isinstance(value, bytes) and of_numbers_alone(type_name(cls), value):
+        return Canonical(value)
     return message(value, cls, what)[1]
 
 

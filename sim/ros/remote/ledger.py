@@ -171,7 +171,7 @@ class Ledger(Link):
         self._known(event.key, self._goals, "a goal").received = self._now
 
     def _node(self, name: Any) -> str:
-        return self._texts.take(name, "a node's name", MOST_NAME)
+        return self._texts.name(name, "a node's name")
 
     def _theirs(self, name: Any) -> str:
         """The name of a node of the other side: for ours it can't speak."""

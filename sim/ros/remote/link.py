@@ -97,8 +97,9 @@ class Link:
 
     def crosses(self, heard: Heard) -> bool:
         """Whether the other side has to know of a message of this side."""
-        wanted = bool(self.puppets.wanted[heard.topic]) or heard.topic in self.own.latched
-        return wanted and self.engine.links is None  # else the network brings it
+        if self.engine.links is not None:  # the network brings it
+            return False
+        return bool(self.puppets.wanted.get(heard.topic)) or heard.topic in self.own.latched
 
     def gather_requests(self) -> None:
         """Add the requests that clients of this side have made to services of the other."""

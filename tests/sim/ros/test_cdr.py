@@ -16,7 +16,7 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from sim.ros.messages.cdr import canonical
+from sim.ros.messages.cdr import canonical, of_numbers_alone
 from sim.ros.messages.codec import encode, message_class, type_name
 from sim.ros.messages.decoder import decode
 
@@ -44,6 +44,11 @@ INTEGERS = {
     "octet": (0, 255), "char": (0, 255), "uint8": (0, 255), "int8": (-128, 127),
     "int16": (-(2**15), 2**15 - 1), "uint16": (0, 2**16 - 1), "int32": (-(2**31), 2**31 - 1),
     "uint32": (0, 2**32 - 1), "int64": (-(2**63), 2**63 - 1), "uint64": (0, 2**64 - 1),
+}  # fmt: skip
+NUMBERS_ALONE = {
+    "std_msgs/msg/Float32", "std_msgs/msg/Float64", "std_msgs/msg/UInt16", "std_msgs/msg/Int32",
+    "std_msgs/msg/Int64", "std_msgs/msg/UInt64", "std_msgs/msg/ColorRGBA", "builtin_interfaces/msg/Time",
+    "geometry_msgs/msg/Twist", "rosgraph_msgs/msg/Clock",
 }  # fmt: skip
 ROUNDS = 12
 
@@ -97,6 +102,22 @@ def test_equal_messages_have_equal_bytes(name):
         _ = [encode(message_class("std_msgs/msg/String")(data="\xff" * size)) for _ in range(3)]
         assert canonical(name, encode(message)) == kept
     assert canonical(name, kept + b"left over") == kept
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_bytes_of_numbers_alone_are_known_by_their_length(name):
+    raw = canonical(name, encode(filled(random.Random(name), message_class(name))))
+    assert of_numbers_alone(name, raw) == (name in NUMBERS_ALONE)
+    for other in (raw[:-1], raw + b"\0", b"\0\0" + raw[2:], raw[:2] + b"\0\1" + raw[4:], b""):
+        assert not of_numbers_alone(name, other)
+
+
+@pytest.mark.parametrize("name", sorted(NUMBERS_ALONE))
+def test_any_bytes_of_that_length_are_a_message(name):
+    chance, size = random.Random(name), len(canonical(name, encode(message_class(name)()))) - 4
+    for raw in (b"\0\1\0\0" + chance.randbytes(size) for _ in range(ROUNDS)):
+        assert of_numbers_alone(name, raw)
+        assert canonical(name, encode(decode(name, raw))) == raw
 
 
 def test_gaps_are_cleared():

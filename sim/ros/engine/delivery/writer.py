@@ -81,6 +81,8 @@ class Writer:
             self._deadline.begin()
         if self._promise is not None:
             self._promise.begin()
+        if not self.readers and self._latched.maxlen == 0 and self.outgoing is None:
+            return
         sent = Sent(raw, now, self.count, now + self._lifespan)
         self._latched.append(sent)
         for reader in self.readers:

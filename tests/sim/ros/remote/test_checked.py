@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rcl_interfaces.msg import Parameter, ParameterEvent
 from rclpy.qos import (
@@ -16,8 +16,9 @@ from rclpy.qos import (
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
-from sim.ros.messages.codec import encode
-from sim.ros.remote.checked import Nonsense, message, plain_qos, qos
+from sim.ros.messages.cdr import canonical
+from sim.ros.messages.codec import encode, type_name
+from sim.ros.remote.checked import ALL_TEXT, Nonsense, Texts, message, message_bytes, plain_qos, qos
 
 MESSAGES = (
     String(data="hello world"),
@@ -34,6 +35,28 @@ def test_a_message_comes_as_it_was(original):
     found, raw = message(encode(original), type(original), "a message")
     assert found == original
     assert message(bytes(raw), type(original), "a message")[0] == original
+    name = type_name(type(original))
+    assert canonical(name, message_bytes(encode(original), type(original), "")) == canonical(name, raw)
+
+
+@pytest.mark.parametrize("sent", [encode(Twist())[:-1], encode(Twist())[:20], "a text", 7, None])
+def test_what_is_no_twist_is_refused(sent):
+    with pytest.raises(Nonsense, match=r"^a command that is no geometry_msgs/msg/Twist$"):
+        message_bytes(sent, Twist, "a command")
+
+
+def test_names_count_once_and_other_texts_each_time():
+    texts, name = Texts(), "n" * 200
+    for _ in range(ALL_TEXT // len(name) + 1):
+        assert texts.name(name, "a name") == name
+    assert texts.name("/lidar\ud83d", "a name") == "/lidar?"
+    texts.take("t" * 10, "a text", 10)
+    with pytest.raises(Nonsense, match=r"^a name that is no text$"):
+        texts.name(["a", "list"], "a name")
+    words = f"more than {ALL_TEXT} characters of log lines, names and the like"
+    with pytest.raises(Nonsense, match=f"^{words}$"):
+        for number in range(ALL_TEXT // len(name) + 1):
+            texts.name(f"{number:0200}", "a name")
 
 
 @pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)

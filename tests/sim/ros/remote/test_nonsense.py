@@ -313,7 +313,7 @@ def test_all_events_of_a_run_have_a_limit(monkeypatch):
 def test_all_texts_of_a_run_have_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.checked.ALL_TEXT", 20)
     words = "more than 20 characters of log lines, names and the like"
-    assert loses(claims(logs=[["INFO", "talker", "hello"]] * 2)) == sent(words)
+    assert loses(claims(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
     assert loses(claims(prints=["x" * 21])) == sent(words)
     assert loses(claims(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
 
