@@ -31,5 +31,6 @@ def _from_segments(world: World, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
         part = slice(begin, begin + AT_ONCE)
         x, y = xs[part], ys[part]
         along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
-        gaps[part] = np.hypot(x0 + along * ex - x, y0 + along * ey - y).min(axis=0)
+        squares = (x0 + along * ex - x) ** 2 + (y0 + along * ey - y) ** 2
+        gaps[part] = np.sqrt(squares.min(axis=0))
     return gaps

@@ -208,10 +208,13 @@ def _inflation_hint(
 
 def _distance_to_occupied(cells: np.ndarray) -> np.ndarray:
     """How far each cell's middle is from that of the nearest occupied cell, in cells."""
-    rows, columns = np.indices(cells.shape)
+    rows, columns = (np.arange(count) for count in cells.shape)
+    in_row = np.full(cells.shape, np.inf)  # squared; then the nearest of all rows
+    for column, occupied in zip(columns, (cells == 100).T, strict=True):
+        in_row[occupied] = np.minimum(in_row[occupied], (columns - column) ** 2)
     nearest = np.full(cells.shape, np.inf)
-    for row, column in np.argwhere(cells == 100):
-        nearest = np.minimum(nearest, (rows - row) ** 2 + (columns - column) ** 2)
+    for row, squared in zip(rows, in_row, strict=True):
+        np.minimum(nearest, squared + ((rows - row) ** 2)[:, None], out=nearest)
     return np.sqrt(nearest)
 
 
