@@ -30,6 +30,8 @@ class BufferCore:
         self._length = cache_time.nanoseconds if cache_time is not None else 10 * SECOND
         self._frames: dict[str, Frame | None] = {}  # None: a root, of which nothing is known
         self._authorities: dict[str, str] = {}
+        # The newest, since the last transform came: nodes ask for the same again and again.
+        self._found: dict[tuple[str, str], tuple[Nanoseconds, Motion]] = {}
         self._lock = threading.RLock()
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
@@ -112,6 +114,7 @@ class BufferCore:
     def clear(self) -> None:
         """Forget all transforms of moving frames; the names and the static ones stay."""
         with self._lock:
+            self._found.clear()
             for frame in self._frames.values():
                 if frame is not None:
                     frame.clear()
@@ -148,6 +151,7 @@ class BufferCore:
         if wrong:
             return
         with self._lock:
+            self._found.clear()
             frame = self._frames.get(child)
             if not isinstance(frame, kind):
                 frame = MovingFrame(self._length) if kind is MovingFrame else StaticFrame()
@@ -165,6 +169,13 @@ class BufferCore:
 
     def _lookup(self, asked: str, target: str, source: str, time: Nanoseconds) -> tuple[Nanoseconds, Motion]:
         """The time that is meant, and the motion from the source into the target."""
+        if time:
+            return self._look_up(asked, target, source, time)
+        if (target, source) not in self._found:
+            self._found[target, source] = self._look_up(asked, target, source, time)
+        return self._found[target, source]
+
+    def _look_up(self, asked: str, target: str, source: str, time: Nanoseconds) -> tuple[Nanoseconds, Motion]:
         if target == source:
             frame = self._frames.get(target)
             return (frame.span[1] if frame is not None and time == 0 else time), STAY

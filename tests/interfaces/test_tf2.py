@@ -252,6 +252,23 @@ def test_it_remembers_ten_seconds_or_as_many_as_asked(capfd):
     assert buffer.all_frames_as_string() == "Frame b exists with parent NO_PARENT.\n"
 
 
+def test_the_newest_is_new_after_each_transform():
+    buffer = buffer_of(message("a", "b", shifted(1), 1), static=[message("b", "c", shifted(10), 1)])
+
+    def newest() -> list[float]:
+        return [buffer.lookup_transform("a", "c", Time()).transform.translation.x for _ in range(2)]
+
+    assert newest() == [11, 11]
+    buffer.set_transform(message("a", "b", shifted(2), 2), "test")
+    assert newest() == [12, 12]
+    buffer.set_transform_static(message("b", "c", shifted(20), 1), "test")
+    assert newest() == [22, 22]
+    buffer.lookup_transform("a", "c", Time()).transform.translation.x = 99.0  # the caller's own
+    assert newest() == [22, 22]
+    buffer.clear()
+    assert not buffer.can_transform("a", "c", Time())
+
+
 def test_transforms_may_come_in_any_order_and_twice():
     moves = [message("a", "b", shifted(second), second) for second in (3, 1, 2, 2)]
     buffer = buffer_of(*moves)

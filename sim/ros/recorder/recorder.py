@@ -161,8 +161,7 @@ class Recorder:
         if not self.open:
             return
         self.count(sender, len(raw))
-        now = self.scheduler.now / SECOND
-        self.recording.heard.append(Heard(now, topic, type_, sender, raw, ours, early))
+        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours, early))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""
