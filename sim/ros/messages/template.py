@@ -9,7 +9,7 @@ from __future__ import annotations
 import array
 import functools
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from sim.ros.messages.cdr import Canonical, canonical
@@ -20,14 +20,7 @@ _MARK = b"\x11"  # fills a field, to find where it is
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 """The fields of a message with a header that change each time."""
 
-_FLOAT64 = struct.Struct("<d")
-_PLACES = {
-    "double": _FLOAT64,
-    "float": struct.Struct("<f"),
-    "int32": struct.Struct("<i"),
-    "uint32": struct.Struct("<I"),
-    "uint8": struct.Struct("<B"),
-}
+_CODES = {"double": "d", "float": "f", "int32": "i", "uint32": "I", "uint8": "B"}  # struct's
 
 
 class Template:
@@ -40,49 +33,52 @@ class Template:
 
     def __init__(self, message: Any, fields: Sequence[str]) -> None:
         raw = canonical(type_name(type(message)), encode(message))
-        self._buffer = bytearray(raw)
-        self._writers = _writers(type(message), raw, tuple(fields))
+        self._filled = _filling(type(message), raw, tuple(fields))
 
     def fill(self, *values: Any) -> bytes:
         """The message's bytes with these values, in the order of the fields; float32 sequences as bytes."""
-        buffer = self._buffer
-        for (place, offset), value in zip(self._writers, values, strict=True):
-            if place is None:
-                buffer[offset : offset + len(value)] = value
-            else:
-                place.pack_into(buffer, offset, value)
-        return Canonical(buffer)
+        return Canonical(self._filled(*values))
 
 
-_Writer = tuple[struct.Struct | None, int]  # what writes a value, or None for bytes; and where
+_Place = tuple[int, str]  # where a value is in the bytes, and what it is for struct
 
 
 @functools.lru_cache(maxsize=256)  # the robots of all runs have the same few
-def _writers(cls: type, raw: bytes, fields: tuple[str, ...]) -> list[_Writer]:
+def _filling(cls: type, raw: bytes, fields: tuple[str, ...]) -> Callable[..., bytes]:
+    """The function that makes the bytes of the values: all in one go, with what lies between them."""
     message = decode_message(cls, raw)
-    return [writer for field in fields for writer in _find(message, field)]
+    places = [place for field in fields for place in _find(message, field)]
+    values = [f"value{number}" for number in range(len(places))]
+    format_, parts, at, known = "<", [], 0, {}
+    for (offset, code), value in sorted(zip(places, values, strict=True)):
+        known[f"before_{value}"] = raw[at:offset]
+        parts += [f"before_{value}", value]
+        format_ += f"{offset - at}s{code}"
+        at = offset + struct.calcsize(f"<{code}")
+    known |= {"pack": struct.Struct(f"{format_}{len(raw) - at}s").pack, "end": raw[at:]}
+    return eval(f"lambda {', '.join(values)}: pack({', '.join(parts)}, end)", known)
 
 
-def _find(message: Any, field: str) -> list[_Writer]:
+def _find(message: Any, field: str) -> list[_Place]:
     *path, name = field.split(".")
     owner = message
     for step in path:
         owner = _get(owner, step)
     before = _get(owner, name)
     if isinstance(before, array.array):
-        place = None if before.typecode == "f" else _FLOAT64
-        mark = array.array(before.typecode, _MARK * len(before) * before.itemsize)
-        size, count = len(before) * before.itemsize, len(before) if place else 1
+        size = len(before) * before.itemsize
+        mark = array.array(before.typecode, _MARK * size)
+        codes = [f"{size}s"] if before.typecode == "f" else ["d"] * len(before)
     else:
         whole = hasattr(owner, "get_fields_and_field_types")  # else it is an array, of float64
-        place = _PLACES[owner.get_fields_and_field_types()[name]] if whole else _FLOAT64
-        size, count = place.size, 1
-        mark = place.unpack(_MARK * size)[0]
+        codes = [_CODES[owner.get_fields_and_field_types()[name]] if whole else "d"]
+        size = struct.calcsize(f"<{codes[0]}")
+        mark = struct.unpack(f"<{codes[0]}", _MARK * size)[0]
     _set(owner, name, mark)
     raw = canonical(type_name(type(message)), encode(message))
     _set(owner, name, before)
     offset = raw.index(_MARK * size)
-    return [(place, offset + 8 * index) for index in range(count)]
+    return [(offset + 8 * index, code) for index, code in enumerate(codes)]
 
 
 def _get(owner: Any, step: str) -> Any:

@@ -60,7 +60,7 @@ def test_the_message_itself_stays_as_it_was():
 def test_a_value_too_many_or_too_few_is_refused():
     template = Template(JointState(position=[0.0]), ["position"])
     for values in ((), (1.0, 2.0)):
-        with pytest.raises(ValueError, match="zip"):
+        with pytest.raises(TypeError, match="positional argument"):
             template.fill(*values)
 
 
