@@ -76,8 +76,10 @@ class OwnProcess:
 
     A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line words and a
     stdin of its own. And its heap is large: one full look of the garbage collector takes 0.2 s. So the
-    collector looks only at what the run makes.
+    collector looks only at what the run makes, and not as often: most of that is recorded, and stays.
     """
+
+    NEW_OBJECTS = 3_000  # until the collector looks at them
 
     def __init__(self) -> None:
         self._policy = FiberEventLoops()
@@ -89,10 +91,13 @@ class OwnProcess:
         argv, stdin = sys.argv, sys.stdin
         asyncio._set_running_loop(None)
         asyncio.set_event_loop_policy(self._policy)
+        usual = gc.get_threshold()
         gc.freeze()
+        gc.set_threshold(usual[0] and max(self.NEW_OBJECTS, usual[0]), *usual[1:])
         try:
             yield
         finally:
+            gc.set_threshold(*usual)
             gc.unfreeze()
             asyncio.set_event_loop_policy(policy)
             asyncio._set_running_loop(loop)

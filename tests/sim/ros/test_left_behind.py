@@ -104,6 +104,24 @@ def test_a_stream_that_somebody_keeps_keeps_nothing_of_the_run(capsys):
     assert capsys.readouterr().out == "afterwards\n"
 
 
+@pytest.mark.parametrize("users", [(700, 10, 10), (5_000, 5, 5), (0, 10, 10)])
+def test_the_garbage_collector_is_the_users_again(users):
+    def tunes_it():
+        rclpy.init()
+        seen.append(gc.get_threshold())
+        gc.set_threshold(1, 1, 1)
+
+    seen: list[tuple[int, int, int]] = []
+    usual = gc.get_threshold()
+    gc.set_threshold(*users)
+    try:
+        run(tunes_it, seconds=1, quiet=True)
+        assert gc.get_threshold() == users
+    finally:
+        gc.set_threshold(*usual)
+    assert seen == [(max(users[0], 3_000) if users[0] else 0, *users[1:])]  # 0: it was switched off
+
+
 def test_rclpy_is_as_it_was_without_an_init():
     run(mains.own_context, mains.shuts_itself_down, seconds=3, quiet=True)
     assert not rclpy.ok()
