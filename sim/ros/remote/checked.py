@@ -22,6 +22,7 @@ ALL_TEXT = 100_000_000  # characters of log lines, names and the like in a run
 MOST_WRITTEN = 100_000  # characters on stderr
 MOST_DEPTH = 100_000  # of a queue
 MOST_NAME = 255  # characters, as in ROS
+MOST_KNOWN = 10_000  # names that are known again
 _INTERFACE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _POLICIES = {
     "reliability": ReliabilityPolicy,
@@ -60,11 +61,12 @@ class Texts:
         return taken
 
     def name(self, value: Any, what: str) -> str:
-        """A name. Names come again and again: each is looked at, and kept, once. Raises Nonsense."""
+        """A name. The same come again and again: each is looked at, and counts, once. Raises Nonsense."""
         known = self._names.get(value) if isinstance(value, str) else None
         if known is None:
             known = self.take(value, what, MOST_NAME)
-            self._names[known] = known
+            if len(self._names) < MOST_KNOWN:
+                self._names[known] = known
         return known
 
 
