@@ -81,7 +81,7 @@ class _Function:
         message = f"message{len(self._names)}"
         self._names[f"Of_{message}"] = cls
         self._lines.append(f"{message} = new(Of_{message})")
-        self._lines.append(f"{message}._check_fields = {cls()._check_fields}")
+        self._lines.append(f"{message}._check_fields = {bool(cls()._check_fields)}")
         for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=False):  # that is one slot more
             if isinstance(type_, NamespacedType):
                 self._lines.append(f"{message}.{slot} = {self.make(_class_of(type_))}")
