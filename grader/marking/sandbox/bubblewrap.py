@@ -4,7 +4,7 @@ import importlib.util
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from grader.marking.errors import SandboxMissing
@@ -45,6 +45,15 @@ def _packages() -> list[Path]:
     return [Path(importlib.util.find_spec(name).submodule_search_locations[0]) for name in COURSE]
 
 
+def _links(program: str) -> Iterator[tuple[str, str]]:
+    """Yield the links on the way from a program to its file, each after what it stands for."""
+    while os.path.islink(program):
+        folder = os.path.realpath(os.path.dirname(program))
+        to = os.path.normpath(os.path.join(folder, os.readlink(program)))
+        yield to, program
+        program = to
+
+
 def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, str]:
     """Return all environment variables of a confined process; nothing of the marker's own goes through.
 
@@ -67,7 +76,7 @@ def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, st
     }
 
 
-def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) -> list[str]:
+def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) -> list[str]:
     """Return the command that runs `program` inside. Raises SandboxMissing if there is no bubblewrap."""
     bwrap = shutil.which("bwrap")
     if not bwrap:
@@ -91,6 +100,10 @@ def command(paths: Iterable[str], imports: Iterable[str], program: list[str]) ->
         words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     for path in paths:
         words += ["--ro-bind", path, path]
+    # A Python may be called by a link from anywhere, as ~/.local/bin is full of them.
+    for to, link in _links(program[0]):
+        if not any(Path(link).is_relative_to(path) for path in (*SYSTEM, "/etc/alternatives", *paths)):
+            words += ["--symlink", to, link]
     return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import grader
+from grader.marking.sandbox import bubblewrap
 from tests.marking.sandbox.commanded import sandbox
 
 COURSE = Path(grader.__file__).parents[1]
@@ -80,6 +81,24 @@ def test_the_course_itself_may_lie_in_tmp(tmp_path):
     command = [sys.executable, "-c", textwrap.dedent(attempt)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.stdout == f"{tmp_path}/grader/notebooks.py\n", done.stderr
+
+
+def test_python_may_be_called_by_links_from_anywhere(tmp_path):
+    """As a virtual environment is, that was made with a Python of ~/.local/bin."""
+    python = os.path.realpath(sys.executable)
+    folders = [tmp_path / name for name in ("environment", "elsewhere", "farther")]
+    for folder in folders:
+        folder.mkdir()
+    environment, elsewhere, farther = folders
+    (elsewhere / "folder").symlink_to(farther)
+    (environment / "python").symlink_to("python3")
+    (environment / "python3").symlink_to(elsewhere / "folder/python3")
+    (farther / "python3").symlink_to("../farther/other")
+    (farther / "other").symlink_to(python)
+    program = [str(environment / "python"), "-c", "import json, sys; print(sys.executable)"]
+    command = bubblewrap.command([*bubblewrap.visible([]), str(environment)], [], program)
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.stdout == f"{environment}/python\n", done.stderr
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,8 @@ class Driver(Node):
         self.speed = self.declare_parameter("speed", 0.1).value
         self.publisher = self.create_publisher(Twist, "cmd_vel", 10)
         self.create_timer(0.5, self.tick)
-        print("ready", flush=True)
+        # Ctrl-C before the spin is an error, as on a robot: it is ready when it spins.
+        rclpy.get_global_executor().create_task(print, "ready", flush=True)
 
     def tick(self):
         message = Twist()
