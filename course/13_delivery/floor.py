@@ -4,7 +4,7 @@ import heapq
 import math
 
 import numpy as np
-from geometry_msgs.msg import PoseArray, PoseStamped
+from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # also for latecomers
@@ -22,18 +22,24 @@ def flat(pose):
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
+def posed(x, y, yaw=0.0):
+    """A Pose on the floor."""
+    pose = Pose()
+    pose.position.x, pose.position.y = float(x), float(y)
+    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return pose
+
+
 def stamped(stamp, x, y, yaw=0.0):
     """A PoseStamped in map."""
-    message = PoseStamped()
+    message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
-    message.pose.position.x, message.pose.position.y = float(x), float(y)
-    message.pose.orientation.z, message.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
     return message
 
 
 def listed(stamp, points):
     """A PoseArray in map, of points (x, y)."""
-    message = PoseArray(poses=[stamped(stamp, *point).pose for point in points])
+    message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 

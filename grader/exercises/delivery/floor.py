@@ -35,18 +35,24 @@ def flat(pose: Pose) -> Place:
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
+def posed(x: float, y: float, yaw: float = 0.0) -> Pose:
+    """A Pose on the floor."""
+    pose = Pose()
+    pose.position.x, pose.position.y = float(x), float(y)
+    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return pose
+
+
 def stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
     """A PoseStamped in map."""
-    message = PoseStamped()
+    message = PoseStamped(pose=posed(x, y, yaw))
     message.header.stamp, message.header.frame_id = stamp, "map"
-    message.pose.position.x, message.pose.position.y = float(x), float(y)
-    message.pose.orientation.z, message.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
     return message
 
 
 def listed(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
     """A PoseArray in map, of points (x, y)."""
-    message = PoseArray(poses=[stamped(stamp, *point).pose for point in points])
+    message = PoseArray(poses=[posed(*point) for point in points])
     message.header.stamp, message.header.frame_id = stamp, "map"
     return message
 
