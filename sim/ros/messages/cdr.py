@@ -8,6 +8,7 @@ DDS-XTypes 1.3, 7.4 (plain CDR).
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 from rosidl_parser.definition import (
@@ -17,6 +18,8 @@ from rosidl_parser.definition import (
     Array,
     BasicType,
     NamespacedType,
+    UnboundedSequence,
+    UnboundedString,
 )
 
 from sim.ros.messages.codec import message_class
@@ -29,6 +32,7 @@ SIZES = {
     **dict.fromkeys(("int32", "uint32", "float"), 4),
     **dict.fromkeys(("int64", "uint64", "double"), 8),
 }
+NUMBERS = SIZES.keys() - {"boolean", "octet", "char"}  # any bytes are one of these
 # A layout is a tuple of steps; each step is one of these kinds with its arguments.
 VALUES, STRING, VALUE_SEQUENCE, SEQUENCE, ARRAY = range(5)
 
@@ -55,20 +59,26 @@ def canonical(type_name: str, raw: bytes) -> bytes:
     return bytes(buffer[:end])
 
 
-def of_numbers_alone(type_name: str, raw: bytes) -> bool:
-    """Whether these are canonical bytes of a type that has only numbers of one size, of more than a byte.
+def is_canonical(type_name: str, raw: bytes) -> bool:
+    """Whether these are canonical bytes of a message of this type, without a look at what it says.
 
-    Of such a type any bytes of the right length are a message. (A single byte may stand for a boolean.)
+    False, too, where that depends on what it says: a boolean has two values, a bounded sequence an end.
     """
-    layout = _layout_of(type_name)
-    if layout is None or len(layout) > 1 or layout[0][0] is not VALUES or layout[0][1] == 1:
+    layout = _layout_told_by_sizes(type_name)
+    if layout is None or raw[:HEADER] != LITTLE_ENDIAN_PLAIN + NO_OPTIONS:
         return False
-    return raw[:HEADER] == LITTLE_ENDIAN_PLAIN + NO_OPTIONS and len(raw) == HEADER + layout[0][2]
+    if len(layout) == 1 and layout[0][0] is VALUES:
+        return len(raw) == HEADER + layout[0][2]
+    try:
+        return _follow(raw, HEADER, layout) == len(raw)
+    except ValueError:
+        return False
 
 
 def forget_layouts() -> None:
     """Read all types anew: a name may mean another class by now."""
     _layout_of.cache_clear()
+    _layout_told_by_sizes.cache_clear()
 
 
 @functools.cache
@@ -103,12 +113,10 @@ def _step(slot: Any) -> tuple:
     inner = _step(slot.value_type) if isinstance(slot, Array | AbstractSequence) else None
     if inner is None:
         raise _NoLayout
-    one_value = len(inner) == 1 and inner[0][0] is VALUES and isinstance(slot.value_type, BasicType)
+    width, size = inner[0][1:] if len(inner) == 1 and inner[0][0] is VALUES else (0, 0)
     if isinstance(slot, Array):
-        return (
-            ((VALUES, inner[0][1], inner[0][2] * slot.size),) if one_value else ((ARRAY, inner, slot.size),)
-        )
-    return ((VALUE_SEQUENCE, inner[0][1]),) if one_value else ((SEQUENCE, inner),)
+        return ((VALUES, width, size * slot.size),) if width else ((ARRAY, inner, slot.size),)
+    return ((VALUE_SEQUENCE, width, size),) if width else ((SEQUENCE, inner),)
 
 
 def _align(buffer: bytearray, at: int, size: int) -> int:
@@ -134,9 +142,72 @@ def _walk(buffer: bytearray, at: int, layout: tuple) -> int:
         elif kind is VALUE_SEQUENCE:
             length, at = _length(buffer, at)
             if length:
-                at = _align(buffer, at, step[1]) + length * step[1]
+                at = _align(buffer, at, step[1]) + length * step[2]
         else:
             length, at = _length(buffer, at) if kind is SEQUENCE else (step[2], at)
             for _ in range(length):
                 at = _walk(buffer, at, step[1])
+    return at
+
+
+@functools.cache
+def _layout_told_by_sizes(type_name: str) -> tuple | None:
+    return _layout_of(type_name) if _are_told(message_class(type_name).SLOT_TYPES) else None
+
+
+def _are_told(slots: Sequence[Any]) -> bool:
+    """Whether any values of the right sizes are values of these; of no field there is a byte without one."""
+    for slot in slots:
+        if isinstance(slot, NamespacedType):
+            told = _are_told(message_class("/".join((*slot.namespaces, slot.name))).SLOT_TYPES)
+        elif isinstance(slot, Array | UnboundedSequence):
+            told = _are_told([slot.value_type])
+        else:
+            told = isinstance(slot, UnboundedString) or getattr(slot, "typename", "") in NUMBERS
+        if not told:
+            return False
+    return bool(slots)
+
+
+def _follow(raw: bytes, at: int, layout: tuple) -> int:
+    """As `_walk`, where nothing is to be cleared. Raises ValueError for what is not canonical."""
+    for step in layout:
+        kind = step[0]
+        if kind is VALUES:
+            at = _past_gap(raw, at, step[1]) + step[2]
+            continue
+        if kind is ARRAY:
+            length = step[2]
+        else:
+            at = _past_gap(raw, at, 4) + 4
+            length = int.from_bytes(raw[at - 4 : at], "little")
+        if kind is STRING:
+            at = _past_text(raw, at, length)
+        elif kind is not VALUE_SEQUENCE:
+            at = _past_several(raw, at, step[1], length)
+        elif length:
+            at = _past_gap(raw, at, step[1]) + length * step[2]
+    return at
+
+
+def _past_gap(raw: bytes, at: int, size: int) -> int:
+    gap = -(at - HEADER) % size
+    if gap and raw[at : at + gap] != bytes(gap):
+        raise ValueError("the gap is not empty")
+    return at + gap
+
+
+def _past_text(raw: bytes, at: int, length: int) -> int:
+    text = raw[at : at + length]
+    if not length or text.find(b"\0") != length - 1:
+        raise ValueError("a text ends with its only zero")
+    text.decode()
+    return at + length
+
+
+def _past_several(raw: bytes, at: int, layout: tuple, count: int) -> int:
+    for _ in range(count):
+        at = _follow(raw, at, layout)
+        if at > len(raw):
+            raise ValueError("the bytes end too early")
     return at

@@ -13,7 +13,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.type_support import check_for_type_support
 
-from sim.ros.messages.cdr import Canonical, of_numbers_alone
+from sim.ros.messages.cdr import Canonical, is_canonical
 from sim.ros.messages.codec import encode, message_class, type_name
 from sim.ros.messages.decoder import decode_message
 
@@ -115,8 +115,8 @@ def message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
 
 
 def message_bytes(value: Any, cls: type, what: str) -> bytes:
-    """As `message`, the bytes alone. Of numbers alone, as in a Twist, they need not be read for that."""
-    if isinstance(value, bytes) and of_numbers_alone(type_name(cls), value):
+    """As `message`, the bytes alone: where they are what ROS would write, nothing has to be written."""
+    if isinstance(value, bytes) and is_canonical(type_name(cls), value):
         return Canonical(value)
     return message(value, cls, what)[1]
 
