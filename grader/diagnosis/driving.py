@@ -100,12 +100,15 @@ def two_drivers(recording: Recording) -> str:
 
 def rare_commands(recording: Recording) -> str:
     """Commands so far apart that the robot stops by itself between them."""
-    timeout = _timeout(recording)
+    timeout, passing_on = _timeout(recording), _passing_on(recording)
     for topic, commands in _of_robots(recording):
         pauses = [
             after.stamp - before.stamp
             for before, after in itertools.pairwise(commands)
-            if before.moves and after.moves and after.stamp - before.stamp > timeout + 1e-6
+            if before.moves
+            and after.moves
+            and after.stamp - before.stamp > timeout + 1e-6
+            and before.sender not in passing_on
         ]
         if len(pauses) >= _SOME:
             return (
@@ -118,7 +121,7 @@ def rare_commands(recording: Recording) -> str:
 
 def left_driving(recording: Recording) -> str:
     """A last command that is no stop, after which only the robot's own time-out stops it."""
-    left = last_command_that_moves(recording)
+    left = "" if _passing_on(recording) else last_command_that_moves(recording)
     return f"{left[0].upper()}{left[1:]}. {STOP}" if left else ""
 
 
@@ -134,6 +137,12 @@ def last_command_that_moves(recording: Recording) -> str:
 
 def _timeout(recording: Recording) -> Seconds:
     return recording.world.robot.command_timeout if recording.world else math.inf
+
+
+def _passing_on(recording: Recording) -> set[str]:
+    """The student's nodes that hear commands: who passes them on, as a mux, falls silent with those."""
+    heard = {end.node for end in recording.graph.subscriptions() if end.type == _TWIST}
+    return {node for node in heard if not recording.is_ours(node)}
 
 
 def _of_robots(recording: Recording) -> Iterator[tuple[str, list[Command]]]:

@@ -1,4 +1,4 @@
-"""What anybody can know of an exercise: its card, drawn from the public run of a right node."""
+"""What anybody can know of an exercise: its card, drawn from the public runs of a right node."""
 
 from __future__ import annotations
 
@@ -13,9 +13,14 @@ from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Heard, LogLine, Record
 
 @dataclass
 class Card:
-    """What a public run of a right node shows."""
+    """What the public runs of a right node show."""
 
-    run: Recording
+    runs: list[Recording]
+
+    @property
+    def run(self) -> Recording:
+        """The first of them."""
+        return self.runs[0]
 
     @property
     def name(self) -> str:

@@ -6,18 +6,19 @@ nothing, always the same, or by lot. A package is left out: it earns what it was
 
 from __future__ import annotations
 
+import importlib
 import sys
 from unittest import mock
 
 from grader import Exercise, Score
 from grader.cast import LocalCast
-from grader.catalogue import exercises, find
+from grader.catalogue import exercises
 from tests.exercises.adversaries import adversary
 from tests.exercises.assignment import first_run
 from tests.exercises.cards import Card
 from tests.exercises.evidence import Evidence
 from tests.exercises.score_tables import students
-from tests.exercises.seeds import right_nodes
+from tests.exercises.seeds import exercise_of, right_nodes
 from tests.students.teams import programs_of
 
 SECRET = "an instructor's"
@@ -31,11 +32,11 @@ def for_being_there(exercise: Exercise) -> float:
 
 
 def card_of(topic: str, name: str) -> Card:
-    """The public run of a right node; made once."""
+    """The public runs of a right node; made once. name: the exercise's in its assignment."""
     right, evidence = right_nodes(topic, name)[0], Evidence.of_nodes(topic)
     with mock.patch("sim.run", evidence.keeping(f"{name}-{right}")):
-        score = first_run(find(name)).grade(*programs_of(students(topic, name)[right]))
-    return Card(score.recordings[0])
+        score = first_run(exercise_of(topic, name)).grade(*programs_of(students(topic, name)[right]))
+    return Card(score.recordings)
 
 
 def earned(exercise: Exercise, kind: str, program: object) -> Score:
@@ -53,7 +54,8 @@ def main(words: list[str]) -> None:
         topic = exercise.checks[0].function.__module__.split(".")[2]
         if exercise.package or (words and name not in words):
             continue
-        card = card_of(topic, name)
+        names = vars(importlib.import_module(f"grader.exercises.{topic}")).items()
+        card = card_of(topic, next(there for there, found in names if found is exercise))
         shares = [earned(exercise, kind, adversary(kind, card)) / exercise.points for kind in BY_CHANCE]
         begin = f"{name:20}{exercise.points:8g}{for_being_there(exercise):8g}"
         print(begin, *(f"{100 * share:18.0f} %" for share in shares), flush=True)

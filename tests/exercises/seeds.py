@@ -15,13 +15,13 @@ from tests.students.teams import programs_of
 
 def right_nodes(topic: str, name: str) -> list[str]:
     """The names of the nodes that earn everything, as the score page says. name: the exercise's."""
-    points = _exercise(topic, name).points
+    points = exercise_of(topic, name).points
     return [node for node, text in page(topic, name).items() if text == f"{node}: {points:g}"]
 
 
 def fallen_short(topic: str, name: str, numbers: range) -> Iterator[str]:
     """What a right node misses with these private seeds; they take turns, and most miss nothing."""
-    exercise, nodes, right = _exercise(topic, name), students(topic, name), right_nodes(topic, name)
+    exercise, nodes, right = exercise_of(topic, name), students(topic, name), right_nodes(topic, name)
     for number in numbers:
         node = right[number % len(right)]
         score = exercise.judge(LocalCast(programs_of(nodes[node])), f"secret {number}")
@@ -29,7 +29,8 @@ def fallen_short(topic: str, name: str, numbers: range) -> Iterator[str]:
             yield f"secret {number}: {shown(node, score)}"
 
 
-def _exercise(topic: str, name: str) -> Exercise:
+def exercise_of(topic: str, name: str) -> Exercise:
+    """The exercise that has this name in its assignment: another one may have one of the same name."""
     return getattr(importlib.import_module(f"grader.exercises.{topic}"), name)
 
 
