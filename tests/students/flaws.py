@@ -14,11 +14,11 @@ from std_msgs.msg import String
 class Driver(Node):
     """Drives for two seconds and stops; nothing is wrong with it."""
 
-    name, period, speed, until = "driver", 0.1, 0.2, 2.0
+    name, topic, period, speed, until = "driver", "/cmd_vel", 0.1, 0.2, 2.0
 
     def __init__(self):
         super().__init__(self.name)
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.publisher = self.create_publisher(Twist, self.topic, 10)
         self.started = self.get_clock().now()
         self.create_timer(self.period, self.drive)
 
@@ -151,3 +151,16 @@ class TurnsAwayAtAWall(TakesTooNearForFree):
 
     def look(self, scan):
         self.speed = -0.5 if scan.ranges[0] < 0.2 else self.speed
+
+
+class Hand(FallsSilent):
+    name, topic, period, until = "hand", "/hand_vel", 1.0, 3.5
+
+
+class PassesOn(Node):
+    """Has no command of its own: it falls silent with who sends them."""
+
+    def __init__(self):
+        super().__init__("mux")
+        publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_subscription(Twist, "/hand_vel", publisher.publish, 10)

@@ -79,6 +79,7 @@ def test_a_robot_that_is_driven_against_a_wall_is_told(student, sentence):
         (flaws.Driver,),
         (flaws.DrivesToTheEnd,),
         (flaws.SecondDriver,),
+        (flaws.Hand, flaws.PassesOn),
         (flaws.Chatter,),
         (flaws.Once,),
         (flaws.Greeter,),
