@@ -100,8 +100,9 @@ def two_drivers(recording: Recording) -> str:
 
 def rare_commands(recording: Recording) -> str:
     """Commands so far apart that the robot stops by itself between them."""
-    timeout, passing_on = _timeout(recording), _passing_on(recording)
+    timeout = _timeout(recording)
     for topic, commands in _of_robots(recording):
+        passing_on = _passing_on(recording, topic)
         pauses = [
             after.stamp - before.stamp
             for before, after in itertools.pairwise(commands)
@@ -121,28 +122,37 @@ def rare_commands(recording: Recording) -> str:
 
 def left_driving(recording: Recording) -> str:
     """A last command that is no stop, after which only the robot's own time-out stops it."""
-    left = "" if _passing_on(recording) else last_command_that_moves(recording)
-    return f"{left[0].upper()}{left[1:]}. {STOP}" if left else ""
+    for topic, last in _left(recording):
+        if last.sender not in _passing_on(recording, topic):
+            return f"The {_told(topic, last)}. {STOP}"
+    return ""
 
 
 def last_command_that_moves(recording: Recording) -> str:
     """What is said of a last command that is no stop, once the robot's own time-out has stopped it; or ""."""
+    return next((f"the {_told(*left)}" for left in _left(recording)), "")
+
+
+def _told(topic: str, last: Command) -> str:
+    return f"last command on {topic}, at {last.stamp:.3g} s, was {last.words}"
+
+
+def _left(recording: Recording) -> Iterator[tuple[str, Command]]:
+    """The topics whose last command is no stop, and that command."""
     timeout = _timeout(recording)
     for topic, commands in _of_robots(recording):
         last = commands[-1]
         if last.moves and recording.ended.stamp - last.stamp > timeout + 1e-6:
-            return f"the last command on {topic}, at {last.stamp:.3g} s, was {last.words}"
-    return ""
+            yield topic, last
 
 
 def _timeout(recording: Recording) -> Seconds:
     return recording.world.robot.command_timeout if recording.world else math.inf
 
 
-def _passing_on(recording: Recording) -> set[str]:
-    """The student's nodes that hear commands: who passes them on, as a mux, falls silent with those."""
-    heard = {end.node for end in recording.graph.subscriptions() if end.type == _TWIST}
-    return {node for node in heard if not recording.is_ours(node)}
+def _passing_on(recording: Recording, topic: str) -> set[str]:
+    """The nodes that hear commands elsewhere: who passes them on, as a mux, falls silent with those."""
+    return {end.node for end in recording.graph.subscriptions() if end.type == _TWIST and end.name != topic}
 
 
 def _of_robots(recording: Recording) -> Iterator[tuple[str, list[Command]]]:

@@ -1,6 +1,5 @@
 """A buffer of transforms: what is known of each frame, and the way from one frame to another."""
 
-import itertools
 import threading
 from collections.abc import Callable
 
@@ -12,11 +11,10 @@ from rclpy.time import Time
 
 from tf2_py.cache import Frame, Known, MovingFrame, Nanoseconds, StaticFrame, seconds
 from tf2_py.errors import LookupException, TransformException
+from tf2_py.frames import Frames, whole
 from tf2_py.naming import check, without_slash
 from tf2_py.rigid import STAY, Motion
 from tf2_py.words import SECOND, faults, stamped, unconnected, yaml_of
-
-DEEPEST = 1000  # frames on the way to the root: more of them go round in a circle
 
 
 class BufferCore:
@@ -28,7 +26,7 @@ class BufferCore:
     def __init__(self, cache_time: Duration | None = None) -> None:
         """cache_time: how far back moving frames are remembered; 10 s if it is left out."""
         self._length = cache_time.nanoseconds if cache_time is not None else 10 * SECOND
-        self._frames: dict[str, Frame | None] = {}  # None: a root, of which nothing is known
+        self._frames = Frames()
         self._authorities: dict[str, str] = {}
         # The newest, since the last transform came: nodes ask for the same again and again.
         self._found: dict[tuple[str, str], tuple[Nanoseconds, Motion]] = {}
@@ -109,7 +107,7 @@ class BufferCore:
             for frame in (target_frame, source_frame):
                 if frame not in self._frames:
                     raise LookupException(f"Frame {frame} does not exist.")
-            return Time(nanoseconds=self._common_time(target_frame, source_frame))
+            return Time(nanoseconds=self._frames.common_time(target_frame, source_frame))
 
     def clear(self) -> None:
         """Forget all transforms of moving frames; the names and the static ones stay."""
@@ -122,11 +120,7 @@ class BufferCore:
     def all_frames_as_string(self) -> str:
         """Each frame and its parent, a line for each."""
         with self._lock:
-            return "".join(
-                f"Frame {name} exists with parent {frame.newest.parent if frame.newest else 'NO_PARENT'}.\n"
-                for name, frame in self._frames.items()
-                if frame is not None
-            )
+            return self._frames.words()
 
     def all_frames_as_yaml(self) -> str:
         """Parent, broadcaster, rate (Hz), times and length of the memory (s) of each frame, as YAML."""
@@ -181,9 +175,9 @@ class BufferCore:
             return (frame.span[1] if frame is not None and time == 0 else time), STAY
         check(asked, "target_frame", target, self._frames)
         check(asked, "source_frame", source, self._frames)
-        time = time or self._common_time(target, source)
-        top, up, broken = self._climb(source, (target,), time)
-        end, down, broken_below = self._climb(target, (top, source), time)
+        time = time or self._frames.common_time(target, source)
+        top, up, broken = self._frames.climb(source, (target,), time)
+        end, down, broken_below = self._frames.climb(target, (top, source), time)
         if end == source:  # found on the way: what is above it doesn't matter
             top, up = source, []
         where = f", when looking up transform from frame [{source}] to frame [{target}]"
@@ -192,64 +186,12 @@ class BufferCore:
             raise type(failed)(f"{failed}{where}")
         if end != top:
             raise unconnected(target, source)
-        return time, _whole(down).inverse().after(_whole(up))
-
-    def _climb(
-        self, frame: str, ends: tuple[str, ...], time: Nanoseconds
-    ) -> tuple[str, list[Known], TransformException | None]:
-        """From a frame towards the root: where it ends, all steps, and why it could not go on."""
-        steps: list[Known] = []
-        while frame not in ends and (cache := self._frames[frame]) is not None:
-            try:
-                steps.append(cache.at(time))
-            except TransformException as broken:
-                return frame, steps, broken
-            frame = steps[-1].parent
-            if len(steps) > DEEPEST:
-                raise self._loop()
-        return frame, steps, None
-
-    def _common_time(self, target: str, source: str) -> Nanoseconds:
-        """The newest time for which the whole way is known; 0 if it is all static."""
-        above_source, above_target = self._newest(source), self._newest(target)
-        meeting = next((name for name in above_target if name in above_source), None)
-        if meeting is None:
-            raise unconnected(target, source)
-        stamps: list[Nanoseconds] = []
-        for way in (above_source, above_target):
-            stamps += filter(None, itertools.islice(way.values(), list(way).index(meeting)))
-        return min(stamps, default=0)
-
-    def _newest(self, frame: str) -> dict[str, Nanoseconds]:
-        """The frames from this one to the root, each with its newest stamp."""
-        found: dict[str, Nanoseconds] = {}
-        while True:
-            cache = self._frames[frame]
-            known = cache.newest if cache is not None else None
-            if frame in found:
-                raise self._loop()
-            found[frame] = known.stamp if known is not None else 0
-            if known is None:
-                return found
-            frame = known.parent
-
-    def _loop(self) -> LookupException:
-        frames = self.all_frames_as_string()
-        return LookupException(f"The tf tree is invalid because it contains a loop.\n{frames}\n")
+        return time, whole(down).inverse().after(whole(up))
 
 
 def nanoseconds(time: Time | Stamp) -> Nanoseconds:
     """A time of rclpy or of a message as a whole number."""
     return time.nanoseconds if isinstance(time, Time) else time.sec * SECOND + time.nanosec
-
-
-def _whole(steps: list[Known]) -> Motion:
-    if not steps:
-        return STAY
-    whole = steps[0].motion
-    for step in steps[1:]:
-        whole = step.motion.after(whole)
-    return whole
 
 
 def _tried(attempt: Callable[[], object]) -> tuple[bool, str]:

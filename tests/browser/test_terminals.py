@@ -13,6 +13,10 @@ TEXT = """() => {
         row => buffer.getLine(row).translateToString(true)).join('\\n');
 }"""
 
+UNTIL_BOTH_ARE_SEEN = (
+    "until ros2 node list > seen; grep -q /robot seen && grep -q /stopper seen; do :; done; cat seen"
+)
+
 
 def terminal(lab):
     """Open one, and wait for its prompt."""
@@ -58,6 +62,6 @@ def test_the_package_of_lesson_11_is_built_and_run_in_terminals(lab, students_fo
     types(lab, "ros2 topic echo /cmd_vel --once --field linear.x")
     shows(lab, "---")
     # On a busy machine they don't find each other at once.
-    types(lab, "until ros2 node list > seen; grep -q robot seen && grep -q stop seen; do :; done; cat seen")
+    types(lab, UNTIL_BOTH_ARE_SEEN)
     shows(lab, "/robot\n/stopper")
     lab.screenshot("terminals")

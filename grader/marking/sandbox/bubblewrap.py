@@ -101,8 +101,9 @@ def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) ->
     for path in paths:
         words += ["--ro-bind", path, path]
     # A Python may be called by a link from anywhere, as ~/.local/bin is full of them.
+    there = (*SYSTEM, *(f"/etc/{name}" for name in SETTINGS), *paths)
     for to, link in _links(program[0]):
-        if not any(Path(link).is_relative_to(path) for path in (*SYSTEM, "/etc/alternatives", *paths)):
+        if not any(Path(link).is_relative_to(path) for path in there):
             words += ["--symlink", to, link]
     return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
