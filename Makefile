@@ -4,7 +4,7 @@
 
 VENV ?= .venv
 BIN = $(abspath $(VENV))/bin
-INTERFACES = $(shell find interfaces -type f -not -path '*/__pycache__/*')
+INTERFACES = $(shell find ros_packages/interfaces -type f -not -path '*/__pycache__/*')
 
 export PYTHON WHEELS
 # Equal runs need equal dictionary orders and equal sums on every machine.
@@ -70,7 +70,7 @@ $(VENV)/.requirements: requirements.lock $(SOURCES)
 	@touch $@
 
 $(VENV)/.interfaces: $(VENV)/.requirements $(INTERFACES)
-	@$(BIN)/python interfaces/install.py
+	@$(BIN)/python ros_packages/interfaces/install.py
 	@touch $@
 
 wheels: setup  ## collect all that set-up installs in wheels/: then it needs no network and no compiler

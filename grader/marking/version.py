@@ -7,7 +7,7 @@ from importlib import metadata
 from pathlib import Path
 
 CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim", "interfaces")  # in the last are tf2_ros and launch
+PACKAGES = ("grader", "sim", "ros_packages")  # in the last are tf2_ros and launch
 LIBRARIES = ("ros-jazzy-rclpy", "numpy", "pymunk", "ipython", "matplotlib")
 
 

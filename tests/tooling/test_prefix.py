@@ -47,8 +47,8 @@ def test_what_a_workspace_sources_first_tells_where_ros_lies_once(environment, s
 
 def test_every_python_of_the_environment_knows_where_ros_lies(environment, monkeypatch):
     prefix.tell(environment)
-    interfaces, line = (environment / "packages/ros.pth").read_text().splitlines()
-    assert interfaces == str(ROOT / "interfaces")
+    packages, line = (environment / "packages/ros.pth").read_text().splitlines()
+    assert packages == str(ROOT / "ros_packages/python")
     monkeypatch.delenv("AMENT_PREFIX_PATH")
     exec(line)
     assert os.environ["AMENT_PREFIX_PATH"] == sys.prefix

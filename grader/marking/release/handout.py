@@ -24,7 +24,7 @@ NAME = "ros2-course"
 PARTS = (
     *("LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
     *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
-    *("jupyter", "sim", "grader", "interfaces", ".binder", ".devcontainer"),
+    *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
 MARKING = ("command", "certificate", "gradebook", "machines", "release", "secret.py")
 KEPT_BACK = (*(f"grader/marking/{part}" for part in MARKING), "jupyter/teach", "course/README.md")

@@ -10,7 +10,8 @@ from types import FrameType
 
 _COURSE = Path(__file__).parents[3]
 # Code that is no student's: this package and tf2_ros, installed libraries, Python's own.
-_LIBRARIES = (str(_COURSE / "sim"), str(_COURSE / "interfaces"), *sysconfig.get_paths().values(), "<frozen ")
+_OF_COURSE = (str(_COURSE / "sim"), str(_COURSE / "ros_packages"))
+_LIBRARIES = (*_OF_COURSE, *sysconfig.get_paths().values(), "<frozen ")
 
 
 def is_library(filename: str) -> bool:

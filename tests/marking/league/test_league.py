@@ -184,7 +184,7 @@ def test_a_league_that_is_killed_goes_on_and_comes_to_the_same_end(league, playe
     other = classroom(tmp_path / "course", CLASS, robot())
     draw(other)
     command = [sys.executable, "-m", "grader", "league", *SHORT, "--jobs", "1"]
-    environment = {**os.environ, "PYTHONPATH": f"{ROOT}:{ROOT / 'interfaces'}"}
+    environment = {**os.environ, "PYTHONPATH": f"{ROOT}:{ROOT / 'ros_packages/python'}"}
     with subprocess.Popen(command, cwd=other, env=environment, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr.readline().startswith("1 of 5  ")
         process.kill()

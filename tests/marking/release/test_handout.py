@@ -51,7 +51,8 @@ def graded(course: Path, place: Path) -> list:
 def test_students_get_lessons_starters_the_robot_and_the_checks(handout):
     assert {name.split("/")[0] for name in handout} == {
         *("LICENSE", "Makefile", "README.md", "nbgrader_config.py", "pyproject.toml", "requirements.lock"),
-        *(".binder", ".ci", ".devcontainer", "course", "exercises", "grader", "interfaces", "jupyter", "sim"),
+        *(".binder", ".ci", ".devcontainer", "jupyter"),
+        *("course", "exercises", "grader", "ros_packages", "sim"),
     }
     for top in ("course", "exercises"):
         notebooks = {path.relative_to(ROOT).as_posix() for path in (ROOT / top).glob("*/*.ipynb")}
@@ -114,7 +115,7 @@ def test_a_node_gets_the_same_score_there(folder, tmp_path):
 def test_of_the_commands_students_have_the_league(folder):
     def said(*words: str) -> subprocess.CompletedProcess:
         command = [sys.executable, "-m", "grader", *words]
-        environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'interfaces'}"}
+        environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'ros_packages/python'}"}
         return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
 
     usage = "usage: python -m grader league [NOTEBOOK ...] [--help]\n"

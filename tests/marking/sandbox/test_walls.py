@@ -19,11 +19,11 @@ ABSTRACT = f"\0marking-test-{os.getpid()}"
 
 
 def test_of_the_course_only_its_packages_are_there(commanded):
-    allowed = {"grader", "interfaces", "sim", "tests"}  # tests/ for the entry of these tests
+    allowed = {"grader", "ros_packages", "sim", "tests"}  # tests/ for the entry of these tests
     if Path(sys.prefix).parent == COURSE:
         allowed.add(Path(sys.prefix).name)
     assert set(commanded.ask(f"import os; answer = os.listdir({str(COURSE)!r})")) == allowed
-    there = commanded.ask(f"import os; answer = os.listdir({str(COURSE / 'interfaces')!r})")
+    there = commanded.ask(f"import os; answer = os.listdir({str(COURSE / 'ros_packages/python')!r})")
     ours = {"launch", "launch_ros", "tf2_geometry_msgs", "tf2_py", "tf2_ros", "tf_transformations"}
     assert set(there) == ours
     assert commanded.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]

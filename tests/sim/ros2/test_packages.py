@@ -25,7 +25,7 @@ def package(tmp_path_factory):
 def told(package):
     """The environment of a terminal where the workspace is sourced."""
     places = sourced(package)
-    ours = (str(REPOSITORY), str(REPOSITORY / "interfaces"))
+    ours = (str(REPOSITORY), str(REPOSITORY / "ros_packages/python"))
     return places | {"PYTHONPATH": os.pathsep.join([places["PYTHONPATH"], *ours])}
 
 

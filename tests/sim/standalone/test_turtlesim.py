@@ -85,7 +85,7 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
     (tmp_path / "watcher.py").write_text(WATCHER)
     path = file(tmp_path, "mimic.launch.py", MIMIC + AROUND)
     told = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
-    told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "interfaces")])
+    told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "ros_packages/python")])
     process = start([*ROS2, "launch", str(path)], free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
     out, err = process.communicate(timeout=LIMIT)
     assert (process.returncode, err) == (0, "")

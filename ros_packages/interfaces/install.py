@@ -1,4 +1,6 @@
-"""Install the course's ROS interface packages into the Python that runs this: python interfaces/install.py
+"""Install the course's ROS interface packages into the Python that runs this.
+
+    python ros_packages/interfaces/install.py
 
 Nothing happens when this very content is installed. Else the wheel comes from the user's cache, or is built.
 """

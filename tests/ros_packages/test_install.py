@@ -1,4 +1,4 @@
-"""`python interfaces/install.py` is silent when there is nothing to do and clear when it cannot go on."""
+"""install.py is silent when there is nothing to do and clear when it cannot go on."""
 
 import os
 import resource
@@ -130,7 +130,7 @@ def test_a_packages_folder_of_launch_files_hides_nothing(tmp_path):
     (tmp_path / "launch").mkdir()
     asked = [sys.executable, "-c", "import launch; print(launch.__file__)"]
     said = subprocess.check_output(asked, env={**os.environ, "PYTHONPATH": str(tmp_path)}, text=True)
-    assert said.strip() == str(Path(install.ROOT, "launch", "__init__.py"))
+    assert said.strip() == str(Path(install.ROOT.parent, "python", "launch", "__init__.py"))
 
 
 def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):

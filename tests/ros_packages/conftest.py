@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-INTERFACES = Path(__file__).resolve().parents[2] / "interfaces"
+INTERFACES = Path(__file__).resolve().parents[2] / "ros_packages" / "interfaces"
 sys.path.append(str(INTERFACES))
 
 ALONE = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}

@@ -1,4 +1,6 @@
-"""Print the type hash of every interface and whether it is upstream's: python interfaces/type_hashes.py
+"""Print the type hash of every interface and whether it is upstream's.
+
+    python ros_packages/interfaces/type_hashes.py
 
 Equal hashes mean equal names and fields, down to the last nested message (REP-2011).
 """
