@@ -9,7 +9,7 @@ from typing import Any
 
 from grader.exercise import Exercise
 from grader.score import Score
-from sim.nearest import unknown
+from sim.suggestions import unknown_name
 
 
 @functools.cache
@@ -37,5 +37,5 @@ def find(name: str) -> Exercise:
     """The exercise of this name. Raises LookupError for a name that no exercise has."""
     known = exercises()
     if name not in known:
-        raise LookupError(unknown("exercise", name, known))
+        raise LookupError(unknown_name("exercise", name, known))
     return known[name]

@@ -1,8 +1,8 @@
-"""A simulated robot for ROS 2 nodes: run them on the real rclpy, in simulated time; see what they did."""
+"""A simulated robot for ROS 2 nodes: run them on the real rclpy, in simulated time; inspect recordings."""
 
-from sim import environment
+from sim import ros_environment
 
-environment.prepare()
+ros_environment.prepare()
 
 from sim import notebook  # noqa: E402
 from sim.evidence import Recording, since_start  # noqa: E402
@@ -19,7 +19,7 @@ from sim.world import World  # noqa: E402
 
 Recording.player = replay
 notebook.watch()
-install()  # after all imports: what the engine itself has bound are the real clocks
+install()  # after all imports, so that the engine's own modules have bound the real clocks
 offer()
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""The robot as a program of its own, for ordinary ROS 2 nodes and tools: python -m sim --world maze"""
+"""The robot as a stand-alone program, for ordinary ROS 2 nodes and tools: python -m sim --world maze"""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from typing import NoReturn
 from sim.ros.realtime import ArgumentsError, RealTimeRun, own_words
 from sim.world import World, WorldError
 
-DOMAIN = 42  # of its own: a plain `python node.py` elsewhere has 0
-LAST_DOMAIN = 101  # a greater one would need ports that Linux gives to others
+DOMAIN = 42  # not 0, the default of every other ROS process
+LAST_DOMAIN = 101  # higher ones would need ports from Linux's ephemeral range
 PORT, LAST_PORT = 8090, 65535
-PORTS = range(PORT, PORT + 10)  # without --port: the first of these that is free
-WRONG = 2  # exit status, as argparse's
-HEAR_IT = """
+PORTS = range(PORT, PORT + 10)  # without --port, the first free one
+USAGE_ERROR = 2  # exit status, as argparse's
+CONNECT_HELP = """
 In another terminal:
   export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
   python my_node.py        # or, where ROS 2 is installed: ros2 topic list
@@ -28,33 +28,33 @@ In another terminal:
 Ctrl-C ends it."""
 
 
-def main(words: list[str] | None = None) -> int:
-    """Run until Ctrl-C or SIGTERM; the exit status."""
+def main(arguments: list[str] | None = None) -> int:
+    """Run until Ctrl-C or SIGTERM; returns the exit status."""
     stopped = threading.Event()
     _stop_on_signals(stopped)
-    words = sys.argv[1:] if words is None else words
+    arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        options = _options(own_words(words))
+        options = _options(own_words(arguments))
         with (
-            RealTimeRun(_world(options), options.seed, options.domain, words) as run,
+            RealTimeRun(_world(options), options.seed, options.domain, arguments) as run,
             nullcontext() if options.headless else _page(run, _ports(options)) as address,
         ):
-            print(_offer(run, address), flush=True)
+            print(_summary(run, address), flush=True)
             run.spin(stopped.is_set)
     except (WorldError, PortError, ArgumentsError) as error:
         print(error, file=sys.stderr)
-        return WRONG
+        return USAGE_ERROR
     return 0
 
 
 class PortError(Exception):
-    """The page can't have its port."""
+    """No port is free for the page."""
 
 
 @contextmanager
 def _page(run: RealTimeRun, ports: Sequence[int]) -> Iterator[str]:
-    """Show the run in browsers; the page's address."""
-    from sim.standalone import LivePage  # here, for it brings libraries that a headless robot does without
+    """Serve the page that shows the run; yields its address."""
+    from sim.standalone import LivePage  # imported here because a headless robot doesn't need its libraries
 
     try:
         page = LivePage(run, ports)
@@ -80,10 +80,10 @@ def _stop_on_signals(stopped: threading.Event) -> None:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        self.exit(WRONG, f"{self.prog}: {message}\n")
+        self.exit(USAGE_ERROR, f"{self.prog}: {message}\n")
 
 
-def _options(words: list[str]) -> argparse.Namespace:
+def _options(arguments: list[str]) -> argparse.Namespace:
     parser = _Parser(
         "python -m sim", description="A simulated robot as an ordinary ROS 2 process, in real time."
     )
@@ -98,14 +98,14 @@ def _options(words: list[str]) -> argparse.Namespace:
     free = f"default {PORT}, or the next that is free"
     option("--port", type=port, help=f"of the picture in a browser, 0 for any; {free}")
     option("--headless", action="store_true", help="without the picture")
-    return parser.parse_args(words)
+    return parser.parse_args(arguments)
 
 
 def _number(expected: str, most: float = math.inf) -> Callable[[str], int]:
-    def number(word: str) -> int:
-        if not word.isdecimal() or int(word) > most:
-            raise argparse.ArgumentTypeError(f"{expected}; this is {word!r}.")
-        return int(word)
+    def number(text: str) -> int:
+        if not text.isdecimal() or int(text) > most:
+            raise argparse.ArgumentTypeError(f"{expected}; this is {text!r}.")
+        return int(text)
 
     return number
 
@@ -116,13 +116,13 @@ def _world(options: argparse.Namespace) -> World:
     return World.generate(options.world, seed=options.world_seed)
 
 
-def _offer(run: RealTimeRun, address: str | None) -> str:
-    """What other processes can do with it."""
+def _summary(run: RealTimeRun, address: str | None) -> str:
+    """The world, the domain, the topics and the page's address, for the terminal."""
     lines = [f"World {run.scene.world.name!r} in real time, ROS domain {run.domain}, this machine only."]
     for what, topics in (("takes", run.takes), ("gives", run.gives)):
         lines += [f"  {what} {name}  [{kind}]" for name, kind in topics.items()]
     lines += [f"See and drive it at {address}"] if address else []
-    return "\n".join(lines) + "\n" + HEAR_IT.format(domain=run.domain)
+    return "\n".join(lines) + "\n" + CONNECT_HELP.format(domain=run.domain)
 
 
 if __name__ == "__main__":

@@ -1,19 +1,19 @@
-"""The engine counts time in whole nanoseconds, as ROS does; recordings and people count in seconds."""
+"""Converts between seconds and whole nanoseconds: the engine uses nanoseconds, recordings use seconds."""
 
 from typing import Any
 
 Nanoseconds = int
 SECOND: Nanoseconds = 1_000_000_000
 EPOCH: Nanoseconds = 1_735_689_600 * SECOND
-"""What clocks show at the start of every run: 2025-01-01 00:00 UTC. Messages have it in their stamps; the
-engine and recordings count from the start."""
+"""The clock time at the start of every run: 2025-01-01 00:00 UTC. Stamps in messages include it; the engine
+and recordings count from the start of the run."""
 
 
 def nanoseconds(seconds: float) -> Nanoseconds:
-    """A length of time in nanoseconds; what is more than nothing stays more than nothing."""
+    """A duration in nanoseconds; a positive duration is at least 1 ns."""
     return max(round(seconds * SECOND), 1 if seconds > 0 else 0)
 
 
 def in_seconds(duration: Any) -> float:
-    """The length of a duration as messages have it, builtin_interfaces/Duration, in seconds."""
+    """A builtin_interfaces/Duration in seconds."""
     return duration.sec + duration.nanosec / SECOND

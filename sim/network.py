@@ -1,4 +1,4 @@
-"""What lies between the computers of a run: messages on the way there are late, and some are lost."""
+"""The simulated network between the hosts of a run, which delays and loses messages."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from dataclasses import asdict, dataclass, field
 from math import inf
 from typing import Any
 
-ROBOT, LAPTOP = "robot", "laptop"  # where the robot's own programs run, and where the student's do
-Pair = tuple[str, str]
+ROBOT, LAPTOP = "robot", "laptop"  # the hosts of the robot's own programs and of the student's
+HostPair = tuple[str, str]
 
 
 @dataclass(frozen=True)
 class Network:
-    """How messages get from one host to another. Programs of one host don't need it.
+    """Network conditions between hosts. Messages between programs on the same host don't pass through it.
 
-    loss: the share of messages that are lost on the way, 0 to 1.
-    delay: seconds that each is on its way. jitter: by so much each may be faster or slower.
+    loss: the fraction of messages that are lost, 0 to 1.
+    delay: latency of each message, in seconds. jitter: the latency varies by up to this much either way (s).
     bandwidth: bytes per second from one host to another, shared by all messages there; None for no limit.
-    What would have to wait for more than a second is lost.
-    links: other networks between two hosts, such as {("laptop", "robot"): Network(loss=0.5)}; for both ways,
-    unless there is another for the way back.
+    A message that would be queued for more than a second is lost.
+    links: different conditions between two hosts, such as {("laptop", "robot"): Network(loss=0.5)}; for both
+    directions, unless the reverse pair has its own entry.
 
-    Raises ValueError for what no network can do, TypeError for what is none.
+    Raises ValueError for a value out of range, TypeError for one of a wrong type.
     """
 
     loss: float = 0.0
     delay: float = 0.0
     jitter: float = 0.0
     bandwidth: float | None = None
-    links: Mapping[Pair, Network] = field(default_factory=dict)
+    links: Mapping[HostPair, Network] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         _check("loss", self.loss, 1.0, "a share from 0 to 1")
@@ -48,17 +48,17 @@ class Network:
                 raise TypeError(f"The link {pair!r} must be a Network without links; it is {network!r}.")
 
     def between(self, sender: str, receiver: str) -> Network:
-        """What lies on the way from one host to another."""
+        """The network conditions from one host to another."""
         return self.links.get((sender, receiver)) or self.links.get((receiver, sender)) or self
 
     def to_data(self) -> dict[str, Any]:
-        """As plain data, for JSON."""
+        """The network as plain data, for JSON."""
         links = [[*pair, link.to_data()] for pair, link in self.links.items()]
         return asdict(self) | {"links": sorted(links, key=lambda row: row[:2])}
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> Network:
-        """The network of such data."""
+        """The network that `to_data` described."""
         links = {(one, other): cls.from_data(link) for one, other, link in data["links"]}
         return cls(**{**data, "links": links})
 

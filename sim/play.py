@@ -1,4 +1,4 @@
-"""The door to playing: a run to watch and to drive, with its picture where there is a notebook; replays."""
+"""`play`, a run in real time to watch and drive, with a live view in notebooks; and replays of recordings."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ def play(
     network: Network | None = None,
     speed: float = 1.0,
 ) -> Player:
-    """Run ROS 2 nodes as `run` does, but along with the clock on the wall, to watch and drive them.
+    """Run ROS 2 nodes as `run` does, but paced by the wall clock, to watch and drive them.
 
-    speed: simulated seconds per second; math.inf for as fast as it goes. All else is as for `run`, and the
-    recording is the same, unless somebody drives or stops it.
+    speed: simulated seconds per second; math.inf for as fast as possible. All other arguments are those of
+    `run`, and the recording is the same, unless a user drives the robot or stops the run.
 
-    In a notebook it shows a picture, returns at once, and plays on while other cells run; when it is over,
-    its replay takes the picture's place. Without an event loop it returns when the run is over. What was
-    played before is stopped. Raises what `run` raises, and ValueError for a speed that is none.
+    In a notebook it shows a live view, returns at once, and continues while other cells run; at the end the
+    replay replaces the live view. Without an event loop it returns when the run has ended. A previous `play`
+    that is still running is stopped. Raises what `run` raises, and ValueError for an invalid speed.
     """
     refuse_outdated(nodes)
     pace = Pace(speed)
     player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play", network=network), pace)
     if in_notebook():
-        from sim.view.live import LiveView  # here, for it takes a while, and scripts do without Jupyter
+        from sim.view.live import LiveView  # imported here because it is slow, and scripts don't need Jupyter
 
         view = LiveView(player.recording.world)
         view.show()
@@ -48,6 +48,6 @@ def play(
 
 def replay(recording: Recording, *, speed: float) -> Any:
     """See `Recording.replay`."""
-    from sim.view.replay import replay  # here, for it takes a while
+    from sim.view.replay import replay  # imported here because it is slow
 
     return replay(recording, speed=speed)

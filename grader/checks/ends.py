@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from grader.checks.check import Missed
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording
-from sim.nearest import closest, difference
+from sim.suggestions import closest_ros_name, describe_difference
 
 # As messages they are nearly the same.
 _FLOATS = {"std_msgs/msg/Float32", "std_msgs/msg/Float64"}
@@ -50,9 +50,9 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
         connected = {end.name for end in recording.graph.ends(words.other)}
         # a connected one is no slip
         others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - connected)
-        near = closest(name, others)
+        near = closest_ros_name(name, others)
         saw = words.nobody + (f"; {words.instead.format(', '.join(others))}" if others else "")
-        hint, slip = (difference(near, name), (near, name)) if near else ("", None)
+        hint, slip = (describe_difference(near, name), (near, name)) if near else ("", None)
         raise Missed(expected, saw, hint, slip=slip)
     return found
 

@@ -12,7 +12,7 @@ from grader.checks.silence import silence
 from grader.checks.work import worked_until
 from grader.diagnosis.activity import slow_callback
 from sim.evidence import Heard, LogLine, Recording, Seconds
-from sim.nearest import nearest
+from sim.suggestions import closest_match
 
 FLOOD = 10.0  # times as many answers as were asked for earn nothing
 
@@ -75,7 +75,7 @@ def _nearest(
 
 def _most_similar(recording: Recording, example: str) -> str:
     folded = {line.text.casefold(): line.text for line in reversed(recording.logs)}
-    return folded.get(nearest(example.casefold(), folded, 0.7), "")
+    return folded.get(closest_match(example.casefold(), folded, 0.7), "")
 
 
 def come_every(

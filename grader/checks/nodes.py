@@ -7,7 +7,7 @@ import math
 from grader.checks.check import Missed
 from grader.diagnosis import find_fault
 from sim.evidence import Recording, TimerInfo
-from sim.nearest import closest, difference
+from sim.suggestions import closest_ros_name, describe_difference
 
 
 def no_errors(recording: Recording) -> None:
@@ -21,8 +21,9 @@ def named(recording: Recording, name: str) -> None:
     """There is a node of this full name, e.g. "/talker". Raises Missed with the names that there are."""
     if name in recording.graph.nodes:
         return
-    near = closest(name, recording.graph.nodes)
-    hint = difference(near, name) if near else "The name of a node is set by super().__init__('name')."
+    near = closest_ros_name(name, recording.graph.nodes)
+    default = "The name of a node is set by super().__init__('name')."
+    hint = describe_difference(near, name) if near else default
     slip = ("__node", name.rpartition("/")[2]) if near else None
     raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, slip=slip)
 

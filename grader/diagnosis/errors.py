@@ -11,8 +11,8 @@ from grader.diagnosis.rules import RULES
 from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.evidence import CallbackError
-from sim.nearest import nearest
 from sim.notebook import missing
+from sim.suggestions import closest_match
 
 _HOMES = {
     "rclpy": "import rclpy",
@@ -63,7 +63,7 @@ def _unknown_name(error: CallbackError) -> str:
         return not_run
     if name in _HOMES:
         return f"`{name}` is not imported: write `{_HOMES[name]}` at the top."
-    near = nearest(name, _HOMES, 0.75)
+    near = closest_match(name, _HOMES, 0.75)
     if near:
         return f"Python knows no `{name}`. Did you mean `{near}`? It comes with `{_HOMES[near]}`."
     return (

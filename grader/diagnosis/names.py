@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from sim.evidence import INFRASTRUCTURE_TOPICS, Graph, Recording
 from sim.evidence.connections import slip
-from sim.nearest import LIKENESS, closest, nearest
+from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 
 # Kinds of ends that take something, each with the kind that gives it.
 _TAKERS = (("subscription", "publisher"), ("client", "service"), ("action client", "action server"))
@@ -68,7 +68,7 @@ def _misspelt(graph: Graph, taker: str, giver: str) -> Iterator[tuple[str, str]]
     wanted, offered = graph.ends(taker), graph.ends(giver)
     lonely = {end.name for end in offered if end.ours} - {end.name for end in wanted} - INFRASTRUCTURE_TOPICS
     for name in {end.name for end in wanted if not end.ours} - {end.name for end in offered}:
-        near = nearest(name, lonely, LIKENESS)
+        near = closest_match(name, lonely, NAME_CUTOFF)
         if near and near.rsplit("/", 1)[-1] != name.rsplit("/", 1)[-1]:
             yield name, near
 
@@ -77,6 +77,6 @@ def _nearly_met(wanted: Iterable[str], offered: Iterable[str]) -> Iterator[tuple
     """Names that are wanted and not offered, each with the like one that is offered and not wanted."""
     lonely = [name for name in offered if name not in wanted]
     for name in wanted:
-        near = closest(name, lonely) if name not in offered else ""
+        near = closest_ros_name(name, lonely) if name not in offered else ""
         if near:
             yield name, near

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from sim.evidence import Call, Recording
-from sim.nearest import closest, nearest
+from sim.suggestions import closest_match, closest_ros_name
 
 _GET, _SET = "/get_parameters", "/set_parameters"
 _WHOLE = re.compile(r"Wrong parameter type, expected '\S*INTEGER' got '\S*DOUBLE'")
@@ -24,7 +24,7 @@ def unknown_parameter(recording: Recording) -> str:
     for _, node, name, _ in rows:
         if name not in declared:
             own = dict.fromkeys(row.name for row in rows if row.declared and row.node == node)
-            near = nearest(name, own)
+            near = closest_match(name, own)
             listed = ", ".join(f"`{other}`" for other in own) or "none"
             meant = f"Did you mean `{near}`?" if near else f"It declares {listed}."
             return (
@@ -42,7 +42,7 @@ def misspelt_parameter(recording: Recording) -> str:
         declared = {row.name for row in recording.parameters if row.declared and row.node == node}
         own = [name for name in declared if not name.startswith(_OF_EVERY_NODE)]
         for name in names:
-            near = "" if name in declared else closest(name, own)
+            near = "" if name in declared else closest_ros_name(name, own)
             if near:
                 return (
                     f"{call.client} asks for the parameter `{name}` of {node}, which declares `{near}`: "

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from sim.evidence.graph import Endpoint, Graph
 from sim.evidence.qos import offer, refusal
-from sim.nearest import closest, difference
+from sim.suggestions import closest_ros_name, describe_difference
 
 # Kinds of ends: who gives or answers, who takes or asks, and what lies between them.
 SIDES = (
@@ -52,7 +52,7 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
             if reason:
                 yield Missing(what, given, wanted, reason)
         if not there:
-            near = closest(wanted.name, lonely)
+            near = closest_ros_name(wanted.name, lonely)
             reason = f"{wanted.node} waits in vain: " + _SILENT[what].format(wanted.name)
             if near:
                 reason += f", and {lonely[near].node} has {near}. {slip(lonely[near], wanted)}"
@@ -62,7 +62,7 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
 def slip(given: Endpoint, wanted: Endpoint) -> str:
     """What makes the names of two ends differ, in a sentence: what isn't the student's is written rightly."""
     wrong, right = (wanted, given) if given.ours and not wanted.ours else (given, wanted)
-    return difference(wrong.name, right.name)
+    return describe_difference(wrong.name, right.name)
 
 
 def _once(ends: list[Endpoint]) -> list[Endpoint]:

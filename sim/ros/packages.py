@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-from sim.nearest import nearest
 from sim.ros import brought
+from sim.suggestions import closest_match
 
 INDEX = "share/ament_index/resource_index"
 BUILT_HERE = "share/colcon-core/packages"  # in a prefix that colcon filled
@@ -176,7 +176,7 @@ def _why_no_package(package: str) -> str:
             return f"it is built, and not sourced. Say source('{_shown(folder)}/install/setup.bash')."
         if any(_name_in(file) == package for file in _descriptions(folder / "src")):
             return f"it is in {_shown(folder)}/src, and not built. Say colcon build in {_shown(folder)}."
-    near = nearest(package, packages())
+    near = closest_match(package, packages())
     if near:
         return f"did you mean {near}?"
     return "no package.xml has that name in a workspace here, and no workspace that has it was sourced."
@@ -219,6 +219,6 @@ def _why_no_program(prefix: Path, package: str, name: str, programs: list[str]) 
 
 
 def _no_such(package: str, name: str, programs: list[str]) -> str:
-    near = nearest(name, programs)
+    near = closest_match(name, programs)
     guess = f" Did you mean {near}?" if near else ""
     return f"{package} has {', '.join(programs)}, and no {name}.{guess}"

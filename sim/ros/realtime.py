@@ -14,7 +14,7 @@ from rclpy.parameter_service import ParameterService
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from sim import environment
+from sim import ros_environment
 from sim.evidence import INFRASTRUCTURE_TOPICS
 from sim.ros.messages.codec import type_name
 from sim.ros.robots.programs import programs_of
@@ -72,7 +72,7 @@ class RealTimeRun:
         self._time, self._seen = 0.0, monotonic()  # the scene's, and when it was there
 
     def __enter__(self) -> RealTimeRun:
-        environment.open_to_this_machine(self.domain)
+        ros_environment.open_to_this_machine(self.domain)
         # Its own handlers would shut ROS down in the middle of a callback.
         with _readable(self._words):
             rclpy.init(args=self._words, signal_handler_options=SignalHandlerOptions.NO)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, NoReturn
 
-from sim.nearest import nearest
 from sim.ros2.system import System, Wrong
+from sim.suggestions import closest_match
 
 Work = Callable[[System, argparse.Namespace], None]
 # What a terminal completes a word to, from the system (None where a verb is alone) and the words before it.
@@ -78,7 +78,7 @@ class Parser(argparse.ArgumentParser):
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
-            near = nearest(str(value), [str(choice) for choice in action.choices])
+            near = closest_match(str(value), [str(choice) for choice in action.choices])
             hint = f" Did you mean {near}?" if near else ""
             choices = ", ".join(map(str, action.choices))
             raise argparse.ArgumentError(action, f"there is no {value!r}, only {choices}.{hint}")

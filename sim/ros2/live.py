@@ -13,7 +13,7 @@ from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from rclpy.signals import SignalHandlerOptions
 
-from sim import environment
+from sim import ros_environment
 from sim.evidence import Endpoint
 from sim.evidence.qos import settings
 from sim.ros.messages.codec import message_class
@@ -44,7 +44,7 @@ class Live(System):
 
     def __enter__(self) -> Live:
         self.domain = domains.chosen()
-        environment.open_to_this_machine(self.domain)
+        ros_environment.open_to_this_machine(self.domain)
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node(
             f"_ros2cli_{os.getpid()}", start_parameter_services=False, enable_rosout=False

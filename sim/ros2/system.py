@@ -18,7 +18,7 @@ from rclpy.task import Future
 
 from sim.evidence import Endpoint
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.nearest import nearest
+from sim.suggestions import closest_match
 
 HIDDEN = "_"  # a name with a part that begins with this is left out unless one asks for it
 OWN_NAME = "_ros2cli"  # what nodes of these tools are called
@@ -126,7 +126,7 @@ def is_hidden(name: str) -> bool:
 
 def guess(name: str, known: Iterator[str] | list[str] | dict[str, list[str]]) -> str:
     """A question to end a message with, where a name that isn't there is nearly one that is; or nothing."""
-    near = nearest(name, known)
+    near = closest_match(name, known)
     return f". Did you mean {near}?" if near else ""
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from ament_index_python import get_resource, get_resources
 from ament_index_python.resources import has_resource
 
-from sim.nearest import nearest
 from sim.ros.messages.codec import message_class
 from sim.ros2.system import Wrong
+from sim.suggestions import closest_match
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
@@ -22,7 +22,7 @@ def of_package(package: str, *kinds: str) -> list[str]:
     """The types of these kinds that one package has, sorted. Raises Wrong for a package that there is not."""
     if not has_resource("packages", package):
         packages = get_resources("rosidl_interfaces")
-        near = nearest(package, packages)
+        near = closest_match(package, packages)
         raise Wrong(f"Unknown package '{package}'" + (f". Did you mean {near}?" if near else ""))
     try:
         content, _ = get_resource("rosidl_interfaces", package)
@@ -47,6 +47,6 @@ def type_of(name: str, kind: str, failed: str) -> type:
     full = f"{parts[0]}/{kind}/{parts[1]}" if len(parts) == 2 else name
     known = interfaces(kind)
     if full not in known:
-        near = nearest(full, known)
+        near = closest_match(full, known)
         raise Wrong(failed + (f". Did you mean {near}?" if near else ""))
     return message_class(full)

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from sim.nearest import unknown
+from sim.suggestions import unknown_name
 from sim.world import worldfile
 from sim.world.battery import BatteryModel
 from sim.world.bodies import Body
@@ -200,7 +200,7 @@ class World(Model):
     def _of_the_course(cls, name: str) -> World:
         names = cls.names()
         if name not in names:
-            raise WorldError(unknown("world", name, names))
+            raise WorldError(unknown_name("world", name, names))
         return worldfile.read(_FOLDER / f"{name}.toml", cls)
 
     @classmethod

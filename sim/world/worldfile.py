@@ -9,7 +9,7 @@ from dataclasses import MISSING, asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sim.nearest import nearest
+from sim.suggestions import closest_match
 from sim.world.machines import KINDS, kind_of
 from sim.world.model import Model, ModelError, UnfitError, WorldError, fit, hints, nested, shown, words
 from sim.world.obstacles import Point, Segment
@@ -148,7 +148,7 @@ def _card(card: Any) -> str:
 def _check_known(place: str, table: dict[str, Any], known: Collection[str]) -> None:
     for key in table:
         if key not in known:
-            near = nearest(key, known)
+            near = closest_match(key, known)
             cure = f"did you mean {near}?" if near else f"the keys are {', '.join(known)}."
             raise WorldError(f"{place}{key} is not a known key; {cure}")
 

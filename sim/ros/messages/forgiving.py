@@ -15,7 +15,7 @@ from typing import Any
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from std_msgs.msg import Float32, Float64
 
-from sim.nearest import closest
+from sim.suggestions import closest_ros_name
 
 _INTERFACES = re.compile(r"\w+\.(msg|srv|action)\._\w+")
 _FLOATS = {"float", "double"}
@@ -100,4 +100,4 @@ def real(parameters: Sequence[Any]) -> Sequence[Any]:
 def meant(name: str, declared: Iterable[str]) -> str:
     """The parameter that is asked for; of a program that is forgiven a slip, the one of nearly that name."""
     declared = list(declared)
-    return name if not _wanted or name in declared else closest(name, declared) or name
+    return name if not _wanted or name in declared else closest_ros_name(name, declared) or name

@@ -10,7 +10,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from turtlesim.msg import Pose
 
-from sim import environment
+from sim import ros_environment
 
 
 class Mimic(Node):
@@ -40,5 +40,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    environment.open_to_this_machine(int(os.environ.get("ROS_DOMAIN_ID", "0")))
+    ros_environment.open_to_this_machine(int(os.environ.get("ROS_DOMAIN_ID", "0")))
     main()

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 from ament_index_python import get_resources
 
-from sim.nearest import nearest
 from sim.ros.messages.definitions import installed
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import Voice, Wrong
 from sim.ros2.types import KINDS, interfaces, of_package
+from sim.suggestions import closest_match
 
 interface = Group("interface", "Types of messages, services and actions")
 ONLY = (
@@ -104,7 +104,7 @@ def _lines(type_: str) -> list[str]:
 def _near(type_: str) -> str:
     known = [name for kind in KINDS for name in interfaces(kind)]
     short = {name.rsplit("/", 1)[1]: name for name in known}
-    near = short.get(type_.rsplit("/", 1)[-1]) or nearest(type_, known)
+    near = short.get(type_.rsplit("/", 1)[-1]) or closest_match(type_, known)
     return f". Did you mean {near}?" if near else ""
 
 

@@ -7,9 +7,9 @@ from argparse import Namespace
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 
-from sim.nearest import nearest
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import System, Wrong, ask, guess, is_hidden
+from sim.suggestions import closest_match
 
 lifecycle = Group("lifecycle", "Nodes with a lifecycle: their states and transitions")
 HIDDEN = flag("--include-hidden-nodes", help="Consider hidden nodes as well")
@@ -92,7 +92,7 @@ def _chosen(available: list[Transition], word: str) -> Transition:
     for one in available:
         if word in (one.label, str(one.id)):
             return one
-    near = nearest(word, [one.label for one in available])
+    near = closest_match(word, [one.label for one in available])
     lines = "".join(f"\n- {one.label} [{one.id}]" for one in available)
     hint = f"\nDid you mean {near}?" if near else ""
     raise Wrong(f"Unknown transition requested, available ones are:{lines}{hint}")

@@ -12,10 +12,10 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, SetParameters
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file, parameter_value_to_python
 
-from sim.nearest import nearest
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.parameters import names_of, values_of
 from sim.ros2.system import System, Wrong, ask, is_hidden
+from sim.suggestions import closest_match
 
 param = Group("param", "Parameters of nodes: list, get, set, describe, dump, load")
 NODE = argument("node_name", help="Name of the ROS node", offers=lambda system, _: system.nodes)
@@ -90,7 +90,7 @@ def get(system: System, asked: Namespace) -> None:
     node = system.node(asked.node_name, hidden=asked.include_hidden_nodes)
     found = values_of(system, node, [asked.parameter_name])
     if not found or TYPES[found[0].type] == "not_set":
-        near = nearest(asked.parameter_name, names_of(system, node))
+        near = closest_match(asked.parameter_name, names_of(system, node))
         raise Wrong("Parameter not set" + (f". Did you mean {near}?" if near else ""))
     value = _python(found[0])
     label = "" if asked.hide_type else LABELS[TYPES[found[0].type]] + " "

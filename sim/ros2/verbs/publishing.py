@@ -10,13 +10,13 @@ import rclpy
 from rclpy.node import Node
 from rclpy.qos import QoSPresetProfiles
 
-from sim.nearest import nearest
 from sim.ros2.group import argument, flag
 from sim.ros2.qos_words import QOS, asked_profile
 from sim.ros2.system import POLL, System, Voice, Wrong
 from sim.ros2.text import fill, read_values
 from sim.ros2.types import type_of
 from sim.ros2.verbs.topic import NAME, topic, types_of
+from sim.suggestions import closest_match
 
 ROUND_OFF = 1.0  # s more than a play should take
 
@@ -114,6 +114,6 @@ def _wait(node: Node, voice: Voice, publisher: Any, asked: Namespace) -> None:
 
 def _near_topic(node: Node, name: str) -> str:
     known = [topic for topic, _ in node.get_topic_names_and_types() if topic != name]
-    near = nearest(name, known)
+    near = closest_match(name, known)
     lonely = near and not node.count_subscribers(name)
     return f" Nobody listens on {name}. Did you mean {near}?" if lonely else ""

@@ -7,12 +7,12 @@ from argparse import Namespace
 import rclpy
 from rclpy.node import Node
 
-from sim.nearest import nearest
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import POLL, System, Voice, Wrong, answer, guess
 from sim.ros2.text import fill, read_values
 from sim.ros2.types import type_of
 from sim.ros2.verbs.publishing import positive_number
+from sim.suggestions import closest_match
 
 service = Group("service", "Services: list them, call one")
 NAME = argument(
@@ -108,5 +108,5 @@ def _call(node: Node, voice: Voice, kind: type, request: object, asked: Namespac
 
 def _near(node: Node, name: str) -> str:
     known = [other for other, _ in node.get_service_names_and_types() if other != name]
-    near = nearest(name, known)
+    near = closest_match(name, known)
     return f" Did you mean {near}?" if near else ""

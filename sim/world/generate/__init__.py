@@ -14,7 +14,7 @@ from numbers import Integral
 from random import Random
 from typing import Any
 
-from sim.nearest import nearest
+from sim.suggestions import closest_match
 from sim.world.generate.floor import Clutter, FullError, Room
 from sim.world.generate.maze import Maze
 from sim.world.generate.warehouse import Warehouse
@@ -59,5 +59,5 @@ def generate(kind: str, seed: int, figures: dict[str, Any]) -> dict[str, Any]:
 
 
 def _guess(name: str, known: Iterable[str]) -> str:
-    near = nearest(str(name), known)
+    near = closest_match(str(name), known)
     return f"Did you mean {near!r}?" if near else f"There are {', '.join(known)}."

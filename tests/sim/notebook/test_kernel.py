@@ -74,10 +74,10 @@ def test_a_cell_that_failed_is_not_run_in_its_older_version(kernel):
 def test_an_interrupt_in_our_own_code_is_one_line_and_in_the_users_it_shows_where(kernel):
     kernel.run(SETUP, "setup")
     raises = """
-import sim.nearest
+import sim.suggestions
 def stop(*more): raise KeyboardInterrupt
-sim.nearest.nearest = stop
-sim.nearest.unknown("a", "b", ["c"])"""
+sim.suggestions.closest_match = stop
+sim.suggestions.unknown_name("a", "b", ["c"])"""
     assert kernel.run(raises, "use").strip() == "KeyboardInterrupt: You interrupted this cell."
     own = kernel.run("def mine():\n    raise KeyboardInterrupt\nmine()", "use")
     assert "mine" in own and "You interrupted" not in own

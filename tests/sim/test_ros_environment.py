@@ -40,9 +40,9 @@ def test_the_prefixes_of_a_ros_installation_are_left_alone(tmp_path):
 
 
 def test_the_commands_of_the_environment_are_found_once():
-    look = "import os, sim; from sim import environment; environment.prepare(); print(os.environ['PATH'])"
+    look = "import os, sim; sim.ros_environment.prepare(); print(os.environ['PATH'])"
     command = [sys.executable, "-c", look]
-    told = subprocess.check_output(
+    output = subprocess.check_output(
         command, cwd=REPOSITORY, env={**os.environ, "PATH": "/usr/bin:/bin"}, text=True, timeout=60
     )
-    assert told == f"{sys.prefix}/bin:/usr/bin:/bin\n"
+    assert output == f"{sys.prefix}/bin:/usr/bin:/bin\n"

@@ -1,4 +1,4 @@
-"""The process environment that every run needs, set before rclpy or a message package is imported."""
+"""Sets the environment variables that rclpy needs; called before rclpy or a message package is imported."""
 
 import os
 import sys
@@ -6,7 +6,7 @@ import tempfile
 import warnings
 
 PINNED = {
-    # Only OFF keeps two processes with the same topics from hearing each other.
+    # Only OFF keeps two processes with the same topics from receiving each other's messages.
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
     # Shared memory would leave files behind when a process is killed.
     "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
@@ -15,7 +15,7 @@ PINNED = {
     "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "[{severity}] [{name}]: {message}",
 }
-# These can make delivery asynchronous, and a run counts on a message being there when publish() returns.
+# These can make delivery asynchronous, but a run needs each message delivered when publish() returns.
 REMOVED = (
     "RMW_FASTRTPS_PUBLICATION_MODE",
     "RMW_FASTRTPS_USE_QOS_FROM_XML",
@@ -27,25 +27,25 @@ REMOVED = (
 
 
 def prepare() -> None:
-    """Pin the environment of this process. Safe to call again."""
+    """Set and remove environment variables of this process. Idempotent."""
     os.environ.update(PINNED)
-    # rclpy says it of a node whose name is none; the error that follows says why.
+    # rclpy warns about this for a node with an invalid name; the exception that follows has the reason.
     warnings.filterwarnings("ignore", "Failed to fini rosout publisher", RuntimeWarning)
     for name in REMOVED:
         os.environ.pop(name, None)
-    # rclpy.init() fails where it can't write its log files.
+    # rclpy.init() fails if it can't write its log files.
     os.environ.setdefault("ROS_LOG_DIR", os.path.join(tempfile.gettempdir(), f"ros-log-{os.getuid()}"))
-    # Where ROS looks for packages' shared files, such as message definitions: here, where pip put them.
+    # The prefix under which pip installed shared files of ROS packages, such as message definitions.
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
-    # For colcon, ros2 and python3 in a cell's `!` and in what they start.
+    # So that a cell's `!` finds colcon, ros2 and python3, and so do their child processes.
     commands, path = os.path.join(sys.prefix, "bin"), os.environ.get("PATH", os.defpath)
     if commands not in path.split(os.pathsep):
         os.environ["PATH"] = f"{commands}{os.pathsep}{path}"
-    for module in list(sys.modules.values()):  # message modules read the switch when they are imported
+    for module in list(sys.modules.values()):  # message modules read the variable when they are imported
         if getattr(module, "ros_python_check_fields", None) is not None:
             module.ros_python_check_fields = "1"
 
 
 def open_to_this_machine(domain: int) -> None:
-    """Let other processes on this machine that have the same domain hear this one, from rclpy.init() on."""
+    """Let processes on this machine with the same domain discover this one, from rclpy.init() on."""
     os.environ |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_DOMAIN_ID": str(domain)}
