@@ -71,13 +71,12 @@ class LocalCast:
 class RemoteCast:
     """Programs in the process at the other end of `remote`, which does as it likes.
 
-    secret: what the seeds of its own generators are made from. build: builds packages, on this side.
+    build: builds packages, on this side.
     Every method raises RemoteLost when that process is gone, silent, or sends what can't be.
     """
 
-    def __init__(self, remote: Remote, secret: str = "", build: Build | None = None) -> None:
+    def __init__(self, remote: Remote, build: Build | None = None) -> None:
         self._remote, self._build = remote, build or _refuse_to_build
-        remote.secret = secret.encode()
 
     def refusal(self) -> Fault | None:
         """As Cast; the other process is asked."""
@@ -90,8 +89,7 @@ class RemoteCast:
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """As Cast."""
-        self._remote.preparation = told(prepare)
-        return [self._remote]
+        return [self._remote.program(told(prepare))]
 
     def package(self, name: str, build_type: str) -> Package | Fault:
         """As Cast; the other process is asked for the sources, and told what to install."""

@@ -12,6 +12,7 @@ from grader.cast import Cast, LocalCast, Prepare, told
 from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
+from grader.grading import current_grading
 from grader.quiet import quiet_stderr
 from grader.score import Score
 from grader.slips import MOST_AFTER_ANOTHER, in_what_was_sent, mended, retyped, slips_of, with_half
@@ -19,9 +20,6 @@ from grader.workspace.description import PYTHON
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
 from sim.network import Network
-
-offer: Callable[[Exercise, tuple[Any, ...]], Any] | None = None
-"""Set in a process whose nodes another one judges: what `Exercise.grade` does there, and gives."""
 
 Companions = Sequence[Any] | Callable[[int], Sequence[Any]]
 
@@ -186,9 +184,10 @@ class Exercise:
 
         nodes: what sim.run takes: Node classes, callables that return a node, main() functions.
         """
-        if offer is not None:
-            return offer(self, nodes)
-        return self.judge(LocalCast(nodes), seeds.secret_of_this_process())
+        grading = current_grading()
+        if grading.hand_over is not None:
+            return grading.hand_over(self.name, nodes)
+        return self.judge(LocalCast(nodes), grading.secret)
 
     def judge(self, cast: Cast, secret: str = "") -> Score:
         """The same for programs wherever they live, on private worlds where there is a secret.

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
-import os
 from collections.abc import Sequence
-
-VARIABLE = "COURSE_SECRET"  # set by nbgrader's hooks in kernels that mark, and nowhere else
-
-
-def secret_of_this_process() -> str:
-    """The secret that nbgrader's marking has put into the environment; "" for a student's own check."""
-    return os.environ.get(VARIABLE, "")
 
 
 def secret_of_student(secret: str, student: str) -> str:

@@ -12,7 +12,8 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.seeds import VARIABLE, secret_of_student
+from grader.grading import VARIABLE
+from grader.seeds import secret_of_student
 
 
 def read(folder: Path) -> str:

@@ -125,8 +125,7 @@ class LedProcess:
 
     def _grade(self, exercise: Judging, tested: TestRun, secret: str) -> None:
         self._limit(self._time_limits.test)
-        remote = Remote(self._wire)
-        remote.deadline = self._wire.deadline
+        remote = Remote(self._wire, secret=secret, deadline=lambda: self._wire.deadline)
 
         def build(sources: Sources) -> Built:
             """In time that is not the student's: another process works."""
@@ -136,11 +135,10 @@ class LedProcess:
             finally:
                 self._over += monotonic() - began
                 self._limit(self._time_limits.test)
-                remote.deadline = self._wire.deadline
 
         try:
             try:
-                tested.score = exercise.judge(RemoteCast(remote, secret, build), secret)
+                tested.score = exercise.judge(RemoteCast(remote, build), secret)
             except RemoteLost as lost:
                 if not lost.lives:
                     raise

@@ -10,11 +10,11 @@ import contextlib
 import socket
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from grader import exercise
+from grader.grading import Grading, graded_as
 from grader.marking.student_process.error_output import error_output
 from grader.marking.student_process.interrupts import Interrupter
 from grader.marking.student_process.outlet import Outlet
@@ -59,7 +59,7 @@ class CellRunner:
                 case {"run": str(source), "seconds": seconds}:
                     self._run(source, seconds)
                 case {"test": str(source), "seconds": seconds}:
-                    with self._grade_by_judge():
+                    with graded_as(Grading(hand_over=self._hand_over)):
                         self._run(source, seconds)
                 case {"files": dict(files)}:
                     for name, content in files.items():
@@ -90,18 +90,10 @@ class CellRunner:
             self._outlet.show(output=error_output(cell.exception(), {}))
         self._outlet.done(threads=threading.active_count() > self._threads)
 
-    @contextlib.contextmanager
-    def _grade_by_judge(self) -> Iterator[None]:
-        """Here `Exercise.grade` hands the nodes to the judge instead of judging them."""
-        exercise.offer = self._hand_over
-        try:
-            yield
-        finally:
-            exercise.offer = None
-
-    def _hand_over(self, task: exercise.Exercise, nodes: Sequence[Any]) -> None:
+    def _hand_over(self, exercise: str, nodes: Sequence[Any]) -> None:
+        """Hand the nodes to the judge; see `Grading`."""
         self._interrupter.end()  # the judge looks at the clock now
         with self._outlet.closed():
-            self._wire.send(grade=str(task.name))
+            self._wire.send(grade=str(exercise))
             if self._wire.receive() == {"go": True}:
                 serve(self._wire, nodes)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import hmac
 import math
+from collections.abc import Callable, Sequence
 from time import monotonic
 from typing import Any, NoReturn
 
@@ -26,17 +28,21 @@ class Remote:
     It may be run again and again, also after a RemoteLost that says that the process lives; `end` lets it go.
 
     patience: wall seconds that it may take for one answer. total: the same for all answers of one run.
-    deadline: when all has to be over, by the clock `monotonic`: to enter what came can take long, too.
-    secret: what the seed is made from, together with that of the run, that it gets for its own `random`.
-    preparation: "module:function" of what there makes of each node the one that runs, and further words that
-    it is given; empty for none.
+    secret: the seed of the other process's own `random` is derived from it and from the seed of the run.
+    deadline: returns the time by which a run must be over, by the clock `monotonic`; it may change meanwhile.
     """
 
-    def __init__(self, wire: Wire, patience: float = 30.0, total: float = 300.0) -> None:
+    def __init__(
+        self,
+        wire: Wire,
+        patience: float = 30.0,
+        total: float = 300.0,
+        secret: str = "",
+        deadline: Callable[[], float] | None = None,
+    ) -> None:
         self.wire, self.patience, self.total = wire, patience, total
-        self._waited, self.deadline = 0.0, math.inf
-        self.secret = b""
-        self.preparation: list[str] = []
+        self._secret, self._deadline = secret.encode(), deadline or (lambda: math.inf)
+        self._waited = 0.0
         self._open = False  # the other process is in a run, which nobody has ended
 
     def ask(self, question: str, *words: Any) -> Any:
@@ -56,15 +62,25 @@ class Remote:
         except WireError as error:
             self._lose(error)
 
-    def __call__(self) -> None:
-        """The program that stands for the others in a run."""
+    def program(self, preparation: Sequence[Any]) -> Callable[[], None]:
+        """What `sim.run` takes for nodes that the other process prepares first.
+
+        preparation: "module:function" of a function that makes the node that runs from each of them, and its
+        further arguments; empty for none.
+        """
+        program = functools.partial(self, preparation)
+        program.__name__ = type(self).__name__
+        return program
+
+    def __call__(self, preparation: Sequence[Any] = ()) -> None:
+        """The program that runs in place of the other process's nodes. preparation: as for `program`."""
         run = engine()
         if run.link is not None:
             raise RemoteLost("Only one other process can have nodes in a run.", lives=True)
         self._waited = 0.0
         run.limits.pace *= 10  # the other process holds its nodes to it; here it is for one that doesn't
         with outside_student_code():
-            turn = _Turn(self, run)
+            turn = _Turn(self, run, preparation)
             turn.take()
         try:
             while turn.alive:
@@ -82,13 +98,13 @@ class Remote:
 
     def chance(self, seed: int) -> int:
         """The seed of the other process's own generators in a run with this seed; it doesn't tell that."""
-        digest = hmac.new(self.secret, f"chance of the nodes {seed}".encode(), hashlib.sha256).digest()
+        digest = hmac.new(self._secret, f"chance of the nodes {seed}".encode(), hashlib.sha256).digest()
         return int.from_bytes(digest[:4], "big")
 
     @property
     def until(self) -> float:
         """When the time of this run is over if it takes all that is left, by the clock `monotonic`."""
-        return min(monotonic() + self.total - self._waited, self.deadline)
+        return min(monotonic() + self.total - self._waited, self._deadline())
 
     def _exchange(self, **message: Any) -> dict[str, Any]:
         """Send, and receive the answer. Raises RemoteLost."""
@@ -120,7 +136,7 @@ class Remote:
 class _Turn:
     """Taking turns with the other process, in one run."""
 
-    def __init__(self, remote: Remote, run: Any) -> None:
+    def __init__(self, remote: Remote, run: Any, preparation: Sequence[Any]) -> None:
         self._remote, self._run = remote, run
         self.ledger = Ledger(run)
         self._end = round(run.recording.seconds * SECOND)
@@ -128,9 +144,8 @@ class _Turn:
         self.alive, self._busy = True, False
         seed = remote.chance(run.recording.seed)
         try:
-            remote.wire.send(
-                do="run", seconds=run.recording.seconds, seed=seed, preparation=remote.preparation
-            )
+            seconds = run.recording.seconds
+            remote.wire.send(do="run", seconds=seconds, seed=seed, preparation=list(preparation))
         except WireError as error:
             remote._lose(error)
         remote._open = True

@@ -38,10 +38,12 @@ class Apart:
         self.wire = Wire(ours)
 
     @contextlib.contextmanager
-    def serving(self, module: str, *names: str, patience: float = 120.0) -> Iterator[Remote]:
+    def serving(
+        self, module: str, *names: str, patience: float = 120.0, secret: str = ""
+    ) -> Iterator[Remote]:
         """What stands here for nodes of a module; after an error there is a new process."""
         self.wire.send(module=module, names=names)
-        remote = Remote(self.wire, patience)
+        remote = Remote(self.wire, patience, secret=secret)
         try:
             yield remote
             remote.end()

@@ -57,8 +57,9 @@ def wrong(assignment: str, exercise: str) -> list[str]:
 
 def earned(apart: Apart, assignment: str, exercise: str, name: str, secret: str = "") -> str:
     """What a node gets that lives in the other process, as a table's page says it."""
-    with kept_builds(), apart.serving(f"tests.students.{assignment}.{exercise}", name) as remote:
-        score = judge(assignment, exercise).judge(RemoteCast(remote, secret, building.build), secret)
+    module = f"tests.students.{assignment}.{exercise}"
+    with kept_builds(), apart.serving(module, name, secret=secret) as remote:
+        score = judge(assignment, exercise).judge(RemoteCast(remote, building.build), secret)
     return shown(name, score)
 
 

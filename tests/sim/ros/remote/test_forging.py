@@ -45,11 +45,11 @@ def test_the_seed_of_the_run_and_the_secret_stay_here(apart, monkeypatch):
 
 
 def test_the_secret_changes_what_the_nodes_draw(apart):
-    with apart.serving(FORGERS, "Spy") as remote:
-        run(remote, seconds=1, quiet=True)
-        drawn = {remote.chance(7)}
-        remote.secret = b"a secret"
-        assert remote.chance(7) not in drawn
+    drawn = []
+    for secret in ("", "a secret", "a secret"):
+        with apart.serving(FORGERS, "Spy", secret=secret) as remote:
+            drawn.append(run(remote, seconds=1, quiet=True).logs[0].text.split(" ")[1])
+    assert drawn[0] != drawn[1] == drawn[2]
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ ID = "00" * 16
 
 
 @contextlib.contextmanager
-def answering(*answers, after=QUIET, over=ENDED):
+def answering(*answers, after=QUIET, over=ENDED, deadline=None):
     """What a wire leads to whose other side says this and no more, turn by turn; then all is quiet."""
     near, far = socket.socketpair()
     wire, left = Wire(far), list(answers)
@@ -50,7 +50,7 @@ def answering(*answers, after=QUIET, over=ENDED):
 
     thread = threading.Thread(target=answer)
     thread.start()
-    remote = Remote(Wire(near), patience=60.0)
+    remote = Remote(Wire(near), patience=60.0, deadline=deadline)
     try:
         yield remote
     finally:
@@ -319,8 +319,7 @@ def test_all_texts_of_a_run_have_a_limit(monkeypatch):
 
 
 def test_what_takes_too_long_to_enter_ends_the_run():
-    with answering(news(TALKS)) as remote, pytest.raises(RemoteLost) as lost:
-        remote.deadline = 0.0
+    with answering(news(TALKS), deadline=lambda: 0.0) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
     assert lost.value.reason == sent("more than can be looked at in the time that is left")
 

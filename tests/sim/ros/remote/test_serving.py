@@ -6,9 +6,8 @@ import threading
 import pytest
 from rclpy.node import Node
 
-import grader.exercise
 from grader import Exercise, check
-from sim import Process, run
+from sim import run
 from sim.ros.remote import Remote, RemoteLost, Wire, WireBroken, WireClosed, serve
 
 
@@ -77,13 +76,6 @@ def test_nodes_that_can_t_be_run_are_told_of(wires):
         "failed": "TypeError: grade() takes Node classes, functions that return a node, or main() functions;"
         " this is 5."
     }
-
-
-def test_where_another_process_judges_a_test_cell_only_offers_its_nodes(monkeypatch):
-    offered = []
-    monkeypatch.setattr(grader.exercise, "offer", lambda *offer: offered.append(offer) or "judged elsewhere")
-    assert BEING.grade(Idle, Process) == "judged elsewhere"
-    assert offered == [(BEING, (Idle, Process))]
 
 
 def test_only_one_other_process_takes_part(wires):
