@@ -74,7 +74,7 @@ class Scenario:
             quiet=True,
             network=self.network,
         )
-        for error in recording.failures:
+        for error in recording.course_errors:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
         return recording
 

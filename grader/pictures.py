@@ -53,7 +53,7 @@ def graph_of_a_miss(verdicts: Sequence[Verdict], recordings: Sequence[Recording]
 
 def _unconnected(recording: Recording) -> set[str]:
     pairs = [[end for end in (gap.given, gap.wanted) if end] for gap in missing(recording.graph)]
-    return {end.name for pair in pairs for end in pair if not all(end.ours for end in pair)}
+    return {end.name for pair in pairs for end in pair if not all(end.from_course for end in pair)}
 
 
 def _folded_graph(recording: Recording) -> str:

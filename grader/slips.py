@@ -18,7 +18,7 @@ from grader.diagnosis.names import misspelt
 from grader.diagnosis.other_types import conflict
 from grader.diagnosis.parameters import misspelt_parameter, whole_parameter
 from sim import Process
-from sim.evidence import CallbackError, Heard, Recording
+from sim.evidence import CallbackError, Message, Recording
 
 WORTH = 0.5  # of the points
 MOST_AFTER_ANOTHER = 3  # each may hide the next: a name, a type, a number
@@ -85,16 +85,16 @@ def retyped(recording: Recording, slips: Sequence[str]) -> Recording:
     kinds = dict(slip.split(":=") for slip in slips if _of_a_type(slip))
 
     def right(row: Any) -> Any:
-        if row.ours or row.type not in kinds:
+        if row.from_course or row.type not in kinds:
             return row
         return row._replace(type=kinds[row.type], **_repacked(row, kinds[row.type]))
 
     graph = replace(recording.graph, endpoints=[right(end) for end in recording.graph.endpoints])
-    return replace(recording, heard=[right(heard) for heard in recording.heard], graph=graph)
+    return replace(recording, published=[right(heard) for heard in recording.published], graph=graph)
 
 
 def _repacked(row: Any, kind: str) -> dict[str, bytes]:
-    if not isinstance(row, Heard):
+    if not isinstance(row, Message):
         return {}
     code, number = _PACKED[kind]
     return {"raw": row.raw[:4] + struct.pack(code, number(row.message.data).value)}

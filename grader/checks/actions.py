@@ -43,8 +43,8 @@ def sends_goals(recording: Recording, action: str, type: str = "", *, at_least: 
     """The student's goals for an action, at least so many. Raises Missed without client, type or goals."""
     expected = f"an action client for {action}" + (f" of type {type}" if type else "")
     declared(recording, "action client", action, type, expected)
-    sent = [goal for goal in recording.goals_of(action) if goal.asked is not None]
-    found = [goal for goal in sent if not goal.asked_by_us]
+    sent = [goal for goal in recording.goals_of(action) if goal.requested is not None]
+    found = [goal for goal in sent if not goal.requested_by_course]
     if len(found) < at_least:
         many = f"a goal for {action}" if at_least == 1 else f"{at_least} or more goals for {action}"
         saw = f"only {len(found)} in {recording.ended.stamp:.3g} s" if found else "a client, but no goal"
@@ -201,7 +201,7 @@ def _goals(recording: Recording, action: str, where: Picks) -> list[Goal]:
 
 
 def _named(goal: Goal) -> str:
-    asked = "" if goal.asked is None else f" at {goal.asked:.3g} s"
+    asked = "" if goal.requested is None else f" at {goal.requested:.3g} s"
     return f"the goal {goal.action} ({told(goal.request)}){asked}"
 
 

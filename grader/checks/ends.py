@@ -39,7 +39,7 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
 
     Raises Missed with what there is in their place.
     """
-    words, ends = _WORDS[kind], [end for end in recording.graph.ends(kind) if not end.ours]
+    words, ends = _WORDS[kind], [end for end in recording.graph.ends(kind) if not end.from_course]
     found = [end for end in ends if end.name == name]
     wrong = next((end for end in found if type and end.type != type), None)
     if wrong:

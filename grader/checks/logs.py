@@ -11,7 +11,7 @@ from grader.checks.check import Missed
 from grader.checks.silence import silence
 from grader.checks.work import worked_until
 from grader.diagnosis.activity import slow_callback
-from sim.evidence import Heard, LogLine, Recording, Seconds
+from sim.evidence import LogLine, Message, Recording, Seconds
 from sim.suggestions import closest_match
 
 FLOOD = 10.0  # times as many answers as were asked for earn nothing
@@ -38,7 +38,7 @@ def logs(
     texts = [
         Said(line.stamp, line.level, line.text, match.groups())
         for line in recording.logs
-        if not line.ours and (match := re.search(pattern, line.text, re.IGNORECASE))
+        if not line.from_course and (match := re.search(pattern, line.text, re.IGNORECASE))
     ]
     found = [line for line in texts if level in ("", line.level)]
     if len(found) < at_least:
@@ -106,7 +106,7 @@ def come_every(
 
 
 def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[Said]) -> None:
-    if all(timer.node in recording.ours for timer in recording.graph.timers):
+    if all(timer.node in recording.course_nodes for timer in recording.graph.timers):
         hint = (
             "A node hears nothing and answers nobody while a loop of its own sleeps: "
             f"create_timer({period:g}, method) has a method called again and again, and leaves the node free."
@@ -130,11 +130,11 @@ def _pace(stamps: list[Seconds], gaps: list[Seconds]) -> str:
 def answers(
     recording: Recording,
     topic: str,
-    pattern: str | Callable[[Heard], str] = "",
+    pattern: str | Callable[[Message], str] = "",
     *,
     level: str = "",
     within: Seconds = 0.5,
-    where: Callable[[Heard], bool] = lambda heard: True,
+    where: Callable[[Message], bool] = lambda heard: True,
     what: str = "",
     only: bool = False,
 ) -> None:
@@ -166,7 +166,7 @@ def answers(
 
 
 def _no_others(
-    recording: Recording, heard: list[Heard], where: Callable[[Heard], bool], level: str, expected: str
+    recording: Recording, heard: list[Message], where: Callable[[Message], bool], level: str, expected: str
 ) -> None:
     """The student's lines at this level come after messages that want one; else raises Missed."""
 
@@ -174,7 +174,7 @@ def _no_others(
         before = [one for one in heard if one.stamp <= line.stamp]
         return bool(before) and where(before[-1])
 
-    lines = [line for line in recording.logs if level in ("", line.level) and not line.ours]
+    lines = [line for line in recording.logs if level in ("", line.level) and not line.from_course]
     others = [line for line in lines if not answers_one(line)]
     if others:
         saw = f"“{others[0].text}” at {others[0].stamp:.3g} s"
@@ -185,13 +185,13 @@ def _lines_after(recording: Recording, stamp: Seconds, within: Seconds, pattern:
     return any(
         stamp <= line.stamp < stamp + within
         and level in ("", line.level)
-        and not line.ours
+        and not line.from_course
         and re.search(pattern, line.text, re.IGNORECASE)
         for line in recording.logs
     )
 
 
-def _instead(recording: Recording, heard: Heard, within: Seconds) -> str:
+def _instead(recording: Recording, heard: Message, within: Seconds) -> str:
     near = [line for line in recording.logs if heard.stamp <= line.stamp < heard.stamp + within]
     said = f"“{near[0].text}” ({near[0].level})" if near else "no line"
     return f"{said} within {within:g} s of the message at {heard.stamp:.3g} s"

@@ -86,7 +86,7 @@ def _pauses(recording: Recording, done: Shift) -> Iterator[_Pause]:
                 yield _Pause(begin, end, job, True)
     for job in done.jobs:
         fetched = job.picked_up or job.over or last
-        for begin, end in _inside(stands, job.asked, fetched):
+        for begin, end in _inside(stands, job.requested, fetched):
             if not any(first <= (begin + end) / 2 < then for first, then in busy):
                 yield _Pause(begin, end, job, False)
 
@@ -139,8 +139,8 @@ def _given_up(done: Shift) -> Question | None:
             why = "it was never fetched: which rule left it, and was that right?"
             if job.picked_up is not None:
                 why = f"it was aboard from {job.picked_up:.1f} s on: where did the time go?"
-            saw = f"Order {job.id} came at {job.asked:.1f} s and expired at {job.over:.1f} s"
-            return Question(job.asked, job.over, f"{saw}; {why}")
+            saw = f"Order {job.id} came at {job.requested:.1f} s and expired at {job.over:.1f} s"
+            return Question(job.requested, job.over, f"{saw}; {why}")
     for job in done.jobs:
         if job.status == "canceled" and job.over is not None and job.picked_up is not None:
             saw = f"At {job.over:.1f} s order {job.id} was canceled, and it was aboard"
@@ -184,7 +184,7 @@ def _battery(recording: Recording, done: Shift) -> Question | None:
 
 def _waited(done: Shift, charge: _Charge) -> list[Job]:
     """The orders that waited for the end of it."""
-    waited = (job for job in done.jobs if job.asked + LONG < charge.end)
+    waited = (job for job in done.jobs if job.requested + LONG < charge.end)
     return [job for job in waited if charge.end <= (job.picked_up or job.over or math.inf)]
 
 
@@ -192,7 +192,7 @@ def _went_round(recording: Recording, done: Shift) -> Question | None:
     """The delivery whose way was longer than the straight line by most."""
     ways = []
     for job in done.delivered:
-        begin, end = job.picked_up or job.asked, job.over or recording.stamp
+        begin, end = job.picked_up or job.requested, job.over or recording.stamp
         line = _apart(recording.pose_at(begin), recording.pose_at(end))
         way = travelled(recording.during(begin, end))
         ways.append((way - line, way, line, begin, end, job.id))
@@ -206,13 +206,13 @@ def _went_round(recording: Recording, done: Shift) -> Question | None:
 
 def _took_longest(done: Shift) -> Question | None:
     """Of the orders that were delivered, the one that took longest."""
-    took = [(job.over - job.asked, job) for job in done.delivered if job.over is not None]
+    took = [(job.over - job.requested, job) for job in done.delivered if job.over is not None]
     if not took:
         return None
     lasted, job = max(took)
     more = "" if len(took) == 1 else ", longer than any other"
-    saw = f"Order {job.id} came at {job.asked:.1f} s and took {lasted:.1f} s{more}"
-    return Question(job.asked, job.asked + lasted, f"{saw}: how much of that was driving?")
+    saw = f"Order {job.id} came at {job.requested:.1f} s and took {lasted:.1f} s{more}"
+    return Question(job.requested, job.requested + lasted, f"{saw}: how much of that was driving?")
 
 
 def _left(done: Shift, last: Seconds) -> Question | None:
@@ -220,8 +220,8 @@ def _left(done: Shift, last: Seconds) -> Question | None:
     left = [job for job in done.jobs if job.status == "waiting"]
     if done.delivered or not left:
         return None
-    saw = f"Order {left[0].id} came at {left[0].asked:.1f} s and still waited at {last:.1f} s"
-    return Question(left[0].asked, last, f"{saw}: what kept the robot from it?")
+    saw = f"Order {left[0].id} came at {left[0].requested:.1f} s and still waited at {last:.1f} s"
+    return Question(left[0].requested, last, f"{saw}: what kept the robot from it?")
 
 
 def _in_vain(done: Shift, last: Seconds) -> Question | None:

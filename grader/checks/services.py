@@ -28,8 +28,8 @@ def calls(recording: Recording, service: str, type: str = "", *, at_least: int =
     """
     expected = f"a client for {service}" + (f" of type {type}" if type else "")
     declared(recording, "client", service, type, expected)
-    asked = [call for call in recording.calls_of(service) if call.asked is not None]
-    found = [call for call in asked if not call.asked_by_us]
+    asked = [call for call in recording.calls_of(service) if call.requested is not None]
+    found = [call for call in asked if not call.requested_by_course]
     if len(found) < at_least:
         many = f"a call of {service}" if at_least == 1 else f"{at_least} or more calls of {service}"
         saw = f"only {len(found)} in {recording.ended.stamp:.3g} s" if found else "a client, but no call"
@@ -71,7 +71,7 @@ def _due(recording: Recording, call: Call, within: Seconds) -> bool:
 
 
 def _began(call: Call) -> Seconds:
-    return call.taken or 0.0 if call.asked is None else call.asked
+    return call.taken or 0.0 if call.requested is None else call.requested
 
 
 def _miss(call: Call, right: Callable[[Any], Mapping[str, Any]], within: Seconds) -> tuple[str, str] | None:

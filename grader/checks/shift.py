@@ -24,7 +24,7 @@ class Job(NamedTuple):
     """
 
     id: int
-    asked: Seconds
+    requested: Seconds
     deadline: Seconds
     picked_up: Seconds | None
     over: Seconds | None
@@ -79,7 +79,7 @@ def shift(recording: Recording) -> Shift:
     contacts = [*recording.contacts]
     contacts += [contact for name in others for contact in recording.other_contacts.get(name, ())]
     people = [contact.stamp for contact in contacts if contact.what == "person"]
-    states = [item for item in recording.messages("/battery_state") if item.ours]
+    states = [item for item in recording.messages("/battery_state") if item.from_course]
     return Shift(
         jobs=_jobs(recording),
         touched=dict(sorted(Counter(_touched(world, contact) for contact in contacts).items())),
@@ -93,7 +93,7 @@ def shift(recording: Recording) -> Shift:
 def _jobs(recording: Recording) -> tuple[Job, ...]:
     jobs: dict[int, Job] = {}
     for item in recording.messages("/orders"):
-        if not item.ours:
+        if not item.from_course:
             continue
         order, stamp = item.message, item.stamp
         status = _statuses(order)[order.status]
@@ -123,8 +123,8 @@ def _touched(world: World, contact: Contact) -> str:
 
 
 def _programs(recording: Recording) -> dict[str, Program]:
-    nodes = [name for name in recording.graph.nodes if not recording.is_ours(name)]
-    sent = Counter((item.sender, item.topic) for item in recording.messages() if not item.ours)
+    nodes = [name for name in recording.graph.nodes if not recording.is_course_node(name)]
+    sent = Counter((item.sender, item.topic) for item in recording.messages() if not item.from_course)
     errors = Counter(error.node for error in recording.errors)
     return {
         node: Program(

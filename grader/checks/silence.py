@@ -17,6 +17,6 @@ def silence(recording: Recording, expected: str, saw: str, speakers: Iterable[En
     """
     if recording.ended.reason != "time" and recording.ended.stamp < recording.seconds:
         return Missed(f"a run that lasts until there are {expected}", recording.ended.detail)
-    if any(end.ours for end in speakers):
+    if any(end.from_course for end in speakers):
         return ValueError(f"nodes of the exercise's own should have sent {expected}: {saw}")
     return Missed(expected, saw)

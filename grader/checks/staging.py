@@ -16,11 +16,15 @@ def evidence_of(recording: Recording) -> Recording:
     """The recording without what was staged."""
     ours = {kind: owned(recording, kind) for kind in KINDS}
     ends = [
-        end for end in recording.graph.endpoints if end.ours or end.name not in ours.get(end.kind, ())
+        end for end in recording.graph.endpoints if end.from_course or end.name not in ours.get(end.kind, ())
     ]
     return replace(
         recording,
-        heard=[heard for heard in recording.heard if heard.ours or heard.topic not in ours["publisher"]],
+        published=[
+            heard
+            for heard in recording.published
+            if heard.from_course or heard.topic not in ours["publisher"]
+        ],
         calls=[call for call in recording.calls if not _among_themselves(call)],
         goals=[goal for goal in recording.goals if not _among_themselves(goal)],
         graph=replace(recording.graph, endpoints=ends),
@@ -29,4 +33,4 @@ def evidence_of(recording: Recording) -> Recording:
 
 def _among_themselves(exchange: Call | Goal) -> bool:
     """Whether a student's node asked, and a student's node took it."""
-    return bool(exchange.server) and not (exchange.asked_by_us or exchange.served_by_us)
+    return bool(exchange.server) and not (exchange.requested_by_course or exchange.served_by_course)

@@ -11,11 +11,11 @@ from typing import Any
 from grader.checks.check import Missed
 from grader.checks.ends import declared
 from grader.checks.work import worked_until
-from sim.evidence import Endpoint, Heard, Recording, Seconds
+from sim.evidence import Endpoint, Message, Recording, Seconds
 from sim.evidence import rate as mean_rate
 
 
-def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int = 1) -> list[Heard]:
+def publishes(recording: Recording, topic: str, type: str = "", *, at_least: int = 1) -> list[Message]:
     """The messages on a topic, at least so many of them and all of one type, e.g. "std_msgs/msg/String".
 
     Raises Missed when the topic, its type or the messages are not there.

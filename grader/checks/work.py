@@ -23,7 +23,7 @@ def worked_until(recording: Recording) -> Seconds:
     """When the last of the student's programs had ended or was stuck; else when the run ended."""
     ended = recording.ended
     waits = _WAITS.search(ended.detail) if ended.reason == "blocked" else None
-    moments = [ended.stamp, recording.gone, float(waits[1]) if waits else None]
+    moments = [ended.stamp, recording.all_exited_at, float(waits[1]) if waits else None]
     return min(moment for moment in moments if moment is not None)
 
 
@@ -33,7 +33,7 @@ def work_of(recording: Recording, *, may_end: bool = False) -> Work:
     whole = ended.stamp if ended.reason in ("goal", "interrupted") else recording.seconds
     if not whole or until >= whole - 1e-6:
         return Work(1.0)
-    if ended.reason not in CUT_SHORT and (may_end or recording.gone is None):
+    if ended.reason not in CUT_SHORT and (may_end or recording.all_exited_at is None):
         return Work(1.0)
     if not (recording.errors or ended.reason in CUT_SHORT):
         return Work(until / whole, f"{_for(until, whole)}: then your program had ended. {LIVES}")

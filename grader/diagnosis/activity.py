@@ -8,7 +8,7 @@ from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
 def slow_callback(recording: Recording) -> str:
     """A timer that fires less often than it should because a callback of its node holds everything up."""
     for timer in recording.graph.timers:
-        if timer.period <= 0 or timer.node in recording.ours:
+        if timer.period <= 0 or timer.node in recording.course_nodes:
             continue
         of_node = [run for run in recording.callbacks if run.node == timer.node]
         fires = [run for run in of_node if run.kind == "timer" and run.callback == timer.callback]
@@ -48,10 +48,10 @@ def busy_listener(recording: Recording) -> str:
         of_node = [run for run in recording.callbacks if run.node == node]
         taken = [run for run in of_node if run.kind == "subscription"]
         slowest = max(taken, key=lambda run: run.duration, default=None)
-        if slowest is None or node in recording.ours:
+        if slowest is None or node in recording.course_nodes:
             continue
         topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
-        sent = sum(heard.topic in topics and heard.stamp >= taken[0].stamp for heard in recording.heard)
+        sent = sum(heard.topic in topics and heard.stamp >= taken[0].stamp for heard in recording.published)
         busy = sum(run.duration for run in of_node) / (recording.ended.stamp - taken[0].stamp or 1.0)
         if busy > 0.8 and len(taken) < 0.8 * sent and _holds_up(slowest, of_node, 0.0):
             return (
@@ -68,7 +68,7 @@ def never_spun(recording: Recording) -> str:
         return ""  # what is blocked did begin
     active = {run.node for run in recording.callbacks} | {loop.node for loop in recording.busy_loops}
     for node in recording.graph.nodes:
-        if node in active or node in recording.ours:
+        if node in active or node in recording.course_nodes:
             continue
         what = _waiting_work(recording, node)
         if what:
@@ -87,7 +87,7 @@ def _waiting_work(recording: Recording, node: str) -> str:
     listening = {e.name for e in recording.graph.subscriptions() if e.node == node} - INFRASTRUCTURE_TOPICS
     served = {end.name for end in recording.graph.ends("service") if end.node == node}
     acting = {end.name for end in recording.graph.ends("action server") if end.node == node}
-    if any(heard.topic in listening for heard in recording.heard):
+    if any(heard.topic in listening for heard in recording.published):
         return "a subscription with messages waiting"
     if any(call.service in served and not call.lost for call in recording.calls):
         return "a service with requests waiting"
@@ -120,9 +120,13 @@ def ended_early(recording: Recording) -> str:
 
 def unused_publisher(recording: Recording) -> str:
     """A publisher that never sent anything."""
-    used = {(heard.sender, heard.topic) for heard in recording.heard}
+    used = {(heard.sender, heard.topic) for heard in recording.published}
     for end in recording.graph.publishers():
-        if (end.node, end.name) in used or end.name in INFRASTRUCTURE_TOPICS or end.node in recording.ours:
+        if (
+            (end.node, end.name) in used
+            or end.name in INFRASTRUCTURE_TOPICS
+            or end.node in recording.course_nodes
+        ):
             continue
         what_next = _who_should_publish(recording, end.node)
         return f"{end.node} has a publisher on {end.name}, but never publishes. {what_next}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from itertools import product
 
-from sim.evidence import Recording, Unheard
+from sim.evidence import Recording, UndeliveredMessage
 from sim.evidence.qos import offer, refusal
 
 
@@ -16,7 +16,7 @@ def incompatible_qos(recording: Recording) -> str:
     """
     for publisher, subscription in product(recording.graph.publishers(), recording.graph.subscriptions()):
         found = refusal(publisher.qos, subscription.qos) if publisher.name == subscription.name else None
-        if found is not None and not (publisher.ours and subscription.ours):
+        if found is not None and not (publisher.from_course and subscription.from_course):
             policy, offered, wanted = found
             return (
                 f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
@@ -31,7 +31,7 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
 
     topic: one, or all. Who waits before it publishes is heard, and is not meant.
     """
-    made = Counter((end.node, end.name) for end in recording.graph.publishers(topic) if not end.ours)
+    made = Counter((end.node, end.name) for end in recording.graph.publishers(topic) if not end.from_course)
     for (node, name), publishers in made.items():
         messages = recording.messages(name, node)
         lost = sum(heard.early for heard in messages)
@@ -46,7 +46,7 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
 
 def said_too_early(recording: Recording) -> str:
     """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
-    early = next((row for row in recording.unheard if _is_loss(recording, row)), None)
+    early = next((row for row in recording.undelivered if _is_loss(recording, row)), None)
     if early is None:
         return ""
     return (
@@ -57,9 +57,9 @@ def said_too_early(recording: Recording) -> str:
     )
 
 
-def _is_loss(recording: Recording, row: Unheard) -> bool:
+def _is_loss(recording: Recording, row: UndeliveredMessage) -> bool:
     """Whether a student's node never says again what reached nobody: a loop says it twenty times a second."""
-    if row.node in recording.ours:
+    if row.node in recording.course_nodes:
         return False
     said = [heard for heard in recording.messages(row.topic, row.node) if heard.stamp >= row.stamp]
     return all(again.raw != said[0].raw for again in said if again.stamp > row.stamp)

@@ -59,7 +59,7 @@ def drives_against_it(recording: Recording) -> str:
             continue
         wanted = -1 if contact.side == "back" else 1
         for topic, commands in _of_robots(recording):
-            theirs = (command for command in commands if not recording.is_ours(command.sender))
+            theirs = (command for command in commands if not recording.is_course_node(command.sender))
             meant = [command for command in theirs if contact.stamp < command.stamp < soon]
             if topic == "/cmd_vel" and meant and all(command.v * wanted > 0 for command in meant):
                 rays = rays_without_distance(recording, meant[-1].sender, meant[-1].stamp, NO_WAY)
@@ -158,11 +158,11 @@ def _passing_on(recording: Recording, topic: str) -> set[str]:
 def _of_robots(recording: Recording) -> Iterator[tuple[str, list[Command]]]:
     """The topic of each robot's commands, with those of the student's nodes among them, if there are any."""
     for end in recording.graph.subscriptions():
-        if end.type != _TWIST or end.node not in recording.ours or not end.node.endswith("/robot"):
+        if end.type != _TWIST or end.node not in recording.course_nodes or not end.node.endswith("/robot"):
             continue
         commands = [
             Command(heard.stamp, heard.sender, heard.message.linear.x, heard.message.angular.z)
             for heard in recording.messages(end.name)
         ]
-        if any(not recording.is_ours(command.sender) for command in commands):
+        if any(not recording.is_course_node(command.sender) for command in commands):
             yield end.name, commands

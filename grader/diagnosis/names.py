@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sim.evidence import INFRASTRUCTURE_TOPICS, Graph, Recording
-from sim.evidence.connections import slip
+from sim.evidence.connections import name_difference
 from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 
 # Kinds of ends that take something, each with the kind that gives it.
@@ -31,10 +31,10 @@ def typing_slip(recording: Recording) -> str:
     published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
     heard = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
     for name, near in _nearly_met(heard, published):
-        if not (published[near].ours and heard[name].ours):
+        if not (published[near].from_course and heard[name].from_course):
             return (
                 f"{published[near].node} publishes on {near}, {heard[name].node} listens on {name}: "
-                f"two different topics. {slip(published[near], heard[name])}"
+                f"two different topics. {name_difference(published[near], heard[name])}"
             )
     return ""
 
@@ -51,7 +51,7 @@ def service_slip(recording: Recording) -> str:
             given, asked = offered[near], wanted[name]
             return (
                 f"{asked.node} calls {name}, {given.node} offers {near}: two different {what}. "
-                f"{slip(given, asked)}"
+                f"{name_difference(given, asked)}"
             )
     return ""
 
@@ -66,8 +66,12 @@ def misspelt(recording: Recording) -> list[tuple[str, str]]:
 
 def _misspelt(graph: Graph, taker: str, giver: str) -> Iterator[tuple[str, str]]:
     wanted, offered = graph.ends(taker), graph.ends(giver)
-    lonely = {end.name for end in offered if end.ours} - {end.name for end in wanted} - INFRASTRUCTURE_TOPICS
-    for name in {end.name for end in wanted if not end.ours} - {end.name for end in offered}:
+    lonely = (
+        {end.name for end in offered if end.from_course}
+        - {end.name for end in wanted}
+        - INFRASTRUCTURE_TOPICS
+    )
+    for name in {end.name for end in wanted if not end.from_course} - {end.name for end in offered}:
         near = closest_match(name, lonely, NAME_CUTOFF)
         if near and near.rsplit("/", 1)[-1] != name.rsplit("/", 1)[-1]:
             yield name, near

@@ -23,19 +23,19 @@ class Intrusion(NamedTuple):
 
 def owned(recording: Recording, kind: str) -> dict[str, str]:
     """Names that programs of ours publish on or serve, each with its node. kind: as in `Endpoint`."""
-    ends = (end for end in recording.graph.ends(kind) if end.ours and end.name not in COMMON_TOPICS)
+    ends = (end for end in recording.graph.ends(kind) if end.from_course and end.name not in COMMON_TOPICS)
     return {end.name: end.node for end in ends}
 
 
 def intrusions(recording: Recording) -> list[Intrusion]:
     """Where a student's program publishes or serves what another program does, one for each name."""
     found: dict[str, Intrusion] = {}
-    sent = {heard.topic for heard in recording.heard if not heard.ours}
+    sent = {heard.topic for heard in recording.published if not heard.from_course}
     for kind, what in KINDS.items():
         owners = owned(recording, kind)
         for end in recording.graph.ends(kind):
             silent = kind == "publisher" and end.name not in sent
-            if not end.ours and end.name in owners and not silent:
+            if not end.from_course and end.name in owners and not silent:
                 found.setdefault(end.name, Intrusion(end.name, owners[end.name], end.node, what))
     return list(found.values())
 

@@ -18,7 +18,7 @@ def unknown_parameter(recording: Recording) -> str:
     rows = [
         row
         for row in recording.parameters
-        if row.node not in recording.ours and not row.name.startswith(_OF_EVERY_NODE)
+        if row.node not in recording.course_nodes and not row.name.startswith(_OF_EVERY_NODE)
     ]
     declared = {row.name for row in rows if row.declared}
     for _, node, name, _ in rows:
@@ -69,5 +69,5 @@ def _asked(recording: Recording, *services: str) -> Iterator[Call]:
     """The calls of these services of the student's nodes that ours made, and that were answered."""
     for call in recording.calls:
         answered = call.service.endswith(services) and call.response is not None
-        if answered and call.asked_by_us and not call.served_by_us:
+        if answered and call.requested_by_course and not call.served_by_course:
             yield call

@@ -43,7 +43,7 @@ def late_on_the_network(recording: Recording) -> str:
 
 
 def _of_students(recording: Recording) -> list[Crossing]:
-    return [row for row in recording.crossings if not {row.sender, row.listener} <= recording.ours]
+    return [row for row in recording.crossings if not {row.sender, row.listener} <= recording.course_nodes]
 
 
 def _is_reliable(recording: Recording, row: Crossing) -> bool:

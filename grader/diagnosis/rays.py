@@ -22,7 +22,7 @@ def rays_without_distance(
     topics = {end.name for end in recording.graph.subscriptions() if end.node == node}
     scans = [
         heard
-        for heard in recording.heard
+        for heard in recording.published
         if heard.topic in topics and heard.type == "sensor_msgs/msg/LaserScan" and heard.stamp <= until
     ]
     if not scans:

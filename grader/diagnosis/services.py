@@ -32,8 +32,8 @@ def nobody_offers(recording: Recording) -> str:
 
 def asked_nobody(recording: Recording) -> str:
     """A request or goal that was sent before there was a server to take it, or before it was found."""
-    lost = [(call.service, call.client, call.asked, "service") for call in recording.calls if call.lost]
-    lost += [(goal.action, goal.client, goal.asked, "server") for goal in recording.goals if goal.lost]
+    lost = [(call.service, call.client, call.requested, "service") for call in recording.calls if call.lost]
+    lost += [(goal.action, goal.client, goal.requested, "server") for goal in recording.goals if goal.lost]
     for name, client, asked, what in lost:
         servers = [e.node for e in recording.graph.endpoints if e.name == name and "client" not in e.kind]
         if servers:
@@ -49,8 +49,8 @@ def answer_not_heard(recording: Recording) -> str:
     """A client whose answer came, but whose node didn't spin any more, or never did."""
     if recording.ended.reason == "blocked":
         return ""
-    heard = [(c.service, c.client, c.asked, c.answered, c.received) for c in recording.calls]
-    heard += [(g.action, g.client, g.asked, _decided(g.events), g.answered) for g in recording.goals]
+    heard = [(c.service, c.client, c.requested, c.answered, c.received) for c in recording.calls]
+    heard += [(g.action, g.client, g.requested, _decided(g.events), g.answered) for g in recording.goals]
     for name, client, asked, answered, received in heard:
         if asked is None or answered is None or received is not None or not client:
             continue
@@ -71,14 +71,14 @@ def answer_dropped(recording: Recording) -> str:
     """An answer that came in, but that no done callback takes, and no callback awaited."""
     took = {run.node for run in recording.callbacks if run.kind == "task" and not _is_rclpys(run.callback)}
     for call in recording.calls:
-        if call.received is None or call.asked is None or call.client in took:
+        if call.received is None or call.requested is None or call.client in took:
             continue
         asking = [
-            run for run in recording.callbacks if run.node == call.client and run.stamp == call.asked
+            run for run in recording.callbacks if run.node == call.client and run.stamp == call.requested
         ]
         if asking and call.received > max(run.stamp + run.duration for run in asking):
             return (
-                f"{call.client} called {call.service} at {call.asked:.3g} s, and the answer came at "
+                f"{call.client} called {call.service} at {call.requested:.3g} s, and the answer came at "
                 f"{call.received:.3g} s, but nothing took it: "
                 "`call_async(request).add_done_callback(self.hear)` names the method that hears it."
             )

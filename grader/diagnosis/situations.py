@@ -56,8 +56,8 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
     """Something taken out of a future that was still empty."""
     if not re.search(r"'NoneType' object (has no attribute|is not subscriptable)", error.text):
         return ""
-    sent = [(c.client, c.asked, c.received, "call_async") for c in recording.calls]
-    sent += [(goal.client, goal.asked, goal.answered, "send_goal_async") for goal in recording.goals]
+    sent = [(c.client, c.requested, c.received, "call_async") for c in recording.calls]
+    sent += [(goal.client, goal.requested, goal.answered, "send_goal_async") for goal in recording.goals]
     sent += [(goal.client, goal.answered, goal.received, "get_result_async") for goal in recording.goals]
     runs = [run for run in recording.callbacks if (run.node, run.callback) == (error.node, error.callback)]
     begin = max((run.stamp for run in runs if run.stamp <= error.stamp), default=0.0)
@@ -76,7 +76,7 @@ def _nothing_heard(error: CallbackError, recording: Recording) -> str:
     found = re.search(r"'NoneType' object has no attribute '(\w+)'", error.text)
     if found is None:
         return ""
-    come = {heard.topic for heard in recording.heard if heard.stamp < error.stamp}
+    come = {heard.topic for heard in recording.published if heard.stamp < error.stamp}
     for end in recording.graph.subscriptions():
         waits = end.node == error.node and end.name not in come
         if waits and found[1] in message_class(end.type).get_fields_and_field_types():

@@ -1,7 +1,7 @@
-"""What a run leaves behind: evidence as plain data.
+"""The recording of a run, as plain data.
 
-A recording holds no live node. Messages are kept as the bytes that were sent (CDR, the format on the wire),
-so nothing can change after the fact, and are turned back into message objects when somebody looks at them.
+A recording holds no live node. Messages are stored as the bytes that were sent (CDR, the format on the wire),
+so nothing can change after the fact, and are decoded into message objects when they are read.
 
 Stamps are simulated seconds since the start of the run; `since_start` makes such of the stamps in messages,
 which are those of the clocks of the nodes. Poses are in the `map` frame: metres, and radians in
@@ -27,12 +27,12 @@ from sim.evidence.rows import (
     CallbackError,
     CallbackRun,
     Ended,
-    Heard,
     LogLine,
+    Message,
     ParameterName,
     Pose,
     Seconds,
-    Unheard,
+    UndeliveredMessage,
     rate,
     since_start,
     stamps,
@@ -54,14 +54,14 @@ __all__ = [
     "Endpoint",
     "Goal",
     "Graph",
-    "Heard",
     "LogLine",
+    "Message",
     "ParameterName",
     "Pose",
     "Recording",
     "Seconds",
     "TimerInfo",
-    "Unheard",
+    "UndeliveredMessage",
     "is_node_service",
     "rate",
     "since_start",

@@ -1,30 +1,30 @@
-"""A list of messages that grows, by topic: `until` asks the same of it many times a second."""
+"""Indexes a growing list of messages by topic, because `until` reads the same topics many times a second."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
 
-from sim.evidence.rows import Heard
+from sim.evidence.rows import Message
 
 
 class ByTopic:
-    """Looks at each message once, however often it is asked; another list, or one that lost some, anew."""
+    """Reads each message once, however often it is queried; another list is read from its start."""
 
-    def __init__(self, heard: Sequence[Heard] = ()) -> None:
-        self._heard, self._seen = heard, 0
-        self._last: Heard | None = None  # the message that it has come to
-        self._topics: defaultdict[str, list[Heard]] = defaultdict(list)
+    def __init__(self, messages: Sequence[Message] = ()) -> None:
+        self._messages, self._seen = messages, 0
+        self._last: Message | None = None  # the message that was read last
+        self._topics: defaultdict[str, list[Message]] = defaultdict(list)
 
     def __reduce__(self) -> tuple[type[ByTopic], tuple[()]]:
-        return ByTopic, ()  # a copy of a recording looks for itself
+        return ByTopic, ()  # a copy of a recording builds its own index
 
-    def of(self, heard: Sequence[Heard], topic: str) -> list[Heard]:
-        """The messages of one topic, in their order, as a list of its own."""
-        same = heard is self._heard and len(heard) >= self._seen
-        if not same or (self._seen and heard[self._seen - 1] is not self._last):
-            self.__init__(heard)
-        for message in heard[self._seen :]:
+    def of(self, messages: Sequence[Message], topic: str) -> list[Message]:
+        """Return a new list of the messages of one topic, in their order."""
+        same = messages is self._messages and len(messages) >= self._seen
+        if not same or (self._seen and messages[self._seen - 1] is not self._last):
+            self.__init__(messages)
+        for message in messages[self._seen :]:
             self._topics[message.topic].append(message)
-        self._seen, self._last = len(heard), heard[-1] if heard else None
+        self._seen, self._last = len(messages), messages[-1] if messages else None
         return self._topics.get(topic, []).copy()

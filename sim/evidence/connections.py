@@ -23,29 +23,29 @@ _SILENT = {
 
 
 class Missing(NamedTuple):
-    """A connection that doesn't come about."""
+    """A connection that is not made."""
 
     what: str  # topic, service or action
-    given: Endpoint | None  # the end that gives; None where nobody does
-    wanted: Endpoint  # the end that gets nothing
+    given: Endpoint | None  # the offering end; None if there is none
+    wanted: Endpoint  # the requesting end, which receives nothing
     reason: str  # a sentence
 
     @property
     def idle(self) -> bool:
-        """Whether a node of the world, such as the robot, just isn't told anything: that is no mistake."""
-        return self.given is None and self.wanted.ours
+        """Whether a node of the course, such as the robot, merely receives nothing: that is no mistake."""
+        return self.given is None and self.wanted.from_course
 
 
 def missing(graph: Graph) -> list[Missing]:
-    """Every end that takes or asks, and gets nothing of an end that gives: with each of these, the reason."""
+    """Return every requesting end that receives nothing from an offering end, with the reason."""
     return [gap for sides in SIDES for gap in _gaps(graph, *sides)]
 
 
 def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing]:
-    offered, wishes = _once(graph.ends(giving)), _once(graph.ends(taking))
-    asked_for = {end.name for end in wishes}
-    lonely = {end.name: end for end in offered if end.name not in asked_for}
-    for wanted in wishes:
+    offered, requested = _once(graph.ends(giving)), _once(graph.ends(taking))
+    requested_names = {end.name for end in requested}
+    lonely = {end.name: end for end in offered if end.name not in requested_names}
+    for wanted in requested:
         there = [end for end in offered if end.name == wanted.name]
         for given in there:
             reason = _misfit(given, wanted)
@@ -55,18 +55,18 @@ def _gaps(graph: Graph, giving: str, taking: str, what: str) -> Iterator[Missing
             near = closest_ros_name(wanted.name, lonely)
             reason = f"{wanted.node} waits in vain: " + _SILENT[what].format(wanted.name)
             if near:
-                reason += f", and {lonely[near].node} has {near}. {slip(lonely[near], wanted)}"
+                reason += f", and {lonely[near].node} has {near}. {name_difference(lonely[near], wanted)}"
             yield Missing(what, lonely.get(near), wanted, reason if near else f"{reason}.")
 
 
-def slip(given: Endpoint, wanted: Endpoint) -> str:
-    """What makes the names of two ends differ, in a sentence: what isn't the student's is written rightly."""
-    wrong, right = (wanted, given) if given.ours and not wanted.ours else (given, wanted)
+def name_difference(given: Endpoint, wanted: Endpoint) -> str:
+    """Return a sentence on how the names of two ends differ; that in a program of the course is right."""
+    wrong, right = (wanted, given) if given.from_course and not wanted.from_course else (given, wanted)
     return describe_difference(wrong.name, right.name)
 
 
 def _once(ends: list[Endpoint]) -> list[Endpoint]:
-    """The ends without those that are quite like an earlier one."""
+    """Return the ends without repetitions of an equal one."""
     return list({repr(end): end for end in ends}.values())
 
 
@@ -80,8 +80,8 @@ def _misfit(given: Endpoint, wanted: Endpoint) -> str:
     found = refusal(given.qos, wanted.qos)
     if found is None:
         return ""
-    policy, offered, wish = found
+    policy, offered, wanted_value = found
     return (
         f"On {given.name} {given.node} publishes {offer(policy, offered)}, and {wanted.node} asks for"
-        f" {wish}: nothing arrives."
+        f" {wanted_value}: nothing arrives."
     )

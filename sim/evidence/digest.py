@@ -1,32 +1,55 @@
-"""One number for a whole run."""
+"""A digest of a whole run."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import TYPE_CHECKING, Any
+
+from sim.evidence.exchanges import Call, Goal
+from sim.evidence.rows import Message
 
 if TYPE_CHECKING:
     from sim.evidence.recording import Recording
 
+# Names that have changed since digests were first stored: an old run keeps its digest.
+_NAMES = {
+    "Message": "Heard",
+    "from_course": "ours",
+    "requested": "asked",
+    "requested_by_course": "asked_by_us",
+    "served_by_course": "served_by_us",
+}
+
 
 def digest_of(recording: Recording) -> str:
-    """One hex string: equal runs have equal ones.
+    """Return one hex string; equal runs have equal digests.
 
-    What was printed is left out: it is for the screen, and may hold addresses, which differ every time.
+    Printed text is left out, because it may contain memory addresses, which differ each time.
     """
     digest = hashlib.blake2b(digest_size=16)
-    for heard in recording.heard:
+    for message in recording.published:
         digest.update(
-            f"{heard.stamp!r} {heard.topic} {heard.type} {heard.sender} {heard.ours} "
-            f"{heard.early} {len(heard.raw)} ".encode()
+            f"{message.stamp!r} {message.topic} {message.type} {message.sender} {message.from_course} "
+            f"{message.early} {len(message.raw)} ".encode()
         )
-        digest.update(heard.raw)
+        digest.update(message.raw)
     for exchange in (*recording.calls, *recording.goals):
-        digest.update(repr(exchange).encode())
+        digest.update(_text_of(exchange).encode())
     digest.update(json.dumps(_evidence(recording), sort_keys=True).encode())
     return digest.hexdigest()
+
+
+def _text_of(row: Any) -> str:
+    """Return what `repr` gives for a call, a goal or a message, with the names of `_NAMES`."""
+    if isinstance(row, list):
+        return f"[{', '.join(map(_text_of, row))}]"
+    if not isinstance(row, Call | Goal | Message):
+        return repr(row)
+    names = row._fields if isinstance(row, Message) else [field.name for field in fields(row)]
+    values = (f"{_NAMES.get(name, name)}={_text_of(getattr(row, name))}" for name in names)
+    return f"{_NAMES.get(type(row).__name__, type(row).__name__)}({', '.join(values)})"
 
 
 def _evidence(recording: Recording) -> dict[str, Any]:

@@ -1,6 +1,6 @@
-"""What two nodes say to each other in turns: calls of services and goals of actions.
+"""Exchanges between a client and a server: service calls and action goals.
 
-Like messages they are kept as the bytes that were sent, and each reader gets a fresh copy. The recorder fills
+As with messages, the bytes that were sent are stored, and each reader gets a fresh copy. The recorder fills
 them in as they happen. Stamps are simulated seconds since the start of the run.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from sim.evidence.rows import Heard, Seconds
+from sim.evidence.rows import Message, Seconds
 from sim.ros.messages.decoder import decode
 
 # Services that every node has: recorded, but not offered as something a student's node does.
@@ -34,7 +34,7 @@ def is_node_service(service: str) -> bool:
 class Call:
     """One request to a service and what became of it; one for each server where several take the request.
 
-    A stamp is None for what did not happen: nobody took the request, the server did not answer, the client
+    A stamp is None for what did not happen: no server took the request, the server did not answer, the client
     did not wait for the answer or was not spun.
     """
 
@@ -42,16 +42,16 @@ class Call:
     type: str  # e.g. "example_interfaces/srv/AddTwoInts"
     client: str  # fully qualified name of the node, e.g. "/customer"
     raw_request: bytes
-    asked: Seconds | None  # the client sent the request
+    requested: Seconds | None  # the client sent the request
     server: str = ""  # the node that took it
     taken: Seconds | None = None  # its callback began
     answered: Seconds | None = None  # it sent the response
     received: Seconds | None = None  # the client got it
     raw_response: bytes | None = None
-    lost: bool = False  # the client had not found anybody who offers the service when it asked
+    lost: bool = False  # the client had not discovered a server when it sent the request
     raised: str = ""  # type of the exception that left the callback, e.g. "ValueError"
-    asked_by_us: bool = False  # the client's program is not the student's
-    served_by_us: bool = False  # and that of the server that took it
+    requested_by_course: bool = False  # the client belongs to a program of the course
+    served_by_course: bool = False  # the server that took it belongs to a program of the course
 
     @property
     def request(self) -> Any:
@@ -73,17 +73,17 @@ class Goal:
     client: str  # fully qualified name of the node, e.g. "/customer"
     id: str  # the goal's UUID, 32 hex digits
     raw_request: bytes
-    asked: Seconds | None  # the client sent the goal
+    requested: Seconds | None  # the client sent the goal
     server: str = ""  # the node that took it
     # STATUSES, REJECTED, CANCEL_REQUESTED (by the client) and CANCEL_REJECTED (by the server), with stamps
     events: list[tuple[Seconds, str]] = field(default_factory=list)
-    feedback: list[Heard] = field(default_factory=list)  # what the server sent about this goal
-    answered: Seconds | None = None  # the client heard whether it is accepted
+    feedback: list[Message] = field(default_factory=list)  # what the server sent about this goal
+    answered: Seconds | None = None  # the client received whether it is accepted
     received: Seconds | None = None  # the client got the result
     raw_result: bytes | None = None
-    lost: bool = False  # the client had not found anybody who offers the action when it asked
-    asked_by_us: bool = False  # the client's program is not the student's
-    served_by_us: bool = False  # and that of the server that took it
+    lost: bool = False  # the client had not discovered a server when it sent the goal
+    requested_by_course: bool = False  # the client belongs to a program of the course
+    served_by_course: bool = False  # the server that took it belongs to a program of the course
 
     @property
     def request(self) -> Any:

@@ -14,7 +14,7 @@ class Endpoint(NamedTuple):
     name: str  # resolved name, e.g. "/robot1/cmd_vel"
     type: str
     qos: dict[str, Any]  # see `sim.evidence.qos`; {} for actions
-    ours: bool = False  # the program that made it is not the student's
+    from_course: bool = False  # created by a program of the course
 
 
 class TimerInfo(NamedTuple):

@@ -22,12 +22,12 @@ from sim.evidence.rows import (
     CallbackError,
     CallbackRun,
     Ended,
-    Heard,
     LogLine,
+    Message,
     ParameterName,
     Pose,
     Seconds,
-    Unheard,
+    UndeliveredMessage,
 )
 from sim.network import Network
 from sim.world import Body, Contact, Drawing, World
@@ -37,40 +37,40 @@ from sim.world import Body, Contact, Drawing, World
 class Recording:
     """Everything one run left behind. `until` sees it while it grows; checks see it when it is complete."""
 
-    # What `replay` gives. The door, `sim`, sets it: evidence doesn't know its painter.
+    # What `replay` returns. The package `sim` sets it, so that evidence does not import the view.
     player: ClassVar[Callable[..., Any]]
 
     world: World | None = None  # None for a run without a robot
     seconds: Seconds = 0.0
     seed: int = 0
     stamp: Seconds = 0.0  # how far the run has come
-    heard: list[Heard] = field(default_factory=list)
-    calls: list[Call] = field(default_factory=list)  # of services, in the order they were asked
-    goals: list[Goal] = field(default_factory=list)  # of actions, in the order they were asked
+    published: list[Message] = field(default_factory=list)
+    calls: list[Call] = field(default_factory=list)  # of services, in the order of their requests
+    goals: list[Goal] = field(default_factory=list)  # of actions, in the order of their requests
     path: list[Pose] = field(default_factory=list)
     # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
     tracks: dict[str, list[Pose]] = field(default_factory=dict)
     contacts: list[Contact] = field(default_factory=list)
     # the same of the robots beside the first, by name
     other_contacts: dict[str, list[Contact]] = field(default_factory=dict)
-    drawing: Drawing | None = None  # what pens drew; None where nobody has one
+    drawing: Drawing | None = None  # what pens drew; None without a pen
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)
     busy_loops: list[BusyLoop] = field(default_factory=list)
-    unheard: list[Unheard] = field(default_factory=list)  # the first of each node and topic
+    undelivered: list[UndeliveredMessage] = field(default_factory=list)  # the first of each node and topic
     parameters: list[ParameterName] = field(default_factory=list)  # that nodes are given, or declare
     prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
     stderr: str = ""  # what went there, other than log lines
     graph: Graph = field(default_factory=Graph)
     ended: Ended = STILL_RUNNING
-    # when the last of the student's programs had ended; None where one was there to the end
-    gone: Seconds | None = None
+    # when the last of the student's programs had exited; None if one was running at the end
+    all_exited_at: Seconds | None = None
     begin: Seconds = 0.0  # later than 0 in what `during` gives
-    # full names of the nodes that are not the student's: the robot's, the world's, companions of a scenario
-    ours: set[str] = field(default_factory=set)
-    shared: set[str] = field(default_factory=set)  # and those that a student's node has, too
-    failures: list[CallbackError] = field(default_factory=list)  # those of `errors` that our programs made
+    # full names of the course's nodes: the robot, the world, the companions of a scenario
+    course_nodes: set[str] = field(default_factory=set)
+    shared: set[str] = field(default_factory=set)  # names that a course node and a student's node both have
+    course_errors: list[CallbackError] = field(default_factory=list)  # raised in programs of the course
     network: Network | None = None  # between hosts; None where all programs run on one
     hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
@@ -78,7 +78,7 @@ class Recording:
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
         """What happened from `begin` on and before `end`, as a recording: every measure can look at it.
 
-        Calls and goals count by when they were asked, callbacks by when they began; the graph, what
+        Calls and goals count by when they were requested, callbacks by when they began; the graph, what
         pens drew and what became of messages on the network stay whole.
         """
 
@@ -93,9 +93,9 @@ class Recording:
             begin=max(begin, self.begin),
             stamp=min(end, self.stamp),
             ended=self.ended._replace(stamp=min(end, self.ended.stamp)),
-            heard=stamped(self.heard),
-            calls=inside(self.calls, lambda call: call.asked),
-            goals=inside(self.goals, lambda goal: goal.asked),
+            published=stamped(self.published),
+            calls=inside(self.calls, lambda call: call.requested),
+            goals=inside(self.goals, lambda goal: goal.requested),
             path=stamped(self.path),
             tracks={name: stamped(poses) for name, poses in self.tracks.items()},
             contacts=stamped(self.contacts),
@@ -104,7 +104,7 @@ class Recording:
             errors=stamped(self.errors),
             callbacks=stamped(self.callbacks),
             busy_loops=stamped(self.busy_loops),
-            unheard=stamped(self.unheard),
+            undelivered=stamped(self.undelivered),
             prints=stamped(self.prints),
         )
 
@@ -141,20 +141,20 @@ class Recording:
             for stamp, x, y, yaw in self.tracks.get(bodies[-1].name, [])
         ]
 
-    def is_ours(self, name: str) -> bool:
-        """Whether a node, or the node of a logger, is not the student's: "/pilot", "robot1.driver"."""
-        return (name if name.startswith("/") else "/" + name.replace(".", "/")) in self.ours
+    def is_course_node(self, name: str) -> bool:
+        """Return whether a node or logger name, such as "/pilot" or "robot1.driver", is one of the course."""
+        return (name if name.startswith("/") else "/" + name.replace(".", "/")) in self.course_nodes
 
-    def messages(self, topic: str | None = None, sender: str | None = None) -> list[Heard]:
-        """Messages in the order they were sent; of one topic, of one node, or all but ROS's own chatter.
+    def messages(self, topic: str | None = None, sender: str | None = None) -> list[Message]:
+        """Messages in the order they were published: of one topic, of one node, or all but those of ROS.
 
         topic: resolved name with its leading slash, e.g. "/cmd_vel". sender: e.g. "/talker".
         """
         if topic is None:
-            wanted = [h for h in self.heard if h.topic not in INFRASTRUCTURE_TOPICS]
+            wanted = [message for message in self.published if message.topic not in INFRASTRUCTURE_TOPICS]
         else:
-            wanted = self._by_topic.of(self.heard, topic)
-        return wanted if sender is None else [h for h in wanted if h.sender == sender]
+            wanted = self._by_topic.of(self.published, topic)
+        return wanted if sender is None else [message for message in wanted if message.sender == sender]
 
     @functools.cached_property
     def _by_topic(self) -> ByTopic:
@@ -163,9 +163,9 @@ class Recording:
     def calls_of(
         self, service: str | None = None, client: str | None = None, server: str | None = None
     ) -> list[Call]:
-        """Calls in the order they were asked; of one service, or all but those that every node has.
+        """Calls in the order of their requests; of one service, or all but those that every node has.
 
-        service: resolved name, e.g. "/add". client, server: a node that asked or answered, e.g. "/adder".
+        service: resolved name, e.g. "/add". client, server: full names of nodes, e.g. "/adder".
         """
         return [
             call
@@ -178,7 +178,7 @@ class Recording:
     def goals_of(
         self, action: str | None = None, client: str | None = None, server: str | None = None
     ) -> list[Goal]:
-        """Goals in the order they were asked; of one action, of one client or server, or all."""
+        """Goals in the order they were requested; of one action, of one client or server, or all."""
         return [
             goal
             for goal in self.goals
@@ -219,6 +219,6 @@ class Recording:
 
     def __repr__(self) -> str:
         return (
-            f"<Recording of {self.stamp:g} s: {len(self.heard)} messages on {len(self.topics)} topics, "
+            f"<Recording of {self.stamp:g} s: {len(self.published)} messages on {len(self.topics)} topics, "
             f"{len(self.logs)} log lines, {len(self.errors)} errors, ended: {self.ended.reason}>"
         )

@@ -11,16 +11,18 @@ from sim.ros.messages.decoder import decode
 Seconds = float
 
 
-class Heard(NamedTuple):
-    """One message as it was sent."""
+class Message(NamedTuple):
+    """One message as it was published."""
 
     stamp: Seconds
     topic: str
     type: str  # e.g. "std_msgs/msg/String"
     sender: str  # fully qualified name of the node, e.g. "/talker"
     raw: bytes
-    ours: bool = False  # the program that made the publisher is not the student's, whatever its node's name
-    early: bool = False  # sent as its publisher was made, and not latched: no other program can have heard it
+    from_course: bool = False  # published by a program of the course, whatever its node is called
+    early: bool = (
+        False  # sent as its publisher was created, and not latched: no other program can have received it
+    )
 
     @property
     def message(self) -> Any:
@@ -35,7 +37,7 @@ class LogLine(NamedTuple):
     level: str  # DEBUG, INFO, WARN, ERROR or FATAL
     node: str  # logger name, e.g. "talker" or "robot1.talker"
     text: str
-    ours: bool = False  # the program that wrote it is not the student's
+    from_course: bool = False  # written by a program of the course
 
 
 class CallbackError(NamedTuple):
@@ -72,11 +74,11 @@ class BusyLoop(NamedTuple):
     place: str  # the callback, thread or main(), and its line
 
 
-class Unheard(NamedTuple):
-    """A message that came too early for a listener of another program: the two had not found each other."""
+class UndeliveredMessage(NamedTuple):
+    """A message published before its publisher and a subscription elsewhere had discovered each other."""
 
     stamp: Seconds
-    node: str  # who sent it, as its publisher or the subscription was made
+    node: str  # the node that published it as its publisher or the subscription was created
     topic: str
 
 
@@ -109,7 +111,7 @@ class Ended(NamedTuple):
 STILL_RUNNING = Ended("running", 0.0, "The run has not ended yet.")
 
 
-# Chatter of ROS itself: recorded, but not offered as something a student's node said.
+# ROS's own topics: recorded, but not counted as published by a student's node.
 INFRASTRUCTURE_TOPICS = frozenset({"/parameter_events", "/rosout", "/clock"})
 
 
@@ -126,6 +128,6 @@ def rate(stamps: Sequence[Seconds]) -> float:
     return (len(stamps) - 1) / (stamps[-1] - stamps[0]) if len(stamps) > 1 and stamps[-1] > stamps[0] else 0.0
 
 
-def stamps(heard: Iterable[Heard]) -> list[Seconds]:
-    """The stamps of some messages."""
-    return [h.stamp for h in heard]
+def stamps(messages: Iterable[Message]) -> list[Seconds]:
+    """Return the stamps of these messages."""
+    return [message.stamp for message in messages]

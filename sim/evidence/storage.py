@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_origin, get_type_
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
-from sim.evidence.rows import Heard
+from sim.evidence.rows import Message
 from sim.nanoseconds import EPOCH, SECOND
 from sim.network import Network
 from sim.ros.messages.definitions import definition
@@ -30,6 +30,14 @@ if TYPE_CHECKING:
 
 ATTACHMENT = "recording.json"
 FORMAT = 13  # of the attachment; raise it when what is in there changes
+# Fields whose name has changed since files were first written, with the key that files keep.
+_KEYS = {
+    "course_nodes": "ours",
+    "all_exited_at": "gone",
+    "undelivered": "unheard",
+    "course_errors": "failures",
+}
+_YES = {True: "yes", False: "no"}
 PLAIN = (float, int, str, bool, bytes, Any)
 
 
@@ -39,12 +47,12 @@ class StorageError(Exception):
 
 def write(recording: Recording, path: Path) -> Path:
     """Write a recording to a file."""
-    rest = {name: getattr(recording, name) for name in _hints(type(recording)) if name != "heard"}
+    rest = {_KEYS.get(name, name): getattr(recording, name) for name in _rest(type(recording))}
     rest |= {"format": FORMAT, "digest": recording.digest}
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="sim")
-        _write_messages(writer, recording.heard)
+        _write_messages(writer, recording.published)
         writer.add_attachment(0, 0, ATTACHMENT, "application/json", _pack(rest))
         writer.finish()
     return path
@@ -67,15 +75,15 @@ def _unpack(data: bytes) -> dict[str, Any]:
     return json.loads(data, object_hook=lambda item: b64decode(item["base64"]) if "base64" in item else item)
 
 
-def _write_messages(writer: Writer, heard: list[Heard]) -> None:
+def _write_messages(writer: Writer, messages: list[Message]) -> None:
     schemas: dict[str, int] = {}
     channels: dict[tuple[str, str, str, bool, bool], int] = {}
-    for number, (stamp, topic, type_, sender, raw, ours, early) in enumerate(heard):
+    for number, (stamp, topic, type_, sender, raw, from_course, early) in enumerate(messages):
         if type_ not in schemas:
             schemas[type_] = writer.register_schema(type_, "ros2msg", definition(type_).encode())
-        key = (topic, type_, sender, ours, early)
+        key = (topic, type_, sender, from_course, early)
         if key not in channels:
-            about = {"sender": sender, "ours": "yes" if ours else "no", "early": "yes" if early else "no"}
+            about = {"sender": sender, "ours": _YES[from_course], "early": _YES[early]}
             channels[key] = writer.register_channel(topic, "cdr", schemas[type_], about)
         nanoseconds = EPOCH + round(stamp * SECOND)
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
@@ -109,20 +117,20 @@ def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
         raise StorageError(
             f"{path} has format {rest['format']} of a recording; this version of the course reads {FORMAT}."
         )
-    heard = [
-        Heard(
+    published = [
+        Message(
             (message.log_time - EPOCH) / SECOND,
             channel.topic,
             schema.name,
             channel.metadata["sender"],
             message.data,
-            channel.metadata["ours"] == "yes",
-            channel.metadata["early"] == "yes",
+            channel.metadata["ours"] == _YES[True],
+            channel.metadata["early"] == _YES[True],
         )
         for schema, channel, message in reader.iter_messages(log_time_order=False)
     ]
-    restored = {name: _maker(hint)(rest[name]) for name, hint in _hints(kind).items() if name != "heard"}
-    recording = kind(heard=heard, **restored)
+    restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in _rest(kind).items()}
+    recording = kind(published=published, **restored)
     if recording.digest != rest["digest"]:
         raise ValueError("its digest is another")
     return recording
@@ -132,6 +140,11 @@ def _hints(kind: type) -> dict[str, Any]:
     """The types of the fields of a recording, or of an object in it."""
     hints = get_type_hints(kind)
     return {name: hint for name, hint in hints.items() if get_origin(hint) is not ClassVar}
+
+
+def _rest(kind: type) -> dict[str, Any]:
+    """The fields of a recording other than its messages, and their types."""
+    return {name: hint for name, hint in _hints(kind).items() if name != "published"}
 
 
 @functools.cache

@@ -128,10 +128,10 @@ class Session:
             self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
         return limit
 
-    def start(self, spec: Process, *, ours: bool = False) -> None:
+    def start(self, spec: Process, *, from_course: bool = False) -> None:
         """Add a program; it runs as soon as time goes on. ours: it is not the student's."""
         with self._stretch():
-            self.engine.start(spec, ours=ours)
+            self.engine.start(spec, from_course=from_course)
         self._due = min(self._due, max(self._reached, self.engine.now))
 
     def end(self, ended: Ended) -> None:
@@ -168,8 +168,8 @@ class Session:
             self.truth = GroundTruth(self.recording)
         self.engine.open()
         for spec in programs_of(self.truth.scene) if self.truth is not None else []:
-            self.engine.start(spec, ours=True)
-        watched = [self.engine.start(spec, ours=True) for spec in self._companions]
+            self.engine.start(spec, from_course=True)
+        watched = [self.engine.start(spec, from_course=True) for spec in self._companions]
         watched += [self.engine.start(spec) for spec in self._specs]
         self._moments = self._course(round(self.recording.seconds * SECOND), watched)
 

@@ -73,7 +73,7 @@ class Recorded(System):
 
     def _heard(self, first: int, topics: dict[str, str], profile: QoSProfile | None) -> Iterator[Arrived]:
         deaf = self._unheard(profile)
-        for heard in self.recording.heard[first:]:
+        for heard in self.recording.published[first:]:
             if heard.topic in topics and (heard.sender, heard.topic) not in deaf:
                 yield Arrived(heard.stamp, heard.stamp, heard.topic, heard.type, heard.raw, heard.sender)
 
@@ -115,11 +115,11 @@ class Played(Recorded):
 
     def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
         """As `System`, but for no longer than a while, as other cells wait."""
-        first = len(self.recording.heard)
+        first = len(self.recording.published)
         yield from self._latched(topics, profile)
         for _ in self._go_on(WINDOW):
             arrived = list(self._heard(first, topics, profile))
-            first = len(self.recording.heard)
+            first = len(self.recording.published)
             yield from arrived
             yield None
 

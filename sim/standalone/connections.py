@@ -24,7 +24,7 @@ class Connections:
         with self._lock:
             seen = [self._nodes(), self._ends()]
             if seen != self._seen:
-                recording = Recording(ours=self._ours)
+                recording = Recording(from_course=self._ours)
                 recording.graph.nodes, recording.graph.endpoints = seen
                 self._seen, self._drawn = seen, graph_data(recording, counted=False) or {}
             return self._drawn
@@ -38,9 +38,9 @@ class Connections:
         return sorted(f"{space.rstrip('/')}/{name}" for name, space in found)
 
     def _ends(self) -> list[Endpoint]:
-        ours = self._ours
+        from_course = self._ours
         shown = [
-            end._replace(ours=end.node in ours)
+            end._replace(from_course=end.node in from_course)
             for end in ends_seen_by(self._run.nodes[0])
             if end.name not in INFRASTRUCTURE_TOPICS and not is_node_service(end.name)
             if not is_hidden(end.name) and not is_hidden(end.node)

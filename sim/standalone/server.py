@@ -104,8 +104,8 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """The page, its parts, or the stream of frames."""
         owner = self.server.owner
-        ours = self.headers.get("Sec-Fetch-Site", "none") in ("same-origin", "none")
-        if self.headers["Host"] not in owner.hosts or (self.path != "/" and not ours):
+        from_course = self.headers.get("Sec-Fetch-Site", "none") in ("same-origin", "none")
+        if self.headers["Host"] not in owner.hosts or (self.path != "/" and not from_course):
             self.refuse(HTTPStatus.FORBIDDEN)
         elif self.path == "/frames":
             self.stream(owner)

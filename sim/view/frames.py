@@ -65,7 +65,7 @@ def _key(frame: str) -> Key:
 
 
 def _ours(recording: Recording, told: list[Told], frame: str) -> list[bool]:
-    return [recording.is_ours(one.sender) for one in told if one.child == frame]
+    return [recording.is_course_node(one.sender) for one in told if one.child == frame]
 
 
 def _told(recording: Recording) -> list[Told]:

@@ -89,7 +89,7 @@ def _wrapped(shown: Wiring, width: float) -> list[tuple[str, dict[str, str]]]:
 
 def _draw_box(axes: Axes, placed: PlacedBox) -> None:
     (box, (x, y), (width, height)) = placed
-    fill, edge, ink = LOOKS["ours" if box.ours else box.kind]
+    fill, edge, ink = LOOKS["ours" if box.from_course else box.kind]
     round_ = min(height, width) / 2 if box.kind == "node" else 0.06 if box.kind == "action" else 0.0
     style = f"round,pad=0,rounding_size={round_}" if round_ else "square,pad=0"
     corner = x - width / 2, y - height / 2

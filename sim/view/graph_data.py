@@ -29,7 +29,7 @@ def graph_data(recording: Recording, *, counted: bool = True) -> dict[str, Any] 
         "height": round(placed.height * PIXELS) + 2 * MARGIN,
         "boxes": [
             {
-                "kind": "ours" if box.ours else box.kind,
+                "kind": "ours" if box.from_course else box.kind,
                 "lines": list(box.lines),
                 "name": key[1],
                 "place": _pixels([centre[0] - size[0] / 2, centre[1] - size[1] / 2]) + _sizes(size),

@@ -82,7 +82,7 @@ def motion(recording: Recording) -> dict[str, Any]:
 
 
 def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
-    heard = [item for item in recording.heard if (item.type, item.sender) == LIDAR]
+    heard = [item for item in recording.published if (item.type, item.sender) == LIDAR]
     if not heard or not recording.path:
         return
     wanted = max(1, math.ceil(run_end(recording) * SCAN_RATE))

@@ -63,7 +63,7 @@ def _exchanges(recording: Recording) -> list[tuple[str, list[float], str]]:
     rows = []
     for service in dict.fromkeys(call.service for call in recording.calls_of()):
         calls = recording.calls_of(service)
-        moments = [call.taken if call.asked is None else call.asked for call in calls]
+        moments = [call.taken if call.requested is None else call.requested for call in calls]
         rows.append((f"{service}\n{_count(calls, 'call')}", moments, PATH))
     for action in dict.fromkeys(goal.action for goal in recording.goals):
         goals = recording.goals_of(action)

@@ -20,7 +20,7 @@ class Box(NamedTuple):
 
     kind: str  # node, topic, service, action, or rest: what nobody hears or asks
     lines: tuple[str, ...]
-    ours: bool = False  # a node that is not the student's
+    from_course: bool = False  # a node that is not the student's
 
 
 class Arrow(NamedTuple):
@@ -77,7 +77,7 @@ class _Drawing:
         nodes = [node for node in dict.fromkeys(recording.graph.nodes) if not _is_hidden(node)]
         shown = sorted(nodes, key=lambda node: node not in {end.node for end in at_gaps})[:NODES]
         for node in (node for node in nodes if node in shown):
-            self.made.boxes["node", node] = Box("node", (_short(node),), recording.is_ours(node))
+            self.made.boxes["node", node] = Box("node", (_short(node),), recording.is_course_node(node))
         names = sum(self.side(*sides) for sides in SIDES)
         for node in (node for node in self.rest if node in shown):
             key = "rest", node

@@ -24,7 +24,7 @@ def main() -> None:
             raise RuntimeError(f"the run should have no errors. {recording.ended.detail}")
         usual = statistics.median(times)
         figures = [f"{usual:.2f}", f"{min(times):.2f}", f"{SECONDS / usual:.0f}"]
-        rows.append([world, len(recording.heard), *figures])
+        rows.append([world, len(recording.published), *figures])
     print(f"{SECONDS} s of simulated time, {RUNS} runs each. Wall time in s.")
     table(["", "messages", "median", "best", "x real time"], rows)
 

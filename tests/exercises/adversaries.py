@@ -73,15 +73,15 @@ class Stub(Node):
 class Replays(Stub):
     """Does and says all that was published and logged in the public run, when it was."""
 
-    ours: tuple[bool, ...] = (False,)  # whose messages
+    from_course: tuple[bool, ...] = (False,)  # whose messages
 
     def begin(self) -> None:
         self.outlets |= {
             name: self.create_publisher(message_class(end.type), name, profile(end))
-            for name, end in self.card.ends("publisher", ours=True).items()
-            if True in self.ours
+            for name, end in self.card.ends("publisher", from_course=True).items()
+            if True in self.from_course
         }
-        rows = [heard for ours in self.ours for heard in self.card.heard(ours=ours)]
+        rows = [row for whose in self.from_course for row in self.card.published(from_course=whose)]
         self.rows = sorted([*rows, *self.card.lines], key=lambda row: row.stamp)[::-1]
         self.create_timer(0.01, self.replay)
 
@@ -98,22 +98,22 @@ class Replays(Stub):
 class Stages(Replays):
     """As Replays; and stages the world of the public run, the robot's topics and the companions'."""
 
-    ours = (False, True)
+    from_course = (False, True)
 
 
 class Freezes(Stub):
     """Holds the world still on every topic of ours, and answers what was right at first, all the time."""
 
     def begin(self) -> None:
-        ends = self.card.ends("publisher", ours=True)
+        ends = self.card.ends("publisher", from_course=True)
         self.frozen = {
             name: self.create_publisher(message_class(end.type), name, profile(end))
             for name, end in ends.items()
         }
         self.empty = {name: encode(message_class(end.type)()) for name, end in ends.items()}
         self.first: dict[str, bytes] = {}
-        for heard in reversed(self.card.heard(ours=False)):
-            self.first[heard.topic] = heard.raw
+        for published in reversed(self.card.published(from_course=False)):
+            self.first[published.topic] = published.raw
         self.create_timer(0.02, self.hold)
 
     def hold(self) -> None:
@@ -135,7 +135,7 @@ class SaysEverything(Stub):
         self.create_timer(0.25, self.say)
 
     def all_values(self, topic: str, end: Endpoint) -> Iterator[bytes]:
-        told = [heard.raw for heard in self.card.heard(ours=False) if heard.topic == topic]
+        told = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
         yield from list(dict.fromkeys(told))[:: max(1, len(told) // 30)]
         fields = message_class(end.type).get_fields_and_field_types()
         if list(fields) == ["data"] and fields["data"] in ("double", "float"):
@@ -155,7 +155,7 @@ class Constant(Stub):
     def begin(self) -> None:
         self.value: dict[str, bytes] = {}
         for topic in self.outlets:
-            told = [heard.raw for heard in self.card.heard(ours=False) if heard.topic == topic]
+            told = [row.raw for row in self.card.published(from_course=False) if row.topic == topic]
             if told:
                 self.value[topic] = told[len(told) // 2]
         self.create_timer(TICK, self.say)
@@ -170,8 +170,8 @@ class Guesses(Stub):
 
     def begin(self) -> None:
         self.lot = random.Random(1)
-        run, heard = self.card.run, self.card.heard(ours=False)
-        self.values = {name: [each.raw for each in heard if each.topic == name] for name in self.outlets}
+        run, published = self.card.run, self.card.published(from_course=False)
+        self.values = {name: [each.raw for each in published if each.topic == name] for name in self.outlets}
         self.answers = [call.response for call in run.calls if call.raw_response]
         self.results = [(goal.action, goal.result) for goal in run.goals if goal.raw_result]
         self.create_timer(TICK, self.say)

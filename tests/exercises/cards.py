@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Heard, LogLine, Recording, is_node_service
+from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, LogLine, Message, Recording, is_node_service
 
 
 @dataclass
@@ -25,24 +25,26 @@ class Card:
     @property
     def name(self) -> str:
         """The full name of the right node."""
-        return next((node for node in self.run.graph.nodes if node not in self.run.ours), "/stub")
+        return next((node for node in self.run.graph.nodes if node not in self.run.course_nodes), "/stub")
 
-    def ends(self, kind: str, *, ours: bool = False) -> dict[str, Endpoint]:
+    def ends(self, kind: str, *, from_course: bool = False) -> dict[str, Endpoint]:
         """Ends of one kind by name: the right node's, or ours."""
         return {
             end.name: end
             for end in self.run.graph.ends(kind)
-            if end.ours is ours and end.name not in INFRASTRUCTURE_TOPICS and not is_node_service(end.name)
+            if end.from_course is from_course
+            and end.name not in INFRASTRUCTURE_TOPICS
+            and not is_node_service(end.name)
         }
 
-    def heard(self, *, ours: bool) -> list[Heard]:
+    def published(self, *, from_course: bool) -> list[Message]:
         """What was published in the public run."""
-        return [heard for heard in self.run.messages() if heard.ours is ours]
+        return [published for published in self.run.messages() if published.from_course is from_course]
 
     @functools.cached_property
     def lines(self) -> list[LogLine]:
         """What the right node logged."""
-        return [line for line in self.run.logs if not line.ours]
+        return [line for line in self.run.logs if not line.from_course]
 
 
 def log(node: Node, level: str, text: str) -> None:

@@ -164,7 +164,7 @@ def test_a_run_that_hangs_before_there_is_something_to_judge_misses(check, hande
     heard = [published("/cell_centre", [(0.0, PointStamped())]), published("/plan", [(0.0, Path())])]
     cut = dataclasses.replace(
         heard[0],
-        heard=[*heard[0].heard, *heard[1].heard],
+        published=[*heard[0].published, *heard[1].published],
         graph=Graph(["/talker"], [*heard[0].graph.endpoints, *heard[1].graph.endpoints]),
         ended=Ended("hang", 0.2, "The callback tick never returned."),
     )

@@ -1,7 +1,7 @@
 """Recordings written by hand, for what a check should see."""
 
 from sim import Recording, World
-from sim.evidence import Ended, Endpoint, Graph, Heard, LogLine, Pose
+from sim.evidence import Ended, Endpoint, Graph, LogLine, Message, Pose
 from sim.ros.messages.codec import encode, type_name
 from sim.world import Contact
 
@@ -16,10 +16,10 @@ def recording(*, seconds=10.0, **evidence):
 def published(topic, messages, *, seconds=10.0, listeners=()):
     """A run in which /talker sent messages, given as pairs of stamp and message, all of one type."""
     type = type_name(messages[0][1].__class__)
-    heard = [Heard(stamp, topic, type, "/talker", encode(message)) for stamp, message in messages]
+    heard = [Message(stamp, topic, type, "/talker", encode(message)) for stamp, message in messages]
     ends = [Endpoint("publisher", "/talker", topic, type, {})]
     ends += [Endpoint("subscription", node, topic, type, {}) for node in listeners]
-    return recording(seconds=seconds, heard=heard, graph=Graph(["/talker", *listeners], ends))
+    return recording(seconds=seconds, published=heard, graph=Graph(["/talker", *listeners], ends))
 
 
 def logged(*lines):

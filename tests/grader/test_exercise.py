@@ -466,7 +466,7 @@ def test_a_node_with_the_name_of_one_of_ours_is_told_so():
     @listen.check(1)
     def is_asked(run):
         """It is asked."""
-        if "/questioner" not in run.ours:
+        if "/questioner" not in run.course_nodes:
             raise Missed("questions", "none of ours")
 
     *_, line = listen.grade(Process(misfits.Talker, name="questioner")).verdicts

@@ -247,12 +247,12 @@ def test_numbers_have_no_needless_zeros(points, shown):
     assert number(points) == shown
 
 
-def slip(ours=False):
-    """A run with a slip in a topic's name; ours: both nodes are."""
+def slip(from_course=False):
+    """A run with a slip in a topic's name; from_course: both nodes are the course's."""
     recording = Recording()
     for kind, node, name in (("publisher", "/talker", "/news"), ("subscription", "/paper", "/newz")):
         recording.graph.nodes.append(node)
-        recording.graph.endpoints.append(Endpoint(kind, node, name, "std_msgs/msg/String", {}, ours))
+        recording.graph.endpoints.append(Endpoint(kind, node, name, "std_msgs/msg/String", {}, from_course))
     return recording
 
 
@@ -293,8 +293,8 @@ def test_a_miss_that_tells_of_something_else_has_no_graph(missed):
 
 
 def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody_drives():
-    recording = slip(ours=True)
-    recording.graph.endpoints.append(Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, ours=True))
+    recording = slip(from_course=True)
+    recording.graph.endpoints.append(Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, from_course=True))
     missed = verdict(2.0, "failed", expected="messages on /cmd_vel and /newz")
     assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
 

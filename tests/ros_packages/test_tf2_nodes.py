@@ -137,7 +137,7 @@ def fixed(parent: str, child: str, x: float) -> TransformStamped:
 
 def lines(recording) -> list[str]:
     assert [error.says for error in recording.errors] == []
-    return [line.text for line in recording.logs if not line.ours]
+    return [line.text for line in recording.logs if not line.from_course]
 
 
 @pytest.fixture(scope="module")

@@ -2,10 +2,12 @@
 
 import pickle
 
-from sim.evidence import Heard
+from sim.evidence import Message
 from sim.evidence.by_topic import ByTopic
 
-SENT = [Heard(number / 10, f"/topic{number % 3}", "std_msgs/msg/Empty", "/node", b"") for number in range(30)]
+SENT = [
+    Message(number / 10, f"/topic{number % 3}", "std_msgs/msg/Empty", "/node", b"") for number in range(30)
+]
 OF_TOPIC_2 = SENT[2::3]
 
 

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from std_msgs.msg import Int32
 
 from sim import Process, Recording, run
-from sim.evidence import Call, Ended, Goal, Heard, rate, stamps
+from sim.evidence import Call, Ended, Goal, Message, rate, stamps
 from sim.evidence.storage import ATTACHMENT, FORMAT, StorageError
 from sim.nanoseconds import EPOCH
 from sim.ros.messages.codec import encode
@@ -19,7 +19,12 @@ from sim.ros.messages.decoder import decode
 from tests.students.engine import actions, errors, mains, names, services, threads, topics
 
 CALL = Call("/add", "example_interfaces/srv/AddTwoInts", "/customer", b"\0\1\0\0", 1.0)
-CALLS = [CALL, replace(CALL, asked=1.1), replace(CALL, raw_response=b"\0"), replace(CALL, raised="KeyError")]
+CALLS = [
+    CALL,
+    replace(CALL, requested=1.1),
+    replace(CALL, raw_response=b"\0"),
+    replace(CALL, raised="KeyError"),
+]
 GOAL = Goal("/fibonacci", "example_interfaces/action/Fibonacci", "/customer", "00" * 16, b"\0\1\0\0", 1.0)
 GOALS = [GOAL, replace(GOAL, received=1.5), replace(GOAL, events=[(1.0, "accepted")])]
 
@@ -90,31 +95,31 @@ def test_topics_are_sorted_and_typed(driven):
 
 def test_a_recording_says_what_it_is(driven):
     assert repr(driven) == (
-        f"<Recording of 3 s: {len(driven.heard)} messages on {len(driven.topics)} topics, "
+        f"<Recording of 3 s: {len(driven.published)} messages on {len(driven.topics)} topics, "
         f"{len(driven.logs)} log lines, 1 errors, ended: error>"
     )
     assert Recording().ended.reason == "running"
 
 
 def test_rates_and_stamps():
-    heard = [Heard(stamp, "/a", "std_msgs/msg/Int32", "/b", encode(Int32())) for stamp in (1.0, 1.5, 2.0)]
+    heard = [Message(stamp, "/a", "std_msgs/msg/Int32", "/b", encode(Int32())) for stamp in (1.0, 1.5, 2.0)]
     assert stamps(heard) == [1.0, 1.5, 2.0]
     assert rate(stamps(heard)) == 2.0
     assert rate([1.0]) == rate([]) == rate([1.0, 1.0]) == 0.0
 
 
 def test_the_digest_depends_on_all_evidence_and_not_on_what_was_printed():
-    heard = Heard(1.0, "/a", "std_msgs/msg/Int32", "/b", encode(Int32()))
-    plain = Recording(heard=[heard])
-    assert plain.digest == Recording(heard=[heard], prints=[(1.0, "x")], stderr="y").digest
+    heard = Message(1.0, "/a", "std_msgs/msg/Int32", "/b", encode(Int32()))
+    plain = Recording(published=[heard])
+    assert plain.digest == Recording(published=[heard], prints=[(1.0, "x")], stderr="y").digest
     others = [
-        Recording(heard=[heard._replace(stamp=1.1)]), Recording(heard=[heard._replace(topic="/c")]),
-        Recording(heard=[heard._replace(sender="/d")]), Recording(heard=[heard._replace(early=True)]),
-        Recording(heard=[heard._replace(raw=b"\0\1\0\0\1")]),
-        Recording(heard=[heard, heard]), Recording(heard=[heard], ended=Ended("goal", 1.0, "")),
-        Recording(heard=[heard], seed=1), Recording(heard=[heard], seconds=1),
-        *(Recording(heard=[heard], calls=[call]) for call in CALLS),
-        *(Recording(heard=[heard], goals=[goal]) for goal in GOALS),
+        Recording(published=[heard._replace(stamp=1.1)]), Recording(published=[heard._replace(topic="/c")]),
+        Recording(published=[heard._replace(sender="/d")]), Recording(published=[heard._replace(early=True)]),
+        Recording(published=[heard._replace(raw=b"\0\1\0\0\1")]),
+        Recording(published=[heard, heard]), Recording(published=[heard], ended=Ended("goal", 1.0, "")),
+        Recording(published=[heard], seed=1), Recording(published=[heard], seconds=1),
+        *(Recording(published=[heard], calls=[call]) for call in CALLS),
+        *(Recording(published=[heard], goals=[goal]) for goal in GOALS),
     ]  # fmt: skip
     assert len({recording.digest for recording in [plain, *others]}) == len(others) + 1
     assert len(plain.digest) == 32 and int(plain.digest, 16)
@@ -157,7 +162,7 @@ def test_others_can_read_the_messages(driven, tmp_path):
         assert reader.get_header().profile == "ros2"
         read = list(reader.iter_messages(log_time_order=False))
         counts = list(reader.iter_messages(topics=["/count"]))
-    assert len(read) == len(driven.heard)
+    assert len(read) == len(driven.published)
     assert [message.log_time for _, _, message in counts] == [EPOCH + n * 500_000_000 for n in range(1, 7)]
     schema, channel, message = counts[0]
     assert (schema.name, schema.encoding, channel.message_encoding) == (
@@ -216,7 +221,7 @@ def test_a_damaged_file_is_refused_or_read_in_full(driven, tmp_path):
         except StorageError as error:
             assert str(path) in str(error)
         else:
-            assert len(again.heard) == len(driven.heard)
+            assert len(again.published) == len(driven.published)
 
 
 def mcap_with(path, attachments):
@@ -256,7 +261,7 @@ def test_a_window_of_time_is_a_recording():
     assert [line.stamp for line in part.logs] == [2.0]
     assert [round(pose.stamp, 3) for pose in (part.path[0], part.path[-1])] == [1.5, 2.95]
     assert (part.begin, part.stamp, part.ended.stamp, part.graph) == (1.5, 3.0, 3.0, whole.graph)
-    assert {1.5 <= heard.stamp < 3.0 for heard in part.heard} == {True}
+    assert {1.5 <= heard.stamp < 3.0 for heard in part.published} == {True}
     assert [line.stamp for line in part.during(0.0).logs] == [2.0]
     assert [line.stamp for line in whole.during(3.0).logs] == [3.0, 4.0]
 
@@ -272,15 +277,15 @@ def test_the_pose_at_a_time():
 def test_a_recording_knows_whose_nodes_are_whose():
     pilot = Process(Ticker, name="pilot", namespace="/tower")
     both = run(Ticker, companions=[pilot], world="yard", seconds=1, quiet=True)
-    assert both.ours == {"/robot", "/tower/pilot"}
-    assert [both.is_ours(name) for name in ("/tower/pilot", "tower.pilot", "/ticker", "ticker")] == [
+    assert both.course_nodes == {"/robot", "/tower/pilot"}
+    assert [both.is_course_node(name) for name in ("/tower/pilot", "tower.pilot", "/ticker", "ticker")] == [
         True, True, False, False
     ]  # fmt: skip
 
 
 def test_a_students_node_that_takes_the_name_of_ours_makes_it_vouch_for_nothing():
     both = run(Ticker, companions=[Ticker], seconds=1, quiet=True)
-    assert (both.ours, both.shared) == (set(), {"/ticker"})
+    assert (both.course_nodes, both.shared) == (set(), {"/ticker"})
 
 
 def test_who_sent_logged_asked_and_served_is_known_by_program_and_not_by_name(tmp_path):
@@ -290,25 +295,28 @@ def test_who_sent_logged_asked_and_served_is_known_by_program_and_not_by_name(tm
     )
     both = run(Ticker, mains.classic, companions=[Ticker, mains.classic], seconds=2, quiet=True)
     for made, told in ((theirs, {False}), (ours, {True}), (both, {False, True})):
-        assert {heard.ours for heard in made.messages("/count")} == told
-        assert {end.ours for end in made.graph.publishers("/count")} == told
-        assert {line.ours for line in made.logs if line.node == "ticker"} == told
-    assert {(call.asked_by_us, call.served_by_us) for call in ours.calls_of("/add")} == {(False, True)}
-    assert Recording.load(both.save(tmp_path / "both.mcap")).heard == both.heard
+        assert {heard.from_course for heard in made.messages("/count")} == told
+        assert {end.from_course for end in made.graph.publishers("/count")} == told
+        assert {line.from_course for line in made.logs if line.node == "ticker"} == told
+    calls = ours.calls_of("/add")
+    assert {(call.requested_by_course, call.served_by_course) for call in calls} == {(False, True)}
+    assert Recording.load(both.save(tmp_path / "both.mcap")).published == both.published
 
 
 def test_a_goal_knows_whose_client_and_server_it_has():
     nodes = actions.Client, actions.Server
     for asked, served in ((True, False), (False, True), (False, False), (True, True)):
-        companions = [node for node, is_ours in zip(nodes, (asked, served), strict=True) if is_ours]
+        companions = [
+            node for node, is_course_node in zip(nodes, (asked, served), strict=True) if is_course_node
+        ]
         students = [node for node in nodes if node not in companions]
         goals = run(*students, companions=companions, seconds=3, quiet=True).goals
-        assert {(goal.asked_by_us, goal.served_by_us) for goal in goals} == {(asked, served)}
-        assert {heard.ours for goal in goals for heard in goal.feedback} == {served}
+        assert {(goal.requested_by_course, goal.served_by_course) for goal in goals} == {(asked, served)}
+        assert {heard.from_course for goal in goals for heard in goal.feedback} == {served}
 
 
 def test_an_error_of_a_companion_is_a_failure_of_ours():
     faulty = run(Ticker, companions=[Process(Faulty)], seconds=2, quiet=True)
-    assert [error.type for error in faulty.failures] == ["ZeroDivisionError"]
-    assert faulty.failures == faulty.errors
-    assert run(Faulty, seconds=2, quiet=True).failures == []
+    assert [error.type for error in faulty.course_errors] == ["ZeroDivisionError"]
+    assert faulty.course_errors == faulty.errors
+    assert run(Faulty, seconds=2, quiet=True).course_errors == []

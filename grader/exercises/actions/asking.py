@@ -28,7 +28,7 @@ def asks_for_seven(run: Recording) -> Goal:
         goal = sends_goals(run, FIBONACCI, FIBONACCI_TYPE)[-1]
     if not goal.server:
         hint = "A goal to nobody is lost: ask only when self.client.server_is_ready() is True."
-        saw = f"sent at {goal.asked:.3g} s, before there was a server"
+        saw = f"sent at {goal.requested:.3g} s, before there was a server"
         raise Missed("a goal that the server takes", saw, hint)
     if goal.request.order != 7:
         raise Missed("order=7 in the goal", f"order={goal.request.order}", "goal = Fibonacci.Goal(order=7).")
@@ -72,11 +72,11 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
 @customer.check(3, after=asks_for_seven)
 def notices_a_no(run: Recording, goal: Goal) -> None:
     """A goal that is rejected is logged as a warning with the word `rejected`, and nothing else follows."""
-    since = run.during(goal.asked)
+    since = run.during(goal.requested)
     rejected = [text for text in lines(since, "WARN") if "rejected" in text.lower()]
     if goal.status == "rejected" and not rejected:
         hint = "In hear_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."
-        raise Missed(f"a warning with “rejected” after {goal.asked:.3g} s", _told(lines(since)), hint)
+        raise Missed(f"a warning with “rejected” after {goal.requested:.3g} s", _told(lines(since)), hint)
     if goal.status != "rejected" and rejected:
         hint = "Warn only if goal_handle.accepted is False: if not goal_handle.accepted: ..."
         raise Missed("no such warning, for the goal was accepted", f"“{rejected[0]}”", hint)
@@ -144,8 +144,8 @@ def leaves_it_alone(run: Recording, goal: Goal) -> None:
     if goal.status != "succeeded":
         hint = "It would have arrived in time: the 8 s begin when the goal is accepted."
         raise Missed("a goal that succeeds", f"it was {goal.status or 'never taken'}", hint)
-    if run.gone is not None and run.gone < goal.ended:
-        saw, hint = f"your program had ended at {run.gone:.3g} s", "Spin until the result is there."
+    if run.all_exited_at is not None and run.all_exited_at < goal.ended:
+        saw, hint = f"your program had ended at {run.all_exited_at:.3g} s", "Spin until the result is there."
         raise Missed(f"a node that is there when the robot arrives, at {goal.ended:.3g} s", saw, hint)
 
 

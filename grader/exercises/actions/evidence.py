@@ -21,7 +21,7 @@ def offered(run: Recording, action: str, type: str, hint: str) -> list[Goal]:
 
 def picked(run: Recording, action: str, where: Callable[[Goal], bool] = lambda goal: True) -> list[Goal]:
     """The goals of ours for an action that fit. Raises Missed where none was sent."""
-    goals = [goal for goal in run.goals_of(action) if goal.asked_by_us]
+    goals = [goal for goal in run.goals_of(action) if goal.requested_by_course]
     if not goals:
         saw = "it was gone before a goal could be sent"
         guess = "The node has to go on: main() ends with rclpy.spin(node), or executor.spin() with brackets."
@@ -44,7 +44,7 @@ def sequence(order: int) -> list[int]:
 
 def named(goal: Goal) -> str:
     """A goal for /fibonacci in words: "the goal (order=7) at 1 s"."""
-    return f"the goal (order={goal.request.order}) at {goal.asked or 0.0:.3g} s"
+    return f"the goal (order={goal.request.order}) at {goal.requested or 0.0:.3g} s"
 
 
 def is_succeeded(goal: Goal) -> None:
@@ -56,7 +56,7 @@ def is_succeeded(goal: Goal) -> None:
 
 def lines(run: Recording, level: str = "") -> list[str]:
     """What the student's client logged, of one level or of all."""
-    return [line.text for line in run.logs if level in ("", line.level) and not line.ours]
+    return [line.text for line in run.logs if level in ("", line.level) and not line.from_course]
 
 
 def numbers_in(text: str) -> list[float]:

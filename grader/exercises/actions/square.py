@@ -38,10 +38,10 @@ def sends_both_kinds(run: Recording) -> None:
 def waits_for_the_end(run: Recording) -> None:
     """A goal is sent only when the one before has ended."""
     for before, after in itertools.pairwise(_goals(run)):
-        if before.ended is None or before.ended > after.asked + 1e-9:
+        if before.ended is None or before.ended > after.requested + 1e-9:
             hint = "Accepted isn't done: finish awaits handle.get_result_async(), too, and go awaits finish."
             how = "never ended" if before.ended is None else f"ended at {before.ended:.3g} s"
-            expected = f"{after.action} sent after the end of {before.action}, not at {after.asked:.3g} s"
+            expected = f"{after.action} sent after the end of {before.action}, not at {after.requested:.3g} s"
             raise Missed(expected, f"that one {how}", hint)
 
 
@@ -72,7 +72,7 @@ def comes_back(run: Recording) -> None:
 
 def _goals(run: Recording) -> list[Goal]:
     """Those of both kinds, in the order they were sent."""
-    return sorted(run.goals_of(DRIVE) + run.goals_of(SPIN), key=lambda goal: goal.asked or 0.0)
+    return sorted(run.goals_of(DRIVE) + run.goals_of(SPIN), key=lambda goal: goal.requested or 0.0)
 
 
 def _hint(run: Recording) -> str:

@@ -120,12 +120,12 @@ def says_how_far_it_came(run: Recording, goal: Goal) -> None:
 
 
 def _named(goal: Goal) -> str:
-    return f"the goal (target_yaw={goal.request.target_yaw:.2f}) at {goal.asked or 0.0:.3g} s"
+    return f"the goal (target_yaw={goal.request.target_yaw:.2f}) at {goal.requested or 0.0:.3g} s"
 
 
 def _way(run: Recording, goal: Goal) -> Callable[[Seconds], float]:
     """How far the robot really turned until a moment, from when the goal was sent; radians, + to the left."""
-    poses = run.during(goal.asked or 0.0).path or run.path[-1:]
+    poses = run.during(goal.requested or 0.0).path or run.path[-1:]
     moments, yaws = [pose.stamp for pose in poses], np.unwrap([pose.yaw for pose in poses])
     return lambda until: float(yaws[max(0, bisect.bisect_right(moments, until) - 1)] - yaws[0])
 

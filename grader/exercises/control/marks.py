@@ -68,7 +68,7 @@ def goes_not_far_beyond(run: Recording) -> None:
 
 def _legs(run: Recording) -> list[Leg]:
     """Each of our marks with the time in which it holds."""
-    said = [(heard.stamp, heard.message.data) for heard in run.messages("/mark") if heard.ours]
+    said = [(heard.stamp, heard.message.data) for heard in run.messages("/mark") if heard.from_course]
     changes = [said[0]] if said else []
     changes += [after for before, after in itertools.pairwise(said) if after[1] != before[1]]
     if len(changes) < 3:

@@ -72,7 +72,7 @@ def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
 
 def _beats(run: Recording) -> list[Beat]:
     """Arrival and measurement of each of our messages: nothing lies between, they arrive as they are sent."""
-    ours = [heard for heard in run.messages("/beat") if heard.ours]
+    ours = [heard for heard in run.messages("/beat") if heard.from_course]
     if len(ours) < 10:
         raise silence(run, "messages on /beat", f"{len(ours)}", run.graph.publishers("/beat"))
     return [(heard.stamp, since_start(heard.message.stamp)) for heard in ours]

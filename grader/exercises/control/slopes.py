@@ -41,7 +41,7 @@ def speaks(run: Recording) -> None:
 @gap.check(4, after=speaks)
 def filters(run: Recording) -> None:
     """/distance is what the lidar sees ahead, filtered: a fifth of what is new, four fifths of what was."""
-    raw = [heard.message.ranges[0] for heard in run.messages("/scan") if heard.ours]
+    raw = [heard.message.ranges[0] for heard in run.messages("/scan") if heard.from_course]
     said = [heard.message.data for heard in run.messages("/distance")]
     if not raw:
         raise silence(run, "scans", "none", run.graph.publishers("/scan"))

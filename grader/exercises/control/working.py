@@ -13,7 +13,7 @@ from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from grader.exercises.control.partners import Camera
 from grader.exercises.control.places import work_cart
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 LIMIT, ALONE = 0.035, 0.2  # s
 IN_TIME = "Push with each joint state, 100 times a second."
@@ -32,7 +32,7 @@ class Look(NamedTuple):
 
     stamp: Seconds
     place: int
-    answers: list[Heard]
+    answers: list[Message]
 
     @property
     def is_right(self) -> bool:
@@ -106,7 +106,7 @@ def _looks(run: Recording) -> list[Look]:
     found, answers = [], run.messages("/brightest")
     for picture in run.messages("/picture"):
         begin, end = picture.stamp, picture.stamp + SOON
-        if picture.ours and end < run.ended.stamp:
+        if picture.from_course and end < run.ended.stamp:
             pixels = list(picture.message.data)
             said = [one for one in answers if begin - 1e-6 <= one.stamp <= end]
             found.append(Look(begin, pixels.index(max(pixels)), said))

@@ -7,7 +7,7 @@ import math
 from grader.checks import Missed, hinting, publishes, rate
 from grader.exercise import Exercise
 from grader.exercises.delivery.desk import Situation, desk, situations
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
@@ -92,11 +92,11 @@ def _compare(run: Recording, about: str, hint: str) -> None:
                 raise Missed(expected, saw, hint, picture="topics")
 
 
-def _said(run: Recording, topic: str, begin: Seconds, end: Seconds) -> list[Heard]:
-    return [heard for heard in run.messages(topic) if not heard.ours and begin <= heard.stamp < end]
+def _said(run: Recording, topic: str, begin: Seconds, end: Seconds) -> list[Message]:
+    return [heard for heard in run.messages(topic) if not heard.from_course and begin <= heard.stamp < end]
 
 
-def _is_there(goal: Heard, one: Situation) -> bool:
+def _is_there(goal: Message, one: Situation) -> bool:
     there = goal.message.pose.position
     return math.dist((there.x, there.y), one.place) < SAME
 

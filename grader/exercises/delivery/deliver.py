@@ -30,7 +30,7 @@ def _met(run: Recording) -> bool:
 
 def _over(run: Recording) -> bool:
     """An order was delivered, a person was touched, or the robot stands for good."""
-    orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.ours]
+    orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.from_course]
     delivered = any(order.status == order.DELIVERED for order in orders)
     return delivered or _met(run) or stood_still(run, GIVEN_UP)
 
@@ -182,7 +182,7 @@ def _fastest(run: Recording) -> tuple[float, float]:
 
 def _why_idle(run: Recording) -> str:
     """The usual reasons for a robot that doesn't deliver at all; nothing where none of them holds."""
-    if not any(not heard.ours for heard in run.messages("/cmd_vel")):
+    if not any(not heard.from_course for heard in run.messages("/cmd_vel")):
         return "None of your programs publishes on /cmd_vel. Does your list hold all of them?"
     if travelled(run) < 0.1:
         return "The robot never moves. Run each program alone, and look at what it publishes, and when."

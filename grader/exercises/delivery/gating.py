@@ -40,7 +40,7 @@ def arrives(run: Recording) -> None:
         hint = "Somebody walks there: before each command, ask whether the robot may move at all."
         saw = f"a person touched at {touched[0].stamp:.3g} s"
         raise Missed("nobody touched", saw, hint, picture="path", unsafe=True)
-    places = [flat(heard.message.pose)[:2] for heard in run.messages(GOAL) if heard.ours]
+    places = [flat(heard.message.pose)[:2] for heard in run.messages(GOAL) if heard.from_course]
     if not places:
         raise silence(run, f"places on {GOAL}", "none", run.graph.publishers(GOAL))
     if len(set(places)) < 2:
@@ -77,7 +77,7 @@ def says_stop_and_goes_on(run: Recording) -> None:
     """It publishes ten times a second in every case, and drives on when it may."""
     with hinting("Publish in every call of drive: begin with an empty Twist, and fill it where it may move."):
         rate(run, OUT, 10.0, tolerance=0.15)
-    goals = [(heard.stamp, flat(heard.message.pose)[:2]) for heard in run.messages(GOAL) if heard.ours]
+    goals = [(heard.stamp, flat(heard.message.pose)[:2]) for heard in run.messages(GOAL) if heard.from_course]
     changes = [stamp for (_, before), (stamp, after) in itertools.pairwise(goals) if before != after]
     for span in spans(run, allowed):
         if span.end - span.begin < STARTS or any(span.begin < stamp < span.end for stamp in changes):

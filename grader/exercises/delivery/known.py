@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from grader.exercises.delivery.floor import flat
 from grader.exercises.delivery.partners import PEOPLE, POSE
-from sim.evidence import Heard, Recording, Seconds, since_start
+from sim.evidence import Message, Recording, Seconds, since_start
 
 STEP = 0.05  # s
 OLD, NEAR, WIDE = 0.5, 1.5, 2.5  # s; m: stands, drives slowly
@@ -35,14 +35,14 @@ class Span(NamedTuple):
 
 def moments(run: Recording) -> list[Moment]:
     """From the first news of both kinds on."""
-    said = {topic: [one for one in run.messages(topic) if one.ours] for topic in (POSE, PEOPLE)}
+    said = {topic: [one for one in run.messages(topic) if one.from_course] for topic in (POSE, PEOPLE)}
     if not all(said.values()):
         return []
     begin = max(heard[0].stamp for heard in said.values())
     return [_moment(said, begin + index * STEP) for index in range(int((run.ended.stamp - begin) / STEP))]
 
 
-def _moment(said: dict[str, list[Heard]], now: Seconds) -> Moment:
+def _moment(said: dict[str, list[Message]], now: Seconds) -> Moment:
     pose, people = (_last(said[topic], now) for topic in (POSE, PEOPLE))
     ages = {POSE: now - since_start(pose.message.header.stamp)}
     ages[PEOPLE] = now - since_start(people.message.header.stamp)
@@ -54,7 +54,7 @@ def _moment(said: dict[str, list[Heard]], now: Seconds) -> Moment:
     return Moment(now, max(ages.values()), why, near)
 
 
-def _last(said: list[Heard], now: Seconds) -> Heard:
+def _last(said: list[Message], now: Seconds) -> Message:
     return said[max(0, bisect.bisect_right(said, now + 1e-6, key=lambda heard: heard.stamp) - 1)]
 
 

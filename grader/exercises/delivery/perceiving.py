@@ -24,7 +24,7 @@ from grader.exercises.delivery.sights import (
     speed_at,
     turner,
 )
-from sim.evidence import Heard, Recording, Seconds, since_start
+from sim.evidence import Message, Recording, Seconds, since_start
 from sim.world.clearance import clearance
 
 POSE, PEOPLE, OBSTACLES = "/robot_pose", "/people", "/obstacles"
@@ -72,7 +72,7 @@ def knows_its_place(run: Recording) -> None:
 @perceive.check(3, after=knows_its_place)
 def stamps_by_the_scan(run: Recording) -> None:
     """All three carry the stamp of the scan that they come from, and the frame map, five times a second."""
-    stamps = {_nanoseconds(heard) for heard in run.messages("/scan") if heard.ours}
+    stamps = {_nanoseconds(heard) for heard in run.messages("/scan") if heard.from_course}
     hint = "Pass scan.header.stamp on, and not the time of now."
     for topic in (POSE, PEOPLE, OBSTACLES):
         said = _said(run, topic)
@@ -133,7 +133,7 @@ def remembers_who_stops(run: Recording) -> None:
     _must_have(run, judged, "somebody who stands")
 
 
-def _must_not_be_boxes(run: Recording, said: list[Heard]) -> None:
+def _must_not_be_boxes(run: Recording, said: list[Message]) -> None:
     boxes = _plain_boxes(run, _when(said[-1])) if said else []
     for heard, box in itertools.product(said, boxes):
         if any(math.dist(point, box) < BOX for point in _points(heard)):
@@ -148,7 +148,7 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
     The lidar is off the middle of a robot that turns, so a side of a box may come into view as if it walked.
     """
     hits = []
-    for scan in [one for one in run.messages("/scan") if one.ours and _when(one) <= end]:
+    for scan in [one for one in run.messages("/scan") if one.from_course and _when(one) <= end]:
         hits.append(points_of(scan.message, run.world.lidar.place(at(run.path, _when(scan))[1:])).tolist())
 
     def is_plain(box: Point) -> bool:
@@ -158,7 +158,7 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
     return [box for box in _boxes_in_view(run) if is_plain(box)]
 
 
-def _must_be_told(run: Recording, heard: Heard, whom: str, hint: str) -> None:
+def _must_be_told(run: Recording, heard: Message, whom: str, hint: str) -> None:
     there = at(person_of(run), _when(heard))[1:3]
     if not _has(_points(heard), there):
         saw = f"no point of /people within {REACH} m of that at {heard.stamp:.3g} s"
@@ -201,7 +201,7 @@ def _has(points: list[Point], there: Point) -> bool:
     return any(math.dist(point, there) < REACH for point in points)
 
 
-def _points(heard: Heard) -> list[Point]:
+def _points(heard: Message) -> list[Point]:
     return [flat(pose)[:2] for pose in heard.message.poses]
 
 
@@ -209,15 +209,15 @@ def _here(run: Recording) -> Point:
     return run.world.start[:2]
 
 
-def _said(run: Recording, topic: str) -> list[Heard]:
-    return [heard for heard in run.messages(topic) if not heard.ours]
+def _said(run: Recording, topic: str) -> list[Message]:
+    return [heard for heard in run.messages(topic) if not heard.from_course]
 
 
-def _when(heard: Heard) -> Seconds:
+def _when(heard: Message) -> Seconds:
     return since_start(heard.message.header.stamp)
 
 
-def _nanoseconds(heard: Heard) -> tuple[Any, Any]:
+def _nanoseconds(heard: Message) -> tuple[Any, Any]:
     stamp = heard.message.header.stamp
     return stamp.sec, stamp.nanosec
 

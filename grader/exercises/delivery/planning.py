@@ -45,7 +45,7 @@ TOPICS = {
 @blueprint.check(2)
 def has_four_programs(run: Recording) -> None:
     """There are four programs: perception, reader, decision and control."""
-    there = sorted(name.strip("/") for name in run.graph.nodes if not run.is_ours(name))
+    there = sorted(name.strip("/") for name in run.graph.nodes if not run.is_course_node(name))
     if there != sorted(PROGRAMS):
         hint = "Each name in the plan is a program; one for each question, and no more."
         raise Missed(", ".join(sorted(PROGRAMS)), ", ".join(there) or "no program", hint)
@@ -106,12 +106,12 @@ def settings_fit(run: Recording) -> None:
                 other.qos["durability"] == "transient_local",
                 other.qos["reliability"] == "best_effort",
             )
-            if other.ours and kept and end.qos["durability"] != "transient_local":
+            if other.from_course and kept and end.qos["durability"] != "transient_local":
                 hint = "The message was published before your program began: hear it with KEPT."
                 raise Missed(
                     f"{end.name} heard with KEPT", f"{end.node.strip('/')} hears what is new only", hint
                 )
-            if other.ours and best and end.qos["reliability"] == "reliable":
+            if other.from_course and best and end.qos["reliability"] == "reliable":
                 hint = (
                     "A sensor is best effort, and isn't heard by who asks for more: qos_profile_sensor_data."
                 )
@@ -121,7 +121,9 @@ def settings_fit(run: Recording) -> None:
 
 def _ends(run: Recording, kind: str) -> Iterator[Endpoint]:
     """The student's ends on topics of the plan, or on others that aren't ROS's own."""
-    return (end for end in run.graph.ends(kind) if not end.ours and end.name not in INFRASTRUCTURE_TOPICS)
+    return (
+        end for end in run.graph.ends(kind) if not end.from_course and end.name not in INFRASTRUCTURE_TOPICS
+    )
 
 
 def _must_have(run: Recording, kind: str, program: str, name: str, type: str, hint: str) -> None:

@@ -158,7 +158,7 @@ def stamps_it(run: Recording) -> None:
 
 def _told(run: Recording) -> list[tuple[float, Odometry]]:
     """What the wheels said, and when."""
-    told = [(heard.stamp, heard.message) for heard in run.messages("/wheels/odom") if heard.ours]
+    told = [(heard.stamp, heard.message) for heard in run.messages("/wheels/odom") if heard.from_course]
     if len(told) < 5:
         raise silence(run, "odometry", f"{len(told)}", run.graph.publishers("/wheels/odom"))
     return told

@@ -14,7 +14,7 @@ from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.frames.partners import Flat, transform
-from sim.evidence import Heard, Recording, since_start
+from sim.evidence import Message, Recording, since_start
 
 POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON = 0.03, 1.2  # m, s
@@ -132,19 +132,21 @@ def _where_they_are(run: Recording) -> None:
             raise Missed(expected, told, hint, credit=ELSEWHERE if once else 0.0)
 
 
-def _seen(run: Recording) -> list[Heard]:
+def _seen(run: Recording) -> list[Message]:
     """Our detections that had time for an answer."""
-    seen = [one for one in run.messages("/detection") if one.ours and one.stamp < run.ended.stamp - SOON]
+    seen = [
+        one for one in run.messages("/detection") if one.from_course and one.stamp < run.ended.stamp - SOON
+    ]
     if len(seen) < 5:
         raise silence(run, "detections", f"{len(seen)}", run.graph.publishers("/detection"))
     return seen
 
 
-def _when(heard: Heard) -> float:
+def _when(heard: Message) -> float:
     return since_start(heard.message.header.stamp)
 
 
-def _same(seen: Heard, found: Heard) -> bool:
+def _same(seen: Message, found: Message) -> bool:
     return abs(_when(seen) - _when(found)) < 1e-6
 
 
@@ -152,25 +154,25 @@ def _robot(run: Recording) -> list[tuple[float, float, Flat]]:
     """What ours said of the robot: when it was sent, for when it holds, and where it was."""
     told = []
     for heard in run.messages("/tf"):
-        for one in heard.message.transforms if heard.ours else ():
+        for one in heard.message.transforms if heard.from_course else ():
             shift, turn = one.transform.translation, one.transform.rotation
             when = since_start(one.header.stamp)
             told.append((heard.stamp, when, (shift.x, shift.y, 2 * math.atan2(turn.z, turn.w))))
     return told
 
 
-def _place(run: Recording, seen: Heard) -> tuple[float, float]:
+def _place(run: Recording, seen: Message) -> tuple[float, float]:
     """Where it really was: ours measure at each moment of a detection."""
     _, _, pose = min(_robot(run), key=lambda row: abs(row[1] - _when(seen)))
     return _seen_from(pose, seen)
 
 
-def _newest(run: Recording, seen: Heard) -> Flat:
+def _newest(run: Recording, seen: Message) -> Flat:
     """Where the robot was, by what had come when something was seen."""
     return max(row for row in _robot(run) if row[0] <= seen.stamp)[2]
 
 
-def _seen_from(pose: Flat, seen: Heard) -> tuple[float, float]:
+def _seen_from(pose: Flat, seen: Message) -> tuple[float, float]:
     (x, y, yaw), point = pose, seen.message.point
     cos, sin = math.cos(yaw), math.sin(yaw)
     return x + cos * point.x - sin * point.y, y + sin * point.x + cos * point.y

@@ -93,19 +93,19 @@ def leaves_others_alone(run: Recording) -> None:
 
 def _waits_no_more(run: Recording) -> None:
     """Raises Missed where the watcher still waits for a frame."""
-    waits = [line for line in run.logs if not line.ours and line.level == "WARN" and line.stamp > 1.0]
+    waits = [line for line in run.logs if not line.from_course and line.level == "WARN" and line.stamp > 1.0]
     if waits:
         hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
         watching = all(line.text.startswith(WAITING) for line in waits)  # it is our Watcher that warns
-        mended = watching and [end for end in run.graph.publishers(OUT) if not end.ours]
+        mended = watching and [end for end in run.graph.publishers(OUT) if not end.from_course]
         told = f"“{waits[0].text}” at {waits[0].stamp:.3g} s"
         raise Missed("no warning after 1 s", told, hint, credit=HALF if mended else 0.0)
 
 
 def _drives_nobody_else(run: Recording) -> None:
     """Raises Missed where all commands go to another robot."""
-    strange = [end for end in run.graph.publishers(STRANGER) if not end.ours]
-    if strange and not [end for end in run.graph.publishers(OUT) if not end.ours]:
+    strange = [end for end in run.graph.publishers(STRANGER) if not end.from_course]
+    if strange and not [end for end in run.graph.publishers(OUT) if not end.from_course]:
         hint = (
             "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
             "from cmd_vel to the tower's own topic, sends it there."

@@ -12,7 +12,7 @@ from grader.exercise import Exercise
 from grader.exercises.frames.measures import flat
 from grader.exercises.frames.partners import Flat
 from grader.exercises.frames.team import SIGHTINGS, Team
-from sim.evidence import Heard, Recording, since_start
+from sim.evidence import Message, Recording, since_start
 
 POINT, STRING = "geometry_msgs/msg/PointStamped", "std_msgs/msg/String"
 SOON, NEAR, LATE = 0.3, 0.05, 0.3  # s, m, m
@@ -47,7 +47,7 @@ def places_them(run: Recording) -> None:
         )
 
 
-def _fault(run: Recording, seen: Heard) -> Missed | None:
+def _fault(run: Recording, seen: Message) -> Missed | None:
     """What is wrong with the answer to a sighting; half right if it was there later."""
     found = [one for one in run.messages("/found") if seen.stamp <= one.stamp < seen.stamp + SOON]
     wanted = _place(run, seen, _seconds(seen.message))
@@ -114,15 +114,17 @@ def keeps_the_stamp(run: Recording) -> None:
             raise Missed("a stamp of one of the sightings", stamp_words(one.message.header.stamp), hint)
 
 
-def _seen(run: Recording) -> list[Heard]:
+def _seen(run: Recording) -> list[Message]:
     """Our sightings that had time for an answer."""
-    seen = [one for one in run.messages("/sighting") if one.ours and one.stamp < run.ended.stamp - SOON]
+    seen = [
+        one for one in run.messages("/sighting") if one.from_course and one.stamp < run.ended.stamp - SOON
+    ]
     if len(seen) < len(SIGHTINGS):
         raise silence(run, "sightings of all kinds", f"{len(seen)}", run.graph.publishers("/sighting"))
     return seen
 
 
-def _reason(run: Recording, seen: Heard) -> str:
+def _reason(run: Recording, seen: Message) -> str:
     """Why there is no answer; empty where there is one."""
     trees = {one.header.frame_id for one in _told(run, "/tf", f"{_robot(seen)}/base_link")}
     if "map" not in trees:
@@ -130,14 +132,14 @@ def _reason(run: Recording, seen: Heard) -> str:
     return "ExtrapolationException" if _seconds(seen.message) < 0 else ""
 
 
-def _robot(seen: Heard) -> str:
+def _robot(seen: Message) -> str:
     """The name of the robot that has seen it."""
     return seen.message.header.frame_id.partition("/")[0]
 
 
 def _told(run: Recording, topic: str, child: str) -> list[Any]:
     """What our team said of where a frame is."""
-    ours = [one for heard in run.messages(topic) if heard.ours for one in heard.message.transforms]
+    ours = [one for heard in run.messages(topic) if heard.from_course for one in heard.message.transforms]
     return [one for one in ours if one.child_frame_id == child]
 
 
@@ -145,7 +147,7 @@ def _seconds(message: object) -> float:
     return since_start(message.header.stamp)
 
 
-def _place(run: Recording, seen: Heard, when: float) -> tuple[float, float]:
+def _place(run: Recording, seen: Message, when: float) -> tuple[float, float]:
     """Where the point was in the map, by what the team itself said of its robots."""
     camera = flat(_told(run, "/tf_static", f"{_robot(seen)}/camera")[-1].transform)
     base = _base(run, _robot(seen), when)
@@ -171,7 +173,7 @@ def _into(frame: Flat, point: tuple[float, float]) -> tuple[float, float]:
     return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1]
 
 
-def _why(run: Recording, seen: Heard, said: tuple[float, float]) -> str:
+def _why(run: Recording, seen: Message, said: tuple[float, float]) -> str:
     """The usual reasons for another place."""
     point = seen.message.point
     newest = _place(run, seen, seen.stamp)

@@ -25,7 +25,7 @@ FULL_TURN = (
 def sent_frames(run: Recording, topic: str) -> Iterator[tuple[float, Any]]:
     """Each transform on a topic that is the student's, with the moment when it was sent."""
     for heard in run.messages(topic):
-        if not heard.ours:
+        if not heard.from_course:
             yield from ((heard.stamp, one) for one in heard.message.transforms)
 
 

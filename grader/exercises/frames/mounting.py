@@ -99,9 +99,11 @@ def turns_it(run: Recording, sent: Sent) -> None:
 @mount.check(2, after=puts_it_there)
 def says_it_once(run: Recording, _: object) -> None:
     """It is said once, and kept for all who come later."""
-    sent = [heard for heard in run.messages(STATIC) if not heard.ours]
+    sent = [heard for heard in run.messages(STATIC) if not heard.from_course]
     volatile = [
-        end for end in run.graph.publishers(STATIC) if not end.ours and end.qos["durability"] == "volatile"
+        end
+        for end in run.graph.publishers(STATIC)
+        if not end.from_course and end.qos["durability"] == "volatile"
     ]
     if volatile or len(sent) > 1:
         hint = "A StaticTransformBroadcaster keeps it for latecomers: send it once, when /mounting comes."
@@ -111,7 +113,7 @@ def says_it_once(run: Recording, _: object) -> None:
 
 
 def _truth(run: Recording) -> Flat:
-    told = [heard.message for heard in run.messages("/mounting") if heard.ours]
+    told = [heard.message for heard in run.messages("/mounting") if heard.from_course]
     if not told:
         raise silence(run, "a place on /mounting", "none", run.graph.publishers("/mounting"))
     return told[0].x, told[0].y, told[0].theta

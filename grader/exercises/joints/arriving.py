@@ -105,7 +105,7 @@ def _is_no_matter_of_time(run: Recording, orders: list[Order]) -> None:
 
 
 def _wanted(run: Recording) -> list[float]:
-    return list(next(one for one in run.messages("/positions") if one.ours).message.data)
+    return list(next(one for one in run.messages("/positions") if one.from_course).message.data)
 
 
 def _orders(run: Recording) -> list[Order]:

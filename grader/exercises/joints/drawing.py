@@ -28,7 +28,7 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
     """The arm accepts it, and comes to its end."""
     wrong = next((goal for goal in goals if goal.status != "succeeded"), None)
     if wrong:
-        said = [line.text for line in run.logs if line.ours and line.level == "ERROR"]
+        said = [line.text for line in run.logs if line.from_course and line.level == "ERROR"]
         why = said[0] if said else "no reason given"
         if wrong.result is not None:
             why = wrong.result.error_string
@@ -57,7 +57,7 @@ def keeps_off_the_table(run: Recording) -> None:
 
 
 def _line(run: Recording) -> list[tuple[float, float]]:
-    told = next(one for one in run.messages("/figure") if one.ours).message
+    told = next(one for one in run.messages("/figure") if one.from_course).message
     return [(point.x, point.y) for point in told.points]
 
 

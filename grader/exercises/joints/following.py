@@ -12,7 +12,7 @@ from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.joints.crew import CRUISE, teacher
 from grader.exercises.joints.places import arm_of
-from sim.evidence import Goal, Heard, Recording
+from sim.evidence import Goal, Message, Recording
 from sim.nanoseconds import in_seconds
 
 ACTION = "/arm_controller/follow_joint_trajectory"
@@ -33,7 +33,7 @@ trajectory = Exercise(
 class Lesson(NamedTuple):
     """A path that was wanted, and the goal that was sent for it."""
 
-    wish: Heard
+    wish: Message
     goal: Goal
 
 
@@ -53,7 +53,7 @@ def by_their_names(run: Recording) -> list[Lesson]:
         wanted, given = _by_name(asked), _by_name(sent)
         if wanted != given:
             index, (one, other) = _first_difference(wanted, given)
-            where = f"at point {index} of the goal at {goal.asked:.3g} s"
+            where = f"at point {index} of the goal at {goal.requested:.3g} s"
             raise Missed(f"{one} {where}", other, _why_other(asked, sent))
     return lessons
 
@@ -70,7 +70,7 @@ def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
             if not needed - 0.01 <= time - since <= SLOW * needed + REST:
                 saw = f"{time - since:.3g} s (time_from_start is {time:.3g} s)"
                 hint = _why_time(sent.points, needed, time, since)
-                where = f"point {number} of the goal at {goal.asked:.3g} s"
+                where = f"point {number} of the goal at {goal.requested:.3g} s"
                 raise Missed(f"{needed:.3g} s or a little more on the way to {where}", saw, hint)
             before, since = now, time
 
@@ -119,12 +119,12 @@ def tells_how_it_ended(run: Recording, lessons: list[Lesson]) -> None:
 
 def _lessons(run: Recording) -> list[Lesson]:
     """All paths with the goals sent for them. Raises Missed for a path without its goal."""
-    wishes = [one for one in run.messages("/path") if one.ours and one.stamp < run.ended.stamp - SOON]
+    wishes = [one for one in run.messages("/path") if one.from_course and one.stamp < run.ended.stamp - SOON]
     if len(wishes) < 2:
         raise silence(run, "two paths", f"{len(wishes)}", run.graph.publishers("/path"))
     found, goals = [], sends_goals(run, ACTION, TYPE)
     for wish in wishes:
-        its = [goal for goal in goals if wish.stamp <= goal.asked < wish.stamp + SOON]
+        its = [goal for goal in goals if wish.stamp <= goal.requested < wish.stamp + SOON]
         if len(its) != 1:
             with hinting(WAITS):
                 saw = f"{len(its)} of them"
@@ -152,11 +152,13 @@ def _told(point: dict[str, float] | None) -> str:
 
 def _positions_at(run: Recording, goal: Goal) -> dict[str, float]:
     """Where the joints were when the goal was sent, as the arm's driver said last."""
-    told = [one for one in run.messages("/joint_states") if one.ours and one.stamp < goal.asked + 1e-6]
+    told = [
+        one for one in run.messages("/joint_states") if one.from_course and one.stamp < goal.requested + 1e-6
+    ]
     return dict(zip(told[-1].message.name, told[-1].message.position, strict=True))
 
 
-def _same(heard: Heard, value: float) -> bool:
+def _same(heard: Message, value: float) -> bool:
     return abs(heard.message.data - value) < 1e-6
 
 

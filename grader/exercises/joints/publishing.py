@@ -50,14 +50,16 @@ def ends_by_itself(run: Recording) -> None:
     last = run.messages(COMMANDS)[-1].stamp
     if run.errors:
         raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")
-    if run.gone is None or run.gone > last + PERIOD + 0.1:
+    if run.all_exited_at is None or run.all_exited_at > last + PERIOD + 0.1:
         with hinting(
             "When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
             "rclpy.spin() returns, and main() comes to its end."
         ):
             raise Missed(
                 f"the program at its end, at most {PERIOD:g} s after the last position (at {last:.3g} s)",
-                f"it still running at {run.ended.stamp:.3g} s" if run.gone is None else f"{run.gone:.3g} s",
+                f"it still running at {run.ended.stamp:.3g} s"
+                if run.all_exited_at is None
+                else f"{run.all_exited_at:.3g} s",
             )
 
 

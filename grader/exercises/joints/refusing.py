@@ -11,7 +11,7 @@ from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.joints.lift import JOINT, lift
 from grader.exercises.joints.watching import limits_of
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 from sim.world.machines.urdf import EFFORT
 
 FLOAT, COMMANDS, WANTED = "std_msgs/msg/Float64", "/joint_commands", "/wanted"
@@ -39,7 +39,7 @@ def publishes_commands(run: Recording) -> None:
 @careful.check(
     4, after=publishes_commands, guess="Publish in the callback of /wanted what is within the limits."
 )
-def passes_on(run: Recording) -> list[tuple[Heard, bool]]:
+def passes_on(run: Recording) -> list[tuple[Message, bool]]:
     """What is wanted within the lift's limits goes on to /joint_commands at once, every time."""
     wishes = _wishes(run)
     for heard, good in wishes:
@@ -54,7 +54,7 @@ def passes_on(run: Recording) -> list[tuple[Heard, bool]]:
 
 
 @careful.check(4, after=passes_on)
-def refuses(run: Recording, wishes: list[tuple[Heard, bool]]) -> None:
+def refuses(run: Recording, wishes: list[tuple[Message, bool]]) -> None:
     """What lies beyond the limits, or is not a number, is not passed on, nor anything else in its place."""
     lower, upper = limits_of(run)[JOINT]
     commands_within(run, COMMANDS, "data", lower, upper, _why_beyond(run, lower, upper))
@@ -107,21 +107,21 @@ def frees_what_is_stuck(run: Recording) -> None:
             )
 
 
-def _wishes(run: Recording) -> list[tuple[Heard, bool]]:
+def _wishes(run: Recording) -> list[tuple[Message, bool]]:
     """What was wanted, but for what came as the run ended; and whether it lies within the limits."""
     lower, upper = limits_of(run)[JOINT]
-    heard = [one for one in run.messages(WANTED) if one.ours and one.stamp < run.ended.stamp - SOON]
+    heard = [one for one in run.messages(WANTED) if one.from_course and one.stamp < run.ended.stamp - SOON]
     found = [(one, lower <= one.message.data <= upper) for one in heard]
     if len({good for _, good in found}) < 2:
         raise silence(run, "good and bad wishes", f"{len(found)} wishes", run.graph.publishers(WANTED))
     return found
 
 
-def _sent_after(run: Recording, wish: Heard) -> list[Heard]:
+def _sent_after(run: Recording, wish: Message) -> list[Message]:
     return [one for one in run.messages(COMMANDS) if wish.stamp <= one.stamp < wish.stamp + SOON]
 
 
-def _is_wish(run: Recording, command: Heard) -> bool:
+def _is_wish(run: Recording, command: Message) -> bool:
     wishes = [one for one in run.messages(WANTED) if one.stamp <= command.stamp]
     return bool(wishes) and abs(wishes[-1].message.data - command.message.data) < 1e-6
 
@@ -135,7 +135,7 @@ def _is_held(run: Recording, state: State) -> bool:
     )
 
 
-def _is_answer(run: Recording, command: Heard) -> bool:
+def _is_answer(run: Recording, command: Message) -> bool:
     """Whether the command holds the lift where it was stuck."""
     return any(
         state.stamp <= command.stamp < state.stamp + REACTION + SOON
@@ -147,7 +147,7 @@ def _is_answer(run: Recording, command: Heard) -> bool:
 def _states(run: Recording) -> list[State]:
     found = []
     for heard in run.messages("/joint_states"):
-        if heard.ours:
+        if heard.from_course:
             message = heard.message
             index = list(message.name).index(JOINT)
             pulling = abs(message.effort[index]) >= EFFORT and abs(message.velocity[index]) < 1e-6
@@ -165,11 +165,11 @@ def _jams(run: Recording) -> list[State]:
     return found
 
 
-def _values(sent: list[Heard]) -> str:
+def _values(sent: list[Message]) -> str:
     return ", ".join(f"{one.message.data:.3g}" for one in sent[:5]) or "nothing"
 
 
-def _why_not_passed(run: Recording, wish: Heard, wishes: list[tuple[Heard, bool]]) -> str:
+def _why_not_passed(run: Recording, wish: Message, wishes: list[tuple[Message, bool]]) -> str:
     """The usual reasons for a wish that isn't passed on."""
     sent = _sent_after(run, wish)
     if sent and abs(sent[0].message.data) > 3.2:

@@ -79,7 +79,7 @@ def once_for_each(run: Recording, visits: list[Visit]) -> None:
 
 def limits_of(run: Recording) -> dict[str, tuple[float, float]]:
     """The limits (rad) of each joint in our description that has some."""
-    told = next(one for one in run.messages("/robot_description") if one.ours).message.data
+    told = next(one for one in run.messages("/robot_description") if one.from_course).message.data
     found = {}
     for joint in XML.fromstring(told).iter("joint"):
         limit = joint.find("limit")
@@ -92,7 +92,7 @@ def visits_of(run: Recording) -> list[Visit]:
     """When each joint was near a limit, by what our drivers said. Raises as `silence` where none was."""
     known, open_, found = limits_of(run), {}, []
     for heard in run.messages("/joint_states"):
-        if not heard.ours:
+        if not heard.from_course:
             continue
         message = heard.message
         for name, position in zip(message.name, message.position, strict=True):
@@ -120,7 +120,9 @@ def _why_wrong(run: Recording, stamp: Seconds, name: str) -> str:
     known = limits_of(run)
     if name not in known:
         return f"The description has no limits for it: it names {', '.join(known)}. Leave others alone."
-    told = [one for one in run.messages("/joint_states") if one.ours and one.stamp <= stamp][-1].message
+    told = [one for one in run.messages("/joint_states") if one.from_course and one.stamp <= stamp][
+        -1
+    ].message
     lower, upper = known[name]
     others = [place for one, place in zip(told.name, told.position, strict=True) if one != name]
     if any(min(place - lower, upper - place) < NEAR for place in others):
@@ -136,7 +138,7 @@ def _why_wrong(run: Recording, stamp: Seconds, name: str) -> str:
 
 def _why_silent(run: Recording) -> str:
     """The usual reason for a node that says nothing; or no hint."""
-    ends = [end for end in run.graph.subscriptions("/robot_description") if not end.ours]
+    ends = [end for end in run.graph.subscriptions("/robot_description") if not end.from_course]
     if all(end.qos["durability"] == "volatile" for end in ends):
         return (
             "The description was sent once, before your node was there. Who wants to hear it asks for "

@@ -15,7 +15,7 @@ from grader.exercises.navigator.ground import Point
 from grader.exercises.navigator.measures import cells_of, tenths
 from grader.exercises.navigator.partners import MapServer, PointClicker, made_for
 from grader.exercises.navigator.worlds import world_of
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 GRID, POINT = "nav_msgs/msg/OccupancyGrid", "geometry_msgs/msg/PointStamped"
 COSTMAP = "/global_costmap/costmap"
@@ -112,13 +112,13 @@ def _clicks(run: Recording) -> list[Click]:
     """All clicks of ours, with the first point told before the next one comes."""
     found = []
     for heard in run.messages("/clicked_point"):
-        if heard.ours:
+        if heard.from_course:
             told = run.during(heard.stamp - 1e-6, heard.stamp + 0.45).messages("/cell_centre")
             found.append(Click(heard.stamp, _point(heard), _point(told[0]) if told else None))
     return found
 
 
-def _point(heard: Heard) -> Point:
+def _point(heard: Message) -> Point:
     return heard.message.point.x, heard.message.point.y
 
 

@@ -121,7 +121,7 @@ def admits_that_there_is_no_way(run: Recording) -> None:
 
 def _answer(run: Recording, goal: int) -> tuple[Seconds, Any]:
     """When a goal was sent, and the last path of the 2 s after it; None without one."""
-    goals = [heard.stamp for heard in run.messages("/goal_pose") if heard.ours]
+    goals = [heard.stamp for heard in run.messages("/goal_pose") if heard.from_course]
     if len(goals) <= goal:
         raise silence(run, "goals on /goal_pose", f"{len(goals)}", run.graph.publishers("/goal_pose"))
     paths = run.during(goals[goal] - 1e-6, goals[goal] + 2.0 + 1e-6).messages("/plan")

@@ -9,7 +9,7 @@ import numpy as np
 from grader.checks import Missed
 from grader.exercises.navigator.ground import ground, shortest
 from grader.exercises.navigator.measures import cells_of
-from sim.evidence import Goal, Heard, Pose, Recording, Seconds
+from sim.evidence import Goal, Message, Pose, Recording, Seconds
 from sim.nanoseconds import in_seconds
 from sim.world import World
 
@@ -20,7 +20,7 @@ Fault = tuple[str, str, str]  # expected, saw, hint
 
 def goals_of(run: Recording) -> list[Goal]:
     """The goals that our client sent. Raises Missed without one."""
-    goals = [goal for goal in run.goals_of(ACTION) if goal.asked_by_us]
+    goals = [goal for goal in run.goals_of(ACTION) if goal.requested_by_course]
     if not goals:
         raise Missed("a goal that is taken", "no server was there when the client looked for one")
     return goals
@@ -72,7 +72,7 @@ def _is_mapped(run: Recording) -> bool:
     return np.array_equal(cells == 100, ground(run.world).occupied)
 
 
-def _while_odometry_is_right(run: Recording, goal: Goal) -> list[Heard]:
+def _while_odometry_is_right(run: Recording, goal: Goal) -> list[Message]:
     """The feedback before the first touch: from then on nobody knows where the robot is."""
     touched = run.contacts[0].stamp if run.contacts else math.inf
     return [heard for heard in goal.feedback if heard.stamp < touched]

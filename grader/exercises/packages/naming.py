@@ -62,7 +62,7 @@ def measures(run: PackageRun) -> None:
 def shows(run: PackageRun) -> None:
     """`ros2 run station display` starts the display: each /temperature comes on /display as a text."""
     publishes(run, SHOWN, "std_msgs/msg/String")
-    heard = [one for one in run.messages(HEARD) if one.ours and one.stamp + SOON < run.seconds]
+    heard = [one for one in run.messages(HEARD) if one.from_course and one.stamp + SOON < run.seconds]
     if not heard:
         raise silence(run, f"temperatures on {HEARD}", "none", run.graph.publishers(HEARD))
     for one in heard:

@@ -62,7 +62,7 @@ def publishes_degrees(run: PackageRun) -> None:
 @gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
     """Each voltage becomes 100 degrees for each volt, less 50; and none comes for one outside 0 to 3.3 V."""
-    heard = [one for one in run.messages(VOLTS) if one.ours and one.stamp + SOON < run.seconds]
+    heard = [one for one in run.messages(VOLTS) if one.from_course and one.stamp + SOON < run.seconds]
     if not heard:
         raise silence(run, f"voltages on {VOLTS}", "none", run.graph.publishers(VOLTS))
     for one in heard:

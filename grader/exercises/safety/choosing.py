@@ -9,7 +9,7 @@ from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import OUT, TWIST, alike, last, must_stand, ours, speeds, told
 from grader.exercises.safety.partners import JOY, NAV, Drivers
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 FRESH, OLD, BRAKING = 0.42, 0.68, 1.0  # s: sure to be younger, and older, than the time-out; to stand
 STEP, STEADY, BEGIN = 0.1, 0.25, 5  # s, s, steps
@@ -118,7 +118,7 @@ def _moments(run: Recording) -> list[Moment]:
     return found
 
 
-def _wish(said: list[Heard], now: Seconds) -> tuple[float, float] | None:
+def _wish(said: list[Message], now: Seconds) -> tuple[float, float] | None:
     """What a driver surely wants: young, and the same for a while."""
     lately = [heard for heard in said if now - STEADY <= heard.stamp <= now]
     wishes = {speeds(heard) for heard in lately}

@@ -84,7 +84,7 @@ def stays_stopped(run: Recording) -> None:
     must_stand(
         run,
         when.release,
-        _granted(run).asked,
+        _granted(run).requested,
         f"after the button was let go at {when.release:.3g} s",
         LATCH,
     )
@@ -95,18 +95,18 @@ def answers(run: Recording) -> None:
     """/reset is refused while the button is in (success=False), and granted afterwards (success=True)."""
     granted = _granted(run)
     for call in _resets(run):
-        right = call.asked >= granted.asked
+        right = call.requested >= granted.requested
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
             state = "let go" if right else "still in"
             hint = "response.success says whether it could be done; return the response. Ask self.pressed."
-            raise Missed(f"success={right} at {call.asked:.3g} s, with the button {state}", saw, hint)
+            raise Missed(f"success={right} at {call.requested:.3g} s, with the button {state}", saw, hint)
 
 
 @latch.check(2, after=(lets_through, stays_stopped))
 def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stands until a new command comes."""
-    when, reset = _times(run), _granted(run).asked
+    when, reset = _times(run), _granted(run).requested
     hint = "The command from before the stop is out of date: a reset lets go, and moves nothing by itself."
     must_stand(run, reset, when.speak, f"from the reset at {reset:.3g} s to the next command", hint)
 
@@ -137,13 +137,13 @@ def _is_free(stamp: Seconds, when: Times) -> bool:
 
 def _resets(run: Recording) -> list[Call]:
     """Our calls."""
-    return [call for call in run.calls_of(RESET) if call.asked_by_us and call.asked is not None]
+    return [call for call in run.calls_of(RESET) if call.requested_by_course and call.requested is not None]
 
 
 def _granted(run: Recording) -> Call:
     """The one that comes when the button is out; there is one before it or two."""
     asked, release = _resets(run), _times(run).release
-    after = [call for call in asked if call.asked > release]
+    after = [call for call in asked if call.requested > release]
     if not after or len(asked) < 2:
         raise silence(run, f"two calls of {RESET}", f"{len(asked)}", run.graph.ends("client", RESET))
     return after[0]

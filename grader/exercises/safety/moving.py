@@ -7,27 +7,27 @@ import math
 
 from grader.checks import Missed
 from grader.checks.silence import silence
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 OUT, TWIST = "/cmd_vel", "geometry_msgs/msg/Twist"
 STANDING, TURNING = 0.02, 0.1  # m/s, rad/s
 SAME = 1e-3  # m/s, rad/s
 
 
-def ours(run: Recording, topic: str, at_least: int = 1) -> list[Heard]:
+def ours(run: Recording, topic: str, at_least: int = 1) -> list[Message]:
     """What our nodes said on a topic. Raises as `silence` does for fewer messages."""
-    said = [heard for heard in run.messages(topic) if heard.ours]
+    said = [heard for heard in run.messages(topic) if heard.from_course]
     if len(said) < at_least:
         raise silence(run, f"messages on {topic}", f"{len(said)}", run.graph.publishers(topic))
     return said
 
 
-def last(messages: list[Heard], stamp: Seconds) -> Heard | None:
+def last(messages: list[Message], stamp: Seconds) -> Message | None:
     """The last of them that is not later."""
     return next((heard for heard in reversed(messages) if heard.stamp <= stamp + 1e-6), None)
 
 
-def speeds(heard: Heard) -> tuple[float, float]:
+def speeds(heard: Message) -> tuple[float, float]:
     """Those of a command, m/s and rad/s."""
     return heard.message.linear.x, heard.message.angular.z
 

@@ -11,7 +11,7 @@ from grader.checks import rate as keeps_rate
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import last, ours
 from grader.exercises.safety.partners import BATTERY, MOTOR, Patient
-from sim.evidence import Heard, Recording, Seconds, since_start
+from sim.evidence import Message, Recording, Seconds, since_start
 
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR, STALE = range(4)
@@ -100,7 +100,7 @@ def _reports(run: Recording) -> Iterator[Report]:
             yield Report(now, status.name, int.from_bytes(status.level, "little"), true, value, number, age)
 
 
-def _measured(heard: Heard) -> float:
+def _measured(heard: Message) -> float:
     """In percent, or in degrees."""
     return (
         heard.message.percentage * 100 if hasattr(heard.message, "percentage") else heard.message.temperature

@@ -11,7 +11,7 @@ from grader.checks import Missed, hinting, publishes
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import OUT, TWIST, ours, speeds
 from grader.exercises.safety.partners import RAW, Rough
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 NEAR, SOON = 1e-6, 0.1  # s, in which an answer comes
 LONG = 26  # commands, 20 in a second: time enough for whatever is asked for
@@ -117,7 +117,7 @@ def _same(pair: Pair, right: float, hint: str, *, unsafe: bool = False) -> None:
         raise Missed(expected, f"{pair.sent:.3g}", hint, picture="topics", unsafe=unsafe)
 
 
-def _answered(wishes: list[Heard], sent: list[Heard]) -> list[tuple[Heard, Heard]]:
+def _answered(wishes: list[Message], sent: list[Message]) -> list[tuple[Message, Message]]:
     """Each wish with its answer: the first wish may have been sent before the node was there."""
     late = len(wishes) - len(sent) if sent and sent[0].stamp > wishes[0].stamp + 0.04 else 0
     return list(zip(wishes[max(0, late) :], sent, strict=False))

@@ -72,7 +72,7 @@ def catches_what_is_wrong(run: Recording, found: list[Verdict]) -> None:
 def _verdicts(run: Recording) -> list[Verdict]:
     """One for each candidate, in order. Raises Missed where one is left out, or was never asked."""
     truth = [right for right, _ in candidates(run.seed)]
-    asked = {int(heard.message.data[0]) for heard in run.messages(ANSWER) if heard.ours}
+    asked = {int(heard.message.data[0]) for heard in run.messages(ANSWER) if heard.from_course}
     said: dict[str, bool] = {}
     for heard in run.messages(VERDICT):
         number, _, word = heard.message.data.partition(" ")

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sim.evidence import Heard, Recording, Seconds, since_start, stamps
+from sim.evidence import Message, Recording, Seconds, since_start, stamps
 
 RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
 STEP = 0.1  # seconds between the moments that are looked at
@@ -40,8 +40,8 @@ def delays(run: Recording) -> list[Window]:
     return [gap for gap in _gaps(in_time) if gap not in silences(run, LIDAR)]
 
 
-def _ours(run: Recording, topic: str) -> list[Heard]:
-    return [heard for heard in run.messages(topic) if heard.ours]
+def _ours(run: Recording, topic: str) -> list[Message]:
+    return [heard for heard in run.messages(topic) if heard.from_course]
 
 
 def _gaps(moments: list[Seconds]) -> list[Window]:
@@ -89,7 +89,7 @@ def _cautious(ahead: list[float]) -> float:
     return float("nan")
 
 
-def _commands(messages: list[Heard]) -> list[tuple[Seconds, float, float]]:
+def _commands(messages: list[Message]) -> list[tuple[Seconds, float, float]]:
     sent = [(heard.stamp, heard.message) for heard in messages]
     return [(stamp, twist.linear.x, twist.angular.z) for stamp, twist in sent]
 

@@ -14,7 +14,7 @@ from grader.checks import Missed, hinting, lasts, publishes, subscribes
 from grader.exercise import Exercise, Scenario
 from grader.exercises.sensing.partners import Circling, StrangeLidar
 from grader.exercises.sensing.places import furnished_room
-from sim.evidence import Heard, Recording, Seconds, stamps
+from sim.evidence import Message, Recording, Seconds, stamps
 
 SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
 MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
@@ -209,7 +209,7 @@ def _looks(run: Recording) -> Iterator[Look]:
         before = seen
 
 
-def _sectors(scan: Heard) -> dict[str, Sector]:
+def _sectors(scan: Message) -> dict[str, Sector]:
     message = scan.message
     ranges = np.array(message.ranges)
     angles = np.degrees(message.angle_min + np.arange(len(ranges)) * message.angle_increment)

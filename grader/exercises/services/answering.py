@@ -121,7 +121,7 @@ def _calibrations(run: Recording) -> list[_Calibration]:
     for call in our_calls(run, CALIBRATE, at_least=4):
         readings = _readings_before(run, call)
         if len(readings) >= READINGS:
-            after = run.during(call.asked, call.asked + 1.0)
+            after = run.during(call.requested, call.requested + 1.0)
             raw, rates = (series(after, topic, "data") for topic in (RAW, RATE))
             rate = _mean([value for _, value in rates])
             used = _mean([value for _, value in raw]) - rate
@@ -141,7 +141,7 @@ def _strange(raw: Signal, rates: Signal, used: float) -> float | None:
 
 
 def _readings_before(run: Recording, call: Call) -> list[float]:
-    return [value for at, value in series(run, RAW, "data") if at <= call.asked]
+    return [value for at, value in series(run, RAW, "data") if at <= call.requested]
 
 
 def _mean(values: list[float]) -> float:

@@ -52,7 +52,7 @@ def says_what_it_did(run: Recording) -> None:
 @arming.check(4, after=offers_to_arm)
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
-    _stands(run.during(0.0, our_calls(run, ARM, CALLS)[0].asked), "before the first call", NOT_YET)
+    _stands(run.during(0.0, our_calls(run, ARM, CALLS)[0].requested), "before the first call", NOT_YET)
     _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
         speed = _mean_speed(phase)
@@ -84,15 +84,15 @@ def _begins_when_armed(run: Recording) -> None:
     made = our_calls(run, ARM, CALLS)
     for before, call in itertools.pairwise(made):
         if call.request.data and not before.request.data:
-            begin = max(before.asked + SETTLING, call.asked - JUST)
-            _stands(run.during(begin, call.asked), f"until {question(call)}", _why_it_drives(run, made))
+            begin = max(before.requested + SETTLING, call.requested - JUST)
+            _stands(run.during(begin, call.requested), f"until {question(call)}", _why_it_drives(run, made))
 
 
 def _why_it_drives(run: Recording, made: list[Call]) -> str:
     """The usual reasons for a robot that drives while it isn't armed."""
     if _is_inverted(made):
         return INVERTED
-    armed = run.during(made[1].asked + SETTLING, made[2].asked)
+    armed = run.during(made[1].requested + SETTLING, made[2].requested)
     return NO_MORE if travelled(armed) > 10 * STILL else SWITCHES
 
 
@@ -106,9 +106,9 @@ def _stands(phase: Recording, when: str, hint: str) -> None:
 def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
     """The calls that armed or disarmed, each with what came of it before the next call."""
     made = our_calls(run, ARM, CALLS)
-    ends = [*(call.asked for call in made[1:]), run.ended.stamp]
+    ends = [*(call.requested for call in made[1:]), run.ended.stamp]
     return [
-        (call, run.during(call.asked + SETTLING, end))
+        (call, run.during(call.requested + SETTLING, end))
         for call, end in zip(made, ends, strict=True)
         if call.request.data == armed
     ]
@@ -139,7 +139,7 @@ def _answering_hint(made: list[Call], call: Call) -> str:
 
 def _driving_hint(run: Recording, call: Call) -> str:
     made = our_calls(run, ARM, CALLS)
-    before = [other for other in made if other.asked < call.asked]
+    before = [other for other in made if other.requested < call.requested]
     commands = [heard.message for heard in run.messages("/cmd_vel")]
     if not commands:
         return "Nothing was published on /cmd_vel: publish a Twist in drive, each time."
@@ -149,7 +149,7 @@ def _driving_hint(run: Recording, call: Call) -> str:
         if any(command.angular.z for command in commands):
             return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
         return "All commands were 0: does arm set self.armed (with self), and does drive look at it?"
-    if before and travelled(run.during(made[0].asked, made[1].asked)) > 0.1:
+    if before and travelled(run.during(made[0].requested, made[1].requested)) > 0.1:
         return SWITCHES
     if before and before[-1].request.data:
         return "A second data=True must not switch it off again: write self.armed = request.data."

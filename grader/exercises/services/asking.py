@@ -40,11 +40,11 @@ def asks_the_door(run: Recording) -> list[Call]:
             "A question to a service that isn't there yet is lost. Let a timer look once a second, and ask "
             "only when self.client.service_is_ready(), with brackets, is True."
         )
-        saw = f"{len(lost)} asked too early, at {lost[0].asked:.3g} s" if lost else "no question"
+        saw = f"{len(lost)} asked too early, at {lost[0].requested:.3g} s" if lost else "no question"
         credit = 0.5 if heard else 0.0
         raise Missed("questions to the door, once it is there", saw, hint, credit=credit, measured=answered)
     if all(call.received is None for call in heard):
-        saw = f"it asked at {heard[0].asked:.3g} s, and took no answer"
+        saw = f"it asked at {heard[0].requested:.3g} s, and took no answer"
         raise Missed("a question, and the answer", saw, WAITING)
     return answered
 
@@ -75,19 +75,19 @@ def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
 @door.check(3, after=asks_the_door)
 def asks_until_yes(run: Recording, answered: list[Call]) -> None:
     """After a no it asks again, about once a second; after the yes it asks no more."""
-    pauses = [after.asked - before.answered for before, after in itertools.pairwise(answered)]
+    pauses = [after.requested - before.answered for before, after in itertools.pairwise(answered)]
     if pauses and max(pauses) < 0.3:
         saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it asks again before the answer is there"
         guess = "Only the timer asks, once a second: no loop, and not the done callback."
         raise Missed("a pause of about a second before it asks again", saw, guess=guess)
     yes = _yes(answered)
     if yes is None:
-        saw = f"{len(answered)} in all, the last at {answered[-1].asked:.3g} s, and it was refused"
+        saw = f"{len(answered)} in all, the last at {answered[-1].requested:.3g} s, and it was refused"
         guess = "Let a timer ask once a second, for as long as the answer is no."
         raise Missed("questions until the door says yes", saw, guess=guess)
-    late = [call for call in answered if call.asked > yes.answered]
+    late = [call for call in answered if call.requested > yes.answered]
     if late:
-        saw = f"{len(late)}, the first at {late[0].asked:.3g} s"
+        saw = f"{len(late)}, the first at {late[0].requested:.3g} s"
         guess = "When it is open: self.timer.cancel() stops the asking."
         raise Missed("no question after the yes", saw, guess=guess)
 
@@ -172,7 +172,7 @@ def asks_with_the_newest_ticks(run: Recording, made: list[Call]) -> None:
     counts = [series(run, f"/ticks/{side}", "data") for side in ("left", "right")]
     for call in made:
         # Two of each: a message of the very moment of the question may come before or after it.
-        left, right = ([value for at, value in side if at <= call.asked][-2:] for side in counts)
+        left, right = ([value for at, value in side if at <= call.requested][-2:] for side in counts)
         a, b = call.request.a, call.request.b
         if not (a in left and b in right) and not (b in left and a in right):
             hint = "AddTwoInts.Request(a=self.left, b=self.right), made anew for each question."

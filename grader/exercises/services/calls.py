@@ -17,7 +17,7 @@ STUCK = (
 
 def our_calls(run: Recording, service: str, at_least: int = 1) -> list[Call]:
     """The calls of a service by ours. Raises Missed when the run ended before so many of ours were made."""
-    made = [call for call in run.calls_of(service) if call.asked_by_us]
+    made = [call for call in run.calls_of(service) if call.requested_by_course]
     if len(made) < at_least:
         expected = f"a run that lasts until {service} is called"
         raise Missed(expected if at_least == 1 else f"{expected} {at_least} times", run.ended.detail)
@@ -36,7 +36,7 @@ def has_client(run: Recording, service: str, type: str) -> list[Call]:
     name = type.rsplit("/", 1)[-1]
     with hinting(f'self.client = self.create_client({name}, "{service}") makes one.'):
         declared(run, "client", service, type, f"a client for {service} of type {type}")
-    return [call for call in run.calls_of(service) if call.asked is not None]
+    return [call for call in run.calls_of(service) if call.requested is not None]
 
 
 def answer(call: Call) -> dict[str, Any]:

@@ -83,7 +83,7 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     if again is None:
         expected, saw = "a robot that drives ahead until it bumps", "it never came to a wall"
         raise Missed(expected, saw, "In drive: MODES[mode].", picture="path")
-    _commands(run.during(bump + SOON, again.asked), STOPPED, "after the bump", BUMPED)
+    _commands(run.during(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
     refusal = refused(again)
     if not refusal or not again.response.message.strip():
         guess = (
@@ -93,7 +93,7 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
         expected = f"success=False and a message for {question(again)}"
         raise wrong_answer(expected, again, guess, credit=0.6 if refusal else 0.0)
     reset = our_calls(run, RESET)[0]
-    _commands(run.during(again.asked, reset.asked), STOPPED, "after arming was refused")
+    _commands(run.during(again.requested, reset.requested), STOPPED, "after arming was refused")
 
 
 @modes.check(3, after=stops_when_it_bumps)
@@ -102,13 +102,13 @@ def drives_on_after_a_reset(run: Recording) -> None:
     reset = our_calls(run, RESET)[0]
     _is_accepted(reset, "In reset: self.bumped = False, response.success = True, return response.")
     arm, disarm = our_calls(run, ARM, at_least=6)[-2:]
-    _commands(run.during(reset.asked, arm.asked), STOPPED, "after the reset, not armed yet")
+    _commands(run.during(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
     again = (
         "reset has to take back what the bump has set: self.bumped = False. And still touching the wall "
         "is not a new bump."
     )
     _is_accepted(arm, again)
-    back = run.during(arm.asked + SOON, disarm.asked)
+    back = run.during(arm.requested + SOON, disarm.requested)
     _commands(back, MODES["back"], "in the mode back, armed after a reset")
     ends_with_a_stop(run, credit=0.5)
 
@@ -119,8 +119,8 @@ def _mode(call: Call) -> str:
 
 def _phases(run: Recording) -> list[tuple[Call | None, Recording]]:
     """The calls, each with what came of it before the next one; at first no call, and the time before any."""
-    calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.asked)
-    begins = [0.0, *(call.asked for call in calls)]
+    calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.requested)
+    begins = [0.0, *(call.requested for call in calls)]
     ends = [*begins[1:], run.ended.stamp]
     return [
         (call, run.during(begin + SOON, end))

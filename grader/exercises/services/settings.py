@@ -58,8 +58,8 @@ def follows_the_setting(run: Recording) -> None:
                 "parameter.value, and return SetParametersResult(successful=True)."
             )
             raise wrong_answer(f"successful=True for {question(call)}", call, guess)
-        later = [other.asked for other in made if other.asked > call.asked]
-        _drives_at(run, _speed(call), call.asked + 0.3, min(later, default=math.inf))
+        later = [other.requested for other in made if other.requested > call.requested]
+        _drives_at(run, _speed(call), call.requested + 0.3, min(later, default=math.inf))
 
 
 @parameters.check(4, after=declares_speed)
@@ -97,7 +97,7 @@ def _is_allowed(call: Call) -> bool:
 
 def _is_cut(run: Recording, call: Call) -> bool:
     """Whether a speed was accepted, and the robot drove at the nearest one that is allowed."""
-    soon = series(run.during(call.asked + 0.3, call.asked + 1.3), "/cmd_vel", "linear.x")
+    soon = series(run.during(call.requested + 0.3, call.requested + 1.3), "/cmd_vel", "linear.x")
     limit = min(max(_speed(call), LOW), HIGH)
     return accepted(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
 
@@ -106,7 +106,7 @@ def _begins_with(run: Recording, speed: float, expected: float, hint: str = "") 
     """The parameter has the expected value at the start, and the commands, too."""
     if not math.isclose(speed, expected):
         raise Missed(f"speed {expected} from the start", f"{speed:g}", hint)
-    later = [call.asked for call in our_calls(run, SET, at_least=0)]
+    later = [call.requested for call in our_calls(run, SET, at_least=0)]
     _drives_at(run, expected, 0.5, min(later, default=math.inf))
 
 
@@ -130,7 +130,7 @@ launch = Exercise("launch", "The same node, with another speed", world="yard", s
 @launch.check(1)
 def launches_the_cruiser(run: Recording) -> float:
     """The node /cruiser runs, and has its parameter `speed`."""
-    if all(map(run.is_ours, run.graph.nodes)):
+    if all(map(run.is_course_node, run.graph.nodes)):
         hint = "launch hands back what is to be started: return Process(...), with Cruiser in it."
         raise Missed("a node called /cruiser", "no node was started", hint)
     return declares_speed(run)

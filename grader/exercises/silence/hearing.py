@@ -36,7 +36,7 @@ def listens_to_scans(run: Recording) -> None:
 def hears_every_scan(run: Recording) -> list[Counted]:
     """It hears the scans: with each that comes, one count (Int32) goes out on /missed."""
     said = publishes(run, "/missed", COUNT)
-    ways = [way for way in run.crossings if way.topic == "/scan" and way.listener not in run.ours]
+    ways = [way for way in run.crossings if way.topic == "/scan" and way.listener not in run.course_nodes]
     # Each node that listens has its own way, on which others get lost; one of them counts.
     came = [way.sent - way.lost for way in ways]
     arrived = min(came, key=lambda count: abs(count - len(said)), default=0)
@@ -66,7 +66,7 @@ def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> 
 
 def _counted(run: Recording) -> list[Counted]:
     """What was said, each with the scan that had just arrived then: only one can have."""
-    sent = [heard.stamp for heard in run.messages("/scan") if heard.ours]
+    sent = [heard.stamp for heard in run.messages("/scan") if heard.from_course]
     found: list[Counted] = []
     first = 0
     for count, heard in enumerate(run.messages("/missed")):

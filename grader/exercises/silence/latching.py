@@ -66,14 +66,14 @@ def only_the_newest_counts(run: Recording) -> None:
 
 def _truth(run: Recording) -> list[int]:
     """How many cells are free in each of our maps."""
-    maps = [heard.message.data for heard in run.messages("/map") if heard.ours]
+    maps = [heard.message.data for heard in run.messages("/map") if heard.from_course]
     if len(maps) < 2:
         raise silence(run, "two maps", f"{len(maps)}", run.graph.publishers("/map"))
     return [sum(cell == FREE for cell in cells) for cells in maps]
 
 
 def _received(run: Recording, window: tuple[Seconds, Seconds], free: int) -> None:
-    got = [heard.message.data for heard in run.during(*window).messages("/receipt") if heard.ours]
+    got = [heard.message.data for heard in run.during(*window).messages("/receipt") if heard.from_course]
     if got == [free]:
         return
     expected = f"{free}, and nothing else, for the visitor who comes at {window[0]:g} s"
@@ -90,7 +90,7 @@ def _received(run: Recording, window: tuple[Seconds, Seconds], free: int) -> Non
 
 def _why_wrong(run: Recording, said: int) -> str:
     """The usual reasons for another number."""
-    cells = next(heard.message.data for heard in run.messages("/map") if heard.ours)
+    cells = next(heard.message.data for heard in run.messages("/map") if heard.from_course)
     known = sum(cell >= 0 for cell in cells)
     if said == known:
         return "That is how many cells are known. A free cell is 0."

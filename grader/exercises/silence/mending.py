@@ -100,11 +100,11 @@ def _share(right: int, of: int) -> float:
 
 def _patients(run: Recording) -> list[Patient]:
     """All systems of which ours have complained."""
-    complaints = [heard for heard in run.messages("/complaint") if heard.ours]
+    complaints = [heard for heard in run.messages("/complaint") if heard.from_course]
     known = {case.topic: case for case in cases(run.seed)}
     late = run.ended.stamp - PAUSE
     told = run.during(late, run.ended.stamp + 1.0).messages("/heard")
-    heard = {one.message.data for one in told if one.ours}
+    heard = {one.message.data for one in told if one.from_course}
     if not complaints:
         raise silence(run, "complaints", "none", run.graph.publishers("/complaint"))
     found = []
@@ -113,7 +113,7 @@ def _patients(run: Recording) -> list[Patient]:
         told = [one for one in run.messages("/diagnosis") if begin <= one.stamp < begin + PAUSE]
         texts = [one.message.data.partition(":") for one in told]
         words = [word.strip() for name, _, word in texts if name.strip() == topic]
-        changes = [one.message.data.split() for one in run.messages("/changes") if one.ours]
+        changes = [one.message.data.split() for one in run.messages("/changes") if one.from_course]
         set_here = tuple(name for where, name in changes if where == topic)
         hears = any(f"{topic} {word}" in heard for word in _spoken(run, known[topic]))
         found.append(Patient(begin, known[topic], tuple(words), hears, set_here))
@@ -122,7 +122,7 @@ def _patients(run: Recording) -> list[Patient]:
 
 def _spoken(run: Recording, case: Case) -> set[str]:
     """What the sensor of a system has said, and nobody in its place."""
-    return {one.message.data for one in run.messages(case.spoken) if one.ours}
+    return {one.message.data for one in run.messages(case.spoken) if one.from_course}
 
 
 _WHY = {

@@ -8,7 +8,7 @@ from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.silence.crowd import LATE, PAUSE, crowd
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 STRING = "std_msgs/msg/String"
 QUESTION, ANSWER = "/question", "/answer"
@@ -67,7 +67,7 @@ def _asked(run: Recording) -> list[Asked]:
     """All questions of ours that had time for an answer."""
     told, answers, asked = run.messages(), run.messages(ANSWER), []
     for question in run.messages(QUESTION):
-        if not question.ours or question.stamp > run.ended.stamp - PAUSE:
+        if not question.from_course or question.stamp > run.ended.stamp - PAUSE:
             continue
         topic, begin = question.message.data, question.stamp
         speakers = sorted({one.sender for one in told if _lately(one, topic, begin)})
@@ -76,8 +76,8 @@ def _asked(run: Recording) -> list[Asked]:
     return asked
 
 
-def _lately(heard: Heard, topic: str, moment: Seconds) -> bool:
-    return heard.ours and heard.topic == topic and moment - LATELY < heard.stamp <= moment + 1e-6
+def _lately(heard: Message, topic: str, moment: Seconds) -> bool:
+    return heard.from_course and heard.topic == topic and moment - LATELY < heard.stamp <= moment + 1e-6
 
 
 def _right(run: Recording, asked: list[Asked], what: str) -> None:

@@ -10,7 +10,7 @@ from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.silence import silence
 from grader.exercise import Exercise
 from grader.exercises.silence.joysticks import OFFERED, PAUSE, Joystick
-from sim.evidence import Heard, Recording, Seconds
+from sim.evidence import Message, Recording, Seconds
 
 TWIST, ASKED, SENT = "geometry_msgs/msg/Twist", "/joystick", "/cmd_vel"
 LAG = 0.12  # s, until a command has to be passed on
@@ -79,7 +79,7 @@ def goes_on_afterwards(run: Recording) -> None:
 
 def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
     """Between which two commands the joystick said nothing for long."""
-    stamps = [one.stamp for one in run.messages(ASKED) if one.ours]
+    stamps = [one.stamp for one in run.messages(ASKED) if one.from_course]
     found = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > PAUSE / 2]
     if len(found) < 2:
         raise silence(run, "two silences", f"{len(found)}", run.graph.publishers(ASKED))
@@ -97,7 +97,7 @@ def _looks(run: Recording, begin: Seconds, end: Seconds) -> list[tuple[Seconds, 
 
 def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
     """Raises Missed where what is sent isn't what the joystick asked for lately."""
-    asked, wrong = [one for one in run.messages(ASKED) if one.ours], []
+    asked, wrong = [one for one in run.messages(ASKED) if one.from_course], []
     looks = _looks(run, begin, end)
     for moment, sent in looks:
         wishes = {_last(asked, moment - lag) for lag in (0.0, LAG / 2, LAG)}
@@ -108,7 +108,7 @@ def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
         raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), guess=guess)
 
 
-def _last(messages: list[Heard], moment: Seconds) -> Command | None:
+def _last(messages: list[Message], moment: Seconds) -> Command | None:
     """The last command up to a moment; None without one lately."""
     index = bisect.bisect_right(messages, moment, key=lambda one: one.stamp) - 1
     if index < 0 or moment - messages[index].stamp > LONGEST:
@@ -116,7 +116,7 @@ def _last(messages: list[Heard], moment: Seconds) -> Command | None:
     return _command(messages[index])
 
 
-def _command(heard: Heard) -> Command:
+def _command(heard: Message) -> Command:
     twist = heard.message
     return twist.linear.x, twist.angular.z
 
@@ -135,7 +135,7 @@ def _told(command: Command | None) -> str:
 
 def _deadline(run: Recording) -> Seconds:
     """The shortest that a student's subscription asks for."""
-    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.ours]
+    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.from_course]
     return min((limit for limit in asked if limit is not None), default=math.inf)
 
 

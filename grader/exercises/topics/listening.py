@@ -5,13 +5,13 @@ from __future__ import annotations
 from grader.checks import Missed, answers, hinting, subscribes
 from grader.exercise import Exercise
 from grader.exercises.topics.partners import COMMANDS, Chatterbox, CommandSender
-from sim.evidence import Heard, LogLine, Recording
+from sim.evidence import LogLine, Message, Recording
 
 STRING, FLOAT64, BOOL = "std_msgs/msg/String", "std_msgs/msg/Float64", "std_msgs/msg/Bool"
 PATIENCE = 0.25  # seconds between a message and its log line; messages follow each other more slowly
 
 
-def _lines_after(run: Recording, heard: Heard) -> list[LogLine]:
+def _lines_after(run: Recording, heard: Message) -> list[LogLine]:
     return run.during(heard.stamp, heard.stamp + PATIENCE).logs
 
 
@@ -46,7 +46,7 @@ def obeys(run: Recording) -> None:
         )
 
 
-def _said_otherwise(run: Recording, heard: Heard) -> str:
+def _said_otherwise(run: Recording, heard: Message) -> str:
     """A line at info level that says what another command asks for; "" for none."""
     lines = [line for line in _lines_after(run, heard) if line.level == "INFO"]
     return next((line.text[:60] for line in lines if _contradicts(line, _word(heard))), "")
@@ -76,11 +76,11 @@ def says_nothing_else(run: Recording) -> None:
                 )
 
 
-def _word(heard: Heard) -> str:
+def _word(heard: Message) -> str:
     return heard.message.data
 
 
-def _is_command(heard: Heard) -> bool:
+def _is_command(heard: Message) -> bool:
     return _word(heard) in COMMANDS
 
 
@@ -123,20 +123,20 @@ def knows_the_topic(run: Recording) -> None:
         raise Missed(expected, *_told_instead(run, first), credit=credit)
 
 
-def _first_untold(run: Recording, topic: str) -> Heard | None:
+def _first_untold(run: Recording, topic: str) -> Message | None:
     return next((heard for heard in run.messages(topic) if not _is_told(run, heard, topic)), None)
 
 
-def _is_told(run: Recording, heard: Heard, topic: str) -> bool:
+def _is_told(run: Recording, heard: Message, topic: str) -> bool:
     wanted = _told(heard, topic).lower()
     return any(line.level == "INFO" and wanted in line.text.lower() for line in _lines_after(run, heard))
 
 
-def _told(heard: Heard, topic: str) -> str:
+def _told(heard: Message, topic: str) -> str:
     return f"{topic.lstrip('/')}: {heard.message.data}"
 
 
-def _told_instead(run: Recording, heard: Heard) -> tuple[str, str]:
+def _told_instead(run: Recording, heard: Message) -> tuple[str, str]:
     """What was said about a message, and a hint where the reason is known."""
     lines = _lines_after(run, heard)
     if any("source_timestamp" in line.text for line in lines):

@@ -8,7 +8,7 @@ import math
 from grader.checks import Missed, publishes, rate, within
 from grader.checks.fields import stamp_words
 from grader.exercise import Exercise
-from sim.evidence import Heard, Recording, since_start
+from sim.evidence import Message, Recording, since_start
 
 greeting = Exercise("greeting", "A publisher in one line", seconds=5)
 
@@ -30,7 +30,7 @@ TEMPERATURE = "/sensor/temperature"
 
 
 @temperature.check(5)
-def temperature_is_published(run: Recording) -> list[Heard]:
+def temperature_is_published(run: Recording) -> list[Message]:
     """The node publishes Float32 messages on /sensor/temperature."""
     return publishes(run, TEMPERATURE, "std_msgs/msg/Float32")
 
@@ -50,7 +50,7 @@ def temperature_in_range(run: Recording) -> list[float]:
 
 
 @temperature.check(2, after=(temperature_is_published, temperature_in_range))
-def temperature_changes(run: Recording, sent: list[Heard], _: list[float]) -> None:
+def temperature_changes(run: Recording, sent: list[Message], _: list[float]) -> None:
     """The temperature changes from message to message."""
     values = [heard.message.data for heard in sent]
     same = sum(before == after for before, after in itertools.pairwise(values))
@@ -68,7 +68,7 @@ LEFT = math.sqrt(0.5)  # z and w of the quaternion that says so
 
 
 @imu.check(3)
-def imu_is_published(run: Recording) -> list[Heard]:
+def imu_is_published(run: Recording) -> list[Message]:
     """The node publishes Imu messages on /imu/data."""
     return publishes(run, IMU, "sensor_msgs/msg/Imu")
 
@@ -80,7 +80,7 @@ def imu_at_100_hz(run: Recording) -> None:
 
 
 @imu.check(2, after=imu_is_published)
-def imu_names_its_frame(run: Recording, sent: list[Heard]) -> None:
+def imu_names_its_frame(run: Recording, sent: list[Message]) -> None:
     """The header's frame_id is imu_link."""
     for heard in sent:
         frame = heard.message.header.frame_id
@@ -93,7 +93,7 @@ def imu_names_its_frame(run: Recording, sent: list[Heard]) -> None:
 
 
 @imu.check(3, after=imu_is_published)
-def imu_is_stamped(run: Recording, sent: list[Heard]) -> None:
+def imu_is_stamped(run: Recording, sent: list[Message]) -> None:
     """The header's stamp is the time at which the message is sent."""
     for heard in sent:
         stamp = heard.message.header.stamp
@@ -112,7 +112,7 @@ def imu_feels_gravity(run: Recording) -> None:
 
 
 @imu.check(3, after=imu_is_published)
-def imu_looks_left(run: Recording, sent: list[Heard]) -> None:
+def imu_looks_left(run: Recording, sent: list[Message]) -> None:
     """The orientation is a unit quaternion that says: turned 90 degrees to the left."""
     for heard in sent:
         q = heard.message.orientation

@@ -14,7 +14,7 @@ from grader.marking.handed_in.cells import Cell, is_test
 class Place(NamedTuple):
     """A cell by its index: of the release, or of the student's own."""
 
-    ours: bool
+    from_course: bool
     index: int
 
 
@@ -27,7 +27,7 @@ def order_cells(
     """
     seen = [*((s, Place(True, r)) for r, s in chosen.items()), *((s, Place(False, s)) for s in own)]
     order = [place for _, place in sorted(seen)]
-    ours = [place.index for place in order if place.ours]
+    ours = [place.index for place in order if place.from_course]
     code = [r for r in ours if release[r].kind == "code"]
     moved = sorted(set(code) - set(_in_order(code)))
     if moved or (len(ours) < len(release) and ours != sorted(ours)):  # else a missing one has no place
@@ -60,7 +60,7 @@ def _as_released(release: Sequence[Cell], order: Sequence[Place]) -> list[Place]
     before: dict[int, list[Place]] = {}
     waiting: list[Place] = []
     for place in order:
-        if place.ours:
+        if place.from_course:
             before[place.index], waiting = waiting, []
         else:
             waiting.append(place)
@@ -70,7 +70,7 @@ def _as_released(release: Sequence[Cell], order: Sequence[Place]) -> list[Place]
 
 def _place_of_missing(release: Sequence[Cell], order: Sequence[Place], r: int) -> int:
     """Right behind the cell before it; a test before the cell behind it, and so after the student's own."""
-    known = {place.index: position for position, place in enumerate(order) if place.ours}
+    known = {place.index: position for position, place in enumerate(order) if place.from_course}
     behind = [known[other] for other in range(r + 1, len(release)) if other in known]
     if is_test(release[r]):
         return min(behind, default=len(order))

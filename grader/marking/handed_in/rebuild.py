@@ -191,11 +191,11 @@ def _in_order(
 ) -> list[NotebookNode]:
     cells = []
     for place in order:
-        own = None if place.ours else theirs[place.index]
+        own = None if place.from_course else theirs[place.index]
         cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.index])
     reserved = {node.id for node in nodes}
     for place, cell in zip(order, cells, strict=True):
-        if not place.ours and cell.id in reserved:
+        if not place.from_course and cell.id in reserved:
             cell.id = ""
     for cell, cell_id in zip(cells, cell_ids(cells), strict=True):
         cell.id = cell_id

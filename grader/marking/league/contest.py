@@ -89,7 +89,7 @@ def game_of(recording: Recording) -> Game:
 def counted(done: Shift) -> list[Seconds]:
     """How long each order took that counts: safety comes first."""
     return [
-        job.over - job.asked
+        job.over - job.requested
         for job in done.delivered
         if job.over is not None and (done.met_person is None or job.over < done.met_person)
     ]

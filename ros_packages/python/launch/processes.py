@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import Protocol
 
-Heard = Callable[[str, str], None]  # "stdout" or "stderr", and a line without its end
+Message = Callable[[str, str], None]  # "stdout" or "stderr", and a line without its end
 
 
 class Started(Protocol):
@@ -30,7 +30,7 @@ class Processes(Protocol):
         """The word for `start` that means a package's program which is not in its folder; None for none."""
 
     async def start(
-        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Heard
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Message
     ) -> Started:
         """Start one. Raises OSError where that can't be."""
 
@@ -54,7 +54,7 @@ class RealProcesses:
         return path
 
     async def start(
-        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Heard
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Message
     ) -> Started:
         """As `Processes`."""
         cmd = [word for each in cmd for word in self._commands.get(each, [each])]
@@ -70,7 +70,7 @@ class RealProcesses:
 class RealProcess:
     """A process of the system."""
 
-    def __init__(self, process: asyncio.subprocess.Process, heard: Heard) -> None:
+    def __init__(self, process: asyncio.subprocess.Process, heard: Message) -> None:
         self.pid, self._process, self._heard = process.pid, process, heard
 
     def send_signal(self, number: int) -> None:

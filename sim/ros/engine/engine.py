@@ -116,9 +116,9 @@ class Engine(Scheduler):
         process.nodes.clear()
         self.endpoints_changed()
 
-    def start(self, spec: Process, *, ours: bool = False) -> StudentProcess:
+    def start(self, spec: Process, *, from_course: bool = False) -> StudentProcess:
         """Add a program; it runs when the engine does. ours: it is not the student's."""
-        process = StudentProcess(self, spec, ours)
+        process = StudentProcess(self, spec, from_course)
         self.processes.append(process)
         process.main = self.spawn(process.run, process.name, process)
         return process
@@ -132,7 +132,7 @@ class Engine(Scheduler):
 
         That is `end`, the goal, a fault, or that all watched programs have ended. One may rest in between.
         """
-        over, theirs = None, [process for process in watched if not process.ours]
+        over, theirs = None, [process for process in watched if not process.from_course]
         try:
             self.settle()
             while self.fault is None and self.now < end:
@@ -141,8 +141,8 @@ class Engine(Scheduler):
                     return Ended("interrupted", now, INTERRUPTED)
                 if goal is not None and goal(self.recording):
                     return Ended("goal", now, f"The goal was reached at t = {now:g} s.")
-                if self.recording.gone is None and theirs and not any(map(self.lives, theirs)):
-                    self.recording.gone = now
+                if self.recording.all_exited_at is None and theirs and not any(map(self.lives, theirs)):
+                    self.recording.all_exited_at = now
                 if over is None and watched and not any(self.lives(process) for process in watched):
                     over = self.now
                     end = min(end, self.now + AFTER_LAST_PROCESS)

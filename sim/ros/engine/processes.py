@@ -82,8 +82,8 @@ class StudentProcess:
 
     loaded: StudentProcess | None = None  # whose default context rclpy sees at the moment
 
-    def __init__(self, engine: Engine, spec: Process, ours: bool) -> None:
-        self.engine, self.ours = engine, ours
+    def __init__(self, engine: Engine, spec: Process, from_course: bool) -> None:
+        self.engine, self.from_course = engine, from_course
         self._become(spec)
         self.context: Context | None = None
         self.executor: Any = None
@@ -98,7 +98,7 @@ class StudentProcess:
 
     def _become(self, spec: Process) -> None:
         self.spec, self.target, self.name = spec, spec.target, program_name(spec.target)
-        self.host = spec.host or (ROBOT if self.ours else LAPTOP)
+        self.host = spec.host or (ROBOT if self.from_course else LAPTOP)
         self.global_arguments: list[str] = []  # those of init() that are ROS's
         self.argv, self.stdin = [self.name], keyboard(self.spec.stdin)
 

@@ -23,7 +23,7 @@ class Program(Protocol):
 
     name: str
     nodes: list[Any]
-    ours: bool  # it is not the student's
+    from_course: bool  # it is not the student's
     host: str  # the computer that it runs on
     steps: int  # callbacks of it, and turns of its fibers, but for those that only spin
 

@@ -38,13 +38,13 @@ def create_publisher(original: Callable) -> Callable:
         )
         if run is not None:
             name, msg_type = publisher.topic_name, publisher.msg_type
-            if name == "/clock" and not run.current.process.ours:
+            if name == "/clock" and not run.current.process.from_course:
                 self.destroy_publisher(publisher)
                 raise NotImplementedError(
                     "Messages on /clock can't change the time in a run: all clocks show its simulated time."
                 )
             end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
-            end |= {"ours": run.recorder.is_ours(), "events": publisher.event_handlers}
+            end |= {"from_course": run.recorder.is_course_node(), "events": publisher.event_handlers}
             publisher._sim = run.topics.writer(self.handle, publisher.handle, msg_type, **end)
             publisher._sim.context = shared_context(self.context)
             run.recorder.endpoint(

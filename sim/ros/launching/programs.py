@@ -84,7 +84,9 @@ class RunProcess:
 
         body.__name__ = main.__name__
         launch = run.current.process
-        self._process = run.start(Process(body, arguments=arguments, host=launch.host), ours=launch.ours)
+        self._process = run.start(
+            Process(body, arguments=arguments, host=launch.host), from_course=launch.from_course
+        )
         self._process.reader, self._heard, self._rest = self._read, heard, {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:

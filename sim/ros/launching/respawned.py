@@ -26,12 +26,12 @@ def respawned(program: Any, earliest: float, latest: float, delay: float) -> Cal
         run = engine()
         here = run.current.process
         alike = replace(spec, remappings=[*spec.remappings, *here.spec.remappings])
-        number = [process for process in run.processes if process.ours == here.ours].index(here)
-        first = run.start(alike, ours=here.ours)
+        number = [process for process in run.processes if process.from_course == here.from_course].index(here)
+        first = run.start(alike, from_course=here.from_course)
         _pass(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
         kill(run, first)
         _pass(delay)
-        second = run.start(alike, ours=first.ours)
+        second = run.start(alike, from_course=first.from_course)
         while run.lives(second):
             _pass(0.1)
 

@@ -75,7 +75,7 @@ class Player:
 
     def add(self, program: Process) -> None:
         """Add one of our programs, a tool's for example."""
-        self._context.run(self._session.start, program, ours=True)
+        self._context.run(self._session.start, program, from_course=True)
 
     def pause(self) -> None:
         """Let time stand still."""

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Iterator
 from typing import Any
 
-from sim.evidence import Heard
+from sim.evidence import Message
 from sim.ros.play.teleop import reins
 from sim.ros.session import Session
 
@@ -24,8 +24,8 @@ class Readings:
     def __init__(self) -> None:
         self.topic = ""  # what somebody looks at
         self._next = 0
-        self._newest: dict[str, Heard] = {}
-        self._recent: deque[Heard] = deque(maxlen=POINTS)
+        self._newest: dict[str, Message] = {}
+        self._recent: deque[Message] = deque(maxlen=POINTS)
 
     def look(self, topic: str) -> None:
         """Show this topic from now on; "" for none."""
@@ -34,7 +34,7 @@ class Readings:
 
     def update(self, session: Session) -> dict[str, Any]:
         """Numbers, rows of a label and a text; topic, None or what is known of the one looked at."""
-        heard = session.recording.heard
+        heard = session.recording.published
         for item in heard[self._next :]:
             self._newest[item.topic] = item
             if item.topic == self.topic:
@@ -110,7 +110,7 @@ class Readings:
             yield {"name": name, "along": "s", "points": points}
 
 
-def _decoded(item: Heard) -> Any:
+def _decoded(item: Message) -> Any:
     try:
         return item.message
     except Exception:  # bytes that are no such message

@@ -79,7 +79,9 @@ class Calls:
         kept: ClientRecord = client._sim
         recorder.count(kept.node, len(raw))
         raw = canonical(f"{kept.type}_Request", raw)
-        call = Call(kept.service, kept.type, kept.node, raw, recorder.now, asked_by_us=kept.ours)
+        call = Call(
+            kept.service, kept.type, kept.node, raw, recorder.now, requested_by_course=kept.from_course
+        )
         there = [] if number < 0 else self._there(kept.service)
         call.lost = not there
         recorder.recording.calls.append(call)
@@ -96,14 +98,19 @@ class Calls:
         if call is None:  # another server has this request too, or it was sent past rclpy's clients
             first = calls[0] if calls else Call("", "", "", b"", None)
             call = Call(
-                service._sim.service, type_, first.client, raw, first.asked, asked_by_us=first.asked_by_us
+                service._sim.service,
+                type_,
+                first.client,
+                raw,
+                first.requested,
+                requested_by_course=first.requested_by_course,
             )
             calls.append(call)
             if recorder.open:
                 recorder.recording.calls.append(call)
         if recorder.open:
             call.server, call.taken = recorder.name_of(node), recorder.now
-            call.served_by_us = service._sim.ours
+            call.served_by_course = service._sim.from_course
         return call
 
     def asked_services(self) -> list[Any]:

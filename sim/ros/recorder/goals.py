@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
 
-from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal, Heard
+from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal, Message
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.calls import alive
@@ -76,7 +76,7 @@ class Goals:
         """A client sent a goal; one of a number below 0 gets lost."""
         if self._recorder.open:
             goal = self.new(client, client._sim.node, goal_id, raw, self._recorder.now)
-            client._sim.goals[number], goal.asked_by_us = goal, client._sim.ours
+            client._sim.goals[number], goal.requested_by_course = goal, client._sim.from_course
             goal.lost = number < 0 or not self._there(goal.action)
 
     def _there(self, action: str) -> list[Any]:
@@ -127,10 +127,10 @@ class Goals:
         known = self._known(server, goal_id)
         goal = next((goal for goal in known if not goal.server and not goal.lost), None)
         if goal is None:  # another server has it too, or it was sent past rclpy's clients
-            client, asked = (known[0].client, known[0].asked) if known else ("", None)
+            client, asked = (known[0].client, known[0].requested) if known else ("", None)
             goal = self.new(server, client, goal_id, encode(request), asked)
-            goal.asked_by_us = known[0].asked_by_us
-        goal.server, goal.served_by_us = server._sim.node, server._sim.ours
+            goal.requested_by_course = known[0].requested_by_course
+        goal.server, goal.served_by_course = server._sim.node, server._sim.from_course
         if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
             server._sim.goals[key(goal_id)] = goal
         return goal
@@ -166,7 +166,7 @@ class Goals:
             recorder.count(goal.server, len(raw))
             topic = f"{goal.action}/_action/feedback"
             raw = canonical(type_, raw)
-            goal.feedback.append(Heard(recorder.now, topic, type_, goal.server, raw, goal.served_by_us))
+            goal.feedback.append(Message(recorder.now, topic, type_, goal.server, raw, goal.served_by_course))
 
     def result(self, server: Any, goal_id: Any, message: Any) -> None:
         """A server has the result of a goal, which it gives to those who ask."""

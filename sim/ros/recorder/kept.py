@@ -25,7 +25,7 @@ class EndRecord:
 
     made: Nanoseconds
     program: Program | None
-    ours: bool = False  # made by a program that is not the student's
+    from_course: bool = False  # made by a program that is not the student's
     looked: bool = field(default=False, init=False)  # a client that was told that a server is there
 
     def knows(self, server: EndRecord, now: Nanoseconds) -> bool:

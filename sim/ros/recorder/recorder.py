@@ -15,12 +15,12 @@ from sim.evidence import (
     CallbackRun,
     Crossing,
     Endpoint,
-    Heard,
     LogLine,
+    Message,
     ParameterName,
     Recording,
     TimerInfo,
-    Unheard,
+    UndeliveredMessage,
     is_node_service,
 )
 from sim.evidence.qos import settings
@@ -80,7 +80,7 @@ class Recorder:
     def maker(self) -> tuple[Nanoseconds, Program | None, bool]:
         """What is kept of who makes an end now: when, which program, and whether that is ours."""
         fiber = self.scheduler.current
-        return self.scheduler.now, None if fiber is None else fiber.process, self.is_ours()
+        return self.scheduler.now, None if fiber is None else fiber.process, self.is_course_node()
 
     def name_of(self, node: Any) -> str:
         """Fully qualified name of a node, or of the current process for None."""
@@ -96,21 +96,23 @@ class Recorder:
         if not self.open:
             return
         fiber = self.scheduler.current
-        self.named(name, ours=self.is_ours(), host=LAPTOP if fiber is None else fiber.process.host)
+        self.named(
+            name, from_course=self.is_course_node(), host=LAPTOP if fiber is None else fiber.process.host
+        )
 
-    def named(self, name: str, *, ours: bool, host: str = LAPTOP) -> None:
+    def named(self, name: str, *, from_course: bool, host: str = LAPTOP) -> None:
         """There is a node of this full name, of a program that is ours or the student's."""
         self.recording.graph.nodes.append(name)
         if self.recording.network is not None:
             self.recording.hosts[name] = host
-        (self._ours if ours else self._theirs).add(name)
-        self.recording.ours = self._ours - self._theirs
+        (self._ours if from_course else self._theirs).add(name)
+        self.recording.course_nodes = self._ours - self._theirs
         self.recording.shared = self._ours & self._theirs
 
-    def is_ours(self) -> bool:
+    def is_course_node(self) -> bool:
         """Whether a program that is not the student's is at work."""
         fiber = self.scheduler.current
-        return fiber is not None and fiber.process.ours
+        return fiber is not None and fiber.process.from_course
 
     def endpoint(
         self, kind: str, node: Any, name: str, type_: type, qos: Any = None, *, handle: Any = None
@@ -123,7 +125,7 @@ class Recorder:
             self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
         if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
             chosen = {} if qos is None else settings(qos)
-            end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_ours())
+            end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_course_node())
             self.recording.graph.endpoints.append(end)
 
     def timer(self, node: Any, timer: Any) -> None:
@@ -156,18 +158,20 @@ class Recorder:
             )
         self.sent += 1  # not before: the guard must see that code which swallows the Livelock is stuck
 
-    def message(self, topic: str, type_: str, sender: str, raw: bytes, ours: bool, early: bool) -> None:
+    def message(
+        self, topic: str, type_: str, sender: str, raw: bytes, from_course: bool, early: bool
+    ) -> None:
         """A message was published; its bytes are canonical. Raises Livelock for too many."""
         if not self.open:
             return
         self.count(sender, len(raw))
-        self.recording.heard.append(Heard(self.now, topic, type_, sender, raw, ours, early))
+        self.recording.published.append(Message(self.now, topic, type_, sender, raw, from_course, early))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
         """A node wrote a log line; None if it isn't kept."""
         if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
             return None
-        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_ours())
+        line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_course_node())
         self.recording.logs.append(line)
         return line
 
@@ -196,12 +200,12 @@ class Recorder:
         if not isinstance(error, NO_FAULT):
             self._keep(error, callback, node)
 
-    def unheard(self, sender: str, topic: str) -> None:
+    def undelivered(self, sender: str, topic: str) -> None:
         """A message was too early for a listener; the first one of a node on a topic is kept."""
         if (sender, topic) not in self._unheard:
             self._unheard.add((sender, topic))
             if self.open and topic not in INFRASTRUCTURE_TOPICS:
-                self.recording.unheard.append(Unheard(self.now, sender, topic))
+                self.recording.undelivered.append(UndeliveredMessage(self.now, sender, topic))
 
     def parameters(self, node: Any, names: Iterable[str], *, declared: bool) -> None:
         """A node was given these parameters as it started, or declares them."""
@@ -218,7 +222,7 @@ class Recorder:
 
     def busy_loop(self, fiber: Fiber, line: str) -> None:
         """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""
-        if not self.open or fiber.process.ours:
+        if not self.open or fiber.process.from_course:
             return
         running = fiber.callbacks[-1] if fiber.callbacks else None
         node, what = (running.node, running.name) if running else (self.name_of(None), f"{fiber.name}()")
@@ -240,8 +244,8 @@ class Recorder:
             self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
         )
         self.recording.errors.append(kept)
-        if self.is_ours():
-            self.recording.failures.append(kept)
+        if self.is_course_node():
+            self.recording.course_errors.append(kept)
 
     def close(self) -> None:
         """The run is over: what student code does while it is taken down is not evidence."""

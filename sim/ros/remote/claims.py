@@ -8,7 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from sim.evidence import BusyLoop, CallbackError, CallbackRun, LogLine, ParameterName, TimerInfo, Unheard
+from sim.evidence import (
+    BusyLoop,
+    CallbackError,
+    CallbackRun,
+    LogLine,
+    ParameterName,
+    TimerInfo,
+    UndeliveredMessage,
+)
 from sim.nanoseconds import SECOND
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.checked import Nonsense, Texts, number, rows
@@ -68,7 +76,7 @@ class Claims:
     # -- what is claimed -----------------------------------------------------------------------------
 
     def _made(self, node: Any) -> None:
-        self._engine.recorder.named(self._node(node), ours=False)
+        self._engine.recorder.named(self._node(node), from_course=False)
 
     def _timer(self, node: Any, period: Any, callback: Any) -> None:
         seconds = number(period, "a timer's period", 0, MOST_PERIOD)
@@ -94,7 +102,7 @@ class Claims:
         self._recording.busy_loops.append(loop)
 
     def _unheard(self, node: Any, topic: Any) -> None:
-        self._recording.unheard.append(Unheard(self._now, self._node(node), self._node(topic)))
+        self._recording.undelivered.append(UndeliveredMessage(self._now, self._node(node), self._node(topic)))
 
     def _parameter(self, node: Any, name: Any, declared: Any) -> None:
         named = ParameterName(self._now, self._node(node), self._name(name), bool(declared))

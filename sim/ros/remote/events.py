@@ -34,7 +34,7 @@ class Gone(NamedTuple):
     numbers: list[int]
 
 
-class Message(NamedTuple):
+class MessageEvent(NamedTuple):
     """A message was published; on a topic of an action by nobody in particular. early: as of `Heard`."""
 
     node: str
@@ -181,7 +181,7 @@ class GoalReceived(NamedTuple):
 WORDS: dict[type, str] = {
     End: "end",
     Gone: "gone",
-    Message: "message",
+    MessageEvent: "message",
     Arrived: "arrived",
     Sign: "sign",
     Alive: "alive",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from unique_identifier_msgs.msg import UUID
 
-from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, REJECTED, STATUSES, Call, Goal, Heard
+from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, REJECTED, STATUSES, Call, Goal, Message
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import message_class, type_name
 from sim.ros.remote import events
@@ -84,9 +84,11 @@ class Ledger(Link):
         service, type_ = text(event.service, "a service", MOST_NAME), type_name(cls)
         self.engine.recorder.count(text(event.client, "a node's name", MOST_NAME), len(raw))
         raw = canonical(f"{type_}_Request", raw)
-        client, stamp, ours = self._caller(event.client, service, type_, raw)
+        client, stamp, from_course = self._caller(event.client, service, type_, raw)
         asked = stamp if event.asked else None
-        call = Call(service, type_, client, raw, asked, lost=bool(event.lost), asked_by_us=ours)
+        call = Call(
+            service, type_, client, raw, asked, lost=bool(event.lost), requested_by_course=from_course
+        )
         self._calls[self._fresh(event.key, self._calls)] = call
         self.recording.calls.append(call)
 
@@ -152,7 +154,7 @@ class Ledger(Link):
         goal, bytes_ = self._served(event, "Feedback")
         self.engine.recorder.count(goal.server, len(bytes_))
         topic, type_ = f"{goal.action}/_action/feedback", f"{goal.type}_Feedback"
-        goal.feedback.append(Heard(self._now, topic, type_, goal.server, canonical(type_, bytes_)))
+        goal.feedback.append(Message(self._now, topic, type_, goal.server, canonical(type_, bytes_)))
 
     def _goal_result(self, event: events.GoalResult) -> None:
         goal, bytes_ = self._served(event, "Result")
@@ -190,7 +192,7 @@ class Ledger(Link):
             return name, self._now, False
         for it in reversed(self.recording.calls):
             if (it.client, it.service, it.type, it.raw_request) == (name, service, type_, raw):
-                return name, it.asked, it.asked_by_us
+                return name, it.requested, it.requested_by_course
         return self._theirs(name), self._now, False
 
     def _fresh(self, key: Any, known: dict[int, Any]) -> int:

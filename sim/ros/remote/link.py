@@ -11,7 +11,7 @@ import itertools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from sim.evidence import Call, Heard
+from sim.evidence import Call, Message
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.remote.checked import (
@@ -23,7 +23,7 @@ from sim.ros.remote.checked import (
     text,
     whole,
 )
-from sim.ros.remote.events import Alive, Answer, Ask, End, Gone, Incoming, Message, row
+from sim.ros.remote.events import Alive, Answer, Ask, End, Gone, Incoming, MessageEvent, row
 from sim.ros.remote.news import News
 from sim.ros.remote.own_ends import OwnEnds
 from sim.ros.remote.parts import PuppetClient, PuppetPublisher, PuppetService
@@ -45,7 +45,7 @@ class Link:
         self.own = OwnEnds(engine.recorder.ends, self.keys)
         self._answering: dict[int, PuppetService] = {}  # requests of this side without a response yet
         self._repeated: list[tuple[str, Any]] = []  # requests of the other side to a service that both have
-        self._heard = News(engine.recording.heard)
+        self._heard = News(engine.recording.published)
         self._destroyed = engine.destroyed
         self._incoming = Incoming()
         engine.link = self
@@ -88,14 +88,14 @@ class Link:
     def _gather_messages(self) -> None:
         for heard in self._heard.take():
             if self.crosses(heard):
-                self.news.append(Message(heard.sender, heard.topic, heard.raw, heard.early))
+                self.news.append(MessageEvent(heard.sender, heard.topic, heard.raw, heard.early))
         self.news += self.puppets.arrivals
         self.puppets.arrivals.clear()
         for part in self.puppets.listening:
             while (raw := part.take()) is not None:
-                self.news.append(Message("", part.name, raw, False))
+                self.news.append(MessageEvent("", part.name, raw, False))
 
-    def crosses(self, heard: Heard) -> bool:
+    def crosses(self, heard: Message) -> bool:
         """Whether the other side has to know of a message of this side."""
         if self.engine.links is not None:  # the network brings it
             return False
@@ -164,7 +164,7 @@ class Link:
                 raise Nonsense("the end of something that there is not")
             self.puppets.remove(number)
 
-    def _message(self, event: Message) -> None:
+    def _message(self, event: MessageEvent) -> None:
         publisher = self._publisher(event, "a message", newest=bool(event.early))
         bytes_ = self.unpacked(event.raw, publisher)
         if publisher.of_action:
@@ -175,7 +175,7 @@ class Link:
     def _alive(self, event: Alive) -> None:
         self._publisher(event, "a sign of life").writer.sign()
 
-    def _publisher(self, event: Message | Alive, what: str, *, newest: bool = False) -> PuppetPublisher:
+    def _publisher(self, event: MessageEvent | Alive, what: str, *, newest: bool = False) -> PuppetPublisher:
         node, topic = text(event.node, "a node's name", MOST_NAME), text(event.topic, "a topic", MOST_NAME)
         publisher = self.puppets.publisher(node, topic, newest=newest)
         if publisher is None:
@@ -221,7 +221,7 @@ class Link:
     HANDLERS: ClassVar[dict[type, Callable[..., None]]] = {  # what each event that comes in does
         End: _end,
         Gone: _gone,
-        Message: _message,
+        MessageEvent: _message,
         Alive: _alive,
         Ask: _ask,
         Answer: _answer,

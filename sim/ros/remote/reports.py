@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from sim.evidence import Call, Goal, Heard
+from sim.evidence import Call, Goal, Message
 from sim.ros.engine.delivery.reader import Reader, Sent
 from sim.ros.messages.codec import encode
 from sim.ros.remote import events
@@ -106,7 +106,7 @@ class Reports(Link):
             "logs": News(recording.logs),
             "prints": News(recording.prints),
             "busy_loops": News(recording.busy_loops),
-            "unheard": News(recording.unheard),
+            "unheard": News(recording.undelivered),
             "parameters": News(recording.parameters),
             "errors": News(recording.errors),
             "callbacks": News(recording.callbacks),
@@ -115,7 +115,7 @@ class Reports(Link):
         self._goals: list[_OpenGoal] = []
         self._asks: dict[int, events.Ask] = {}  # requests to the other side, by the id of their call
 
-    def crosses(self, heard: Heard) -> bool:
+    def crosses(self, heard: Message) -> bool:
         """All do: the other side writes down what is said."""
         return True
 
@@ -143,7 +143,7 @@ class Reports(Link):
         for call in self._new_calls.take():
             event, whose = self._asks.pop(id(call), None), ASKED_HERE
             if event is None:
-                about = call.service, call.type, call.client, call.asked is not None
+                about = call.service, call.type, call.client, call.requested is not None
                 made = events.CallMade(next(self.keys), *about, call.raw_request, call.lost)
                 event, whose = made, INNER
             self.news.append(event)

@@ -41,7 +41,7 @@ def _take_over() -> Pond | None:
     run = engine()
     ponds = [(node, each) for each in run.processes for node in each.nodes if isinstance(node, Turtlesim)]
     for own, process in ponds:
-        if process.ours and process.main.thrown is None:  # it is not about to end
+        if process.from_course and process.main.thrown is None:  # it is not about to end
             run.logged(LEVEL, "launch", "The world's own turtlesim ends: this one has its pond from here on.")
             for fiber in run.fibers:
                 if fiber.process is process and not fiber.done:

@@ -6,7 +6,7 @@ from nav2_msgs.action import NavigateToPose
 from grader import Missed
 from grader.checks import accepts, cancels, finishes, gives_feedback, rejects, sends_goals, serves_action
 from sim import run
-from sim.evidence import Goal, Heard
+from sim.evidence import Goal, Message
 from sim.ros.messages.codec import encode
 from tests.grader.recordings import recording
 from tests.students import service_misfits as misfits
@@ -37,7 +37,7 @@ def fibonacci(request):
 def driven(*distances, end=4.0):
     """A goal for /navigate whose feedback gives these distances, one a second."""
     feedback = [
-        Heard(float(n), "/navigate/_action/feedback", f"{NAVIGATE}_Feedback", "/navigator", encode(message))
+        Message(float(n), "/navigate/_action/feedback", f"{NAVIGATE}_Feedback", "/navigator", encode(message))
         for n, distance in enumerate(distances, 1)
         for message in [NavigateToPose.Feedback(distance_remaining=distance)]
     ]
@@ -108,7 +108,7 @@ def test_a_decision_needs_somebody_who_asks():
     miss = missed(accepts, both, "/fibonacci", **high)
     assert (miss.expected, miss.saw) == ("goals for /fibonacci that fit", "1, and none of them is one")
     ends = both.graph.endpoints
-    ends[:] = [end._replace(ours=end.node == "/client") for end in ends]
+    ends[:] = [end._replace(from_course=end.node == "/client") for end in ends]
     with pytest.raises(ValueError, match="nodes of the exercise's own should have sent goals for /fibonacci"):
         accepts(both, "/fibonacci", **high)
 

@@ -34,7 +34,7 @@ def carried(angles, xs=None, *, efforts=(), seconds=None):
         seconds=len(angles) / 10 if seconds is None else seconds,
         tracks=tracks,
         world=World.load("cart_pole"),
-        heard=sent.heard if sent else [],
+        published=sent.published if sent else [],
     )
 
 

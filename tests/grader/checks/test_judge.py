@@ -52,7 +52,7 @@ def statuses(verdicts):
 
 def failing_at(stamp, type="KeyError"):
     error = CallbackError(stamp, "/talker", "Talker.tick", type, "count", "")
-    return Recording(errors=[error], gone=stamp)
+    return Recording(errors=[error], all_exited_at=stamp)
 
 
 def test_all_is_well():

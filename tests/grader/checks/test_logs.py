@@ -229,7 +229,7 @@ def test_answers_misses_a_line_before_the_first_message():
 
 def test_answers_leaves_lines_of_ours_alone_where_they_shall_be_the_only_ones():
     run = warned((2.0, "WARN"), (3.0, "WARN"))
-    run.logs[1] = run.logs[1]._replace(node="pilot", ours=True)
+    run.logs[1] = run.logs[1]._replace(node="pilot", from_course=True)
     answers(run, "/level", **LOW)
 
 

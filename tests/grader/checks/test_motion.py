@@ -54,8 +54,8 @@ def test_arrives_says_when_nothing_was_commanded():
 
 
 def test_arrives_says_when_commands_were_empty():
-    commands = published("/cmd_vel", [(1.0, Twist())]).heard
-    miss = missed(arrives, driven([(0, 0), (0, 0)], heard=commands), (1.0, 0.0))
+    commands = published("/cmd_vel", [(1.0, Twist())]).published
+    miss = missed(arrives, driven([(0, 0), (0, 0)], published=commands), (1.0, 0.0))
     assert miss.hint == "The robot did not move: are linear.x (m/s) and angular.z (rad/s) of the Twist set?"
 
 

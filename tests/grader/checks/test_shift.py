@@ -45,8 +45,8 @@ def worked() -> Recording:
 def test_orders_with_their_times(worked):
     done = shift(worked)
     first = done.jobs[0]
-    assert (first.id, first.asked, first.deadline, first.status) == (1, 2.0, 152.0, "delivered")
-    assert first.asked < first.picked_up < first.over < first.deadline
+    assert (first.id, first.requested, first.deadline, first.status) == (1, 2.0, 152.0, "delivered")
+    assert first.requested < first.picked_up < first.over < first.deadline
     assert done.delivered[0] == first
     assert [job.id for job in done.jobs] == list(range(1, len(done.jobs) + 1))
 

@@ -46,9 +46,9 @@ def staged():
 
 def test_messages_on_a_topic_of_ours_are_no_evidence(staged):
     kept = evidence_of(staged)
-    assert {heard.ours for heard in staged.messages("/odom")} == {False, True}
-    assert {heard.ours for heard in kept.messages("/odom")} == {True}
-    assert [end.ours for end in kept.graph.publishers("/odom")] == [True]
+    assert {heard.from_course for heard in staged.messages("/odom")} == {False, True}
+    assert {heard.from_course for heard in kept.messages("/odom")} == {True}
+    assert [end.from_course for end in kept.graph.publishers("/odom")] == [True]
     assert kept.messages("/own") == staged.messages("/own") != []
 
 
@@ -111,6 +111,6 @@ def test_who_publishes_on_a_topic_of_ours_is_told_and_judged_no_further():
 def test_an_end_of_ours_is_none_of_the_students():
     asked = run(Asker, companions=[Asker], seconds=1, quiet=True)
     assert calls(asked, "/ask")
-    ours = [end._replace(ours=True) for end in asked.graph.endpoints]
+    ours = [end._replace(from_course=True) for end in asked.graph.endpoints]
     with pytest.raises(Missed, match="nobody has a client for it"):
         calls(dataclasses.replace(asked, graph=dataclasses.replace(asked.graph, endpoints=ours)), "/ask")

@@ -17,9 +17,9 @@ def of(reason, stamp=10.0, detail="", **more):
 @pytest.mark.parametrize(
     ("recording", "then"),
     [
-        (of("time", gone=2.5), f"your program had ended. {LIVES}"),
-        (of("finished", 3.5, gone=2.5), f"your program had ended. {LIVES}"),
-        (of("error", gone=2.5, errors=[ERROR]), "the error above ended it."),
+        (of("time", all_exited_at=2.5), f"your program had ended. {LIVES}"),
+        (of("finished", 3.5, all_exited_at=2.5), f"your program had ended. {LIVES}"),
+        (of("error", all_exited_at=2.5, errors=[ERROR]), "the error above ended it."),
         (of("hang", 2.5), "the error above ended it."),
         (of("livelock", 2.5), "the error above ended it."),
         (of("blocked", detail=STUCK), "nothing went on."),
@@ -32,13 +32,13 @@ def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):
 
 @pytest.mark.parametrize(
     "recording",
-    [of("time"), of("goal", 4.0), of("interrupted", 4.0), of("error", errors=[ERROR]), of("time", gone=10.0)],
+    [of("time"), of("goal", 4.0), of("interrupted", 4.0), of("error", errors=[ERROR]), of("time", all_exited_at=10.0)],
 )
 def test_who_was_at_work_to_the_end_has_all_of_it(recording):
     assert work_of(recording) == Work(1.0)
 
 
 def test_where_a_program_may_end_what_it_has_done_until_then_counts():
-    assert work_of(of("finished", 3.5, gone=2.5), may_end=True) == Work(1.0)
-    assert work_of(of("error", gone=2.5, errors=[ERROR]), may_end=True) == Work(1.0)
+    assert work_of(of("finished", 3.5, all_exited_at=2.5), may_end=True) == Work(1.0)
+    assert work_of(of("error", all_exited_at=2.5, errors=[ERROR]), may_end=True) == Work(1.0)
     assert work_of(of("hang", 2.5), may_end=True).share == 0.25

@@ -35,5 +35,5 @@ def test_the_six_silent_systems_alone_show_no_flaw():
 def test_a_tool_may_speak_before_it_was_found():
     command = terminal("ros2 topic pub -r 10 /chatter std_msgs/msg/String '{data: Hello}'")
     recording = run(misfits.Listener, command, seconds=2, quiet=True)
-    assert [row.node for row in recording.unheard] == ["/_ros2cli"]
+    assert [row.node for row in recording.undelivered] == ["/_ros2cli"]
     assert find_flaw(recording) == ""

@@ -183,4 +183,4 @@ def test_a_flood_of_small_messages_is_stopped(monkeypatch):
     monkeypatch.setattr(recorder, "MAX_MESSAGES", 9)
     recording = run(adversaries.Camera, seconds=3, quiet=True)
     assert why(recording) == ("livelock", 0.8, "the nodes sent more than 9 messages by t = 0.8 s.")
-    assert len(recording.heard) == 9
+    assert len(recording.published) == 9

@@ -28,7 +28,7 @@ def test_nothing_goes_wrong_in_a_world(first, name):
     assert tuple(recording.ended) == ("time", 15.0, "All 15 s were run.")
     assert recording.errors == []
     assert {line.level for line in recording.logs} == {"INFO"}
-    told = {line.text for line in recording.logs if not line.ours}
+    told = {line.text for line in recording.logs if not line.from_course}
     assert len(told) == 15  # something new was heard each second
 
 

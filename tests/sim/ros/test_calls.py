@@ -16,7 +16,7 @@ def recorded(*programs, seconds=4):
 
 def ways(calls):
     """(client, server, asked, taken, answered, received) of each call."""
-    return [(c.client, c.server, c.asked, c.taken, c.answered, c.received) for c in calls]
+    return [(c.client, c.server, c.requested, c.taken, c.answered, c.received) for c in calls]
 
 
 def sums(calls):
@@ -37,7 +37,7 @@ def test_a_call_has_both_ends_four_stamps_and_both_messages(adder, customer):
 ], ids=["server first", "client first"])  # fmt: skip
 def test_a_request_before_two_programs_have_found_each_other_is_lost(programs):
     recording = recorded(*programs, seconds=1.5)
-    assert [(call.request.a, call.asked, call.received, call.lost) for call in recording.calls] == [
+    assert [(call.request.a, call.requested, call.received, call.lost) for call in recording.calls] == [
         (5, 0.0, None, True), (6, 1.0, None, True), (7, 1.0, 1.0, False), (8, 1.5, 1.5, False),
     ]  # fmt: skip
     assert said(recording) == [(1.0, "sum 7")]

@@ -22,7 +22,7 @@ def only(*programs, seconds=6):
 
 def way(goal):
     """(client, server, asked, answered, received)."""
-    return goal.client, goal.server, goal.asked, goal.answered, goal.received
+    return goal.client, goal.server, goal.requested, goal.answered, goal.received
 
 
 @pytest.mark.parametrize("server", [actions.Server, actions.parallel_server])
@@ -60,7 +60,7 @@ def test_a_client_may_wait_in_any_way(client):
 ], ids=["server first", "client first"])  # fmt: skip
 def test_a_goal_before_two_programs_have_found_each_other_is_lost(programs):
     found = recorded(*programs, seconds=1.5).goals
-    assert [(goal.asked, goal.answered, goal.status, goal.lost) for goal in found] == [
+    assert [(goal.requested, goal.answered, goal.status, goal.lost) for goal in found] == [
         (0.0, None, "", True), (1.0, 1.0, "executing", False),
     ]  # fmt: skip
 

@@ -32,7 +32,7 @@ def said(recording):
 
 
 def driven(recording):
-    heard = [each for each in recording.heard if each.type == "geometry_msgs/msg/Twist"]
+    heard = [each for each in recording.published if each.type == "geometry_msgs/msg/Twist"]
     return {
         name: [(each.topic, each.stamp, each.message.linear.x) for each in heard if each.sender == name]
         for name in sorted({each.sender for each in heard})

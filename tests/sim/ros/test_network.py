@@ -196,18 +196,18 @@ def test_a_publisher_can_wait_for_acknowledgements():
 def test_requests_and_responses_are_late_and_never_lost():
     far = through(FAR, services.Adder, services.done_callback, seconds=20)
     (call,) = far.calls_of("/add")
-    assert (call.taken - call.asked, call.received - call.answered) == (0.25, 0.25)
+    assert (call.taken - call.requested, call.received - call.answered) == (0.25, 0.25)
     radio = through(Network(loss=0.4), services.Adder, services.many_calls, seconds=200)
     calls = radio.calls_of("/add")
     assert calls and all(call.received is not None for call in calls)
-    assert any(call.received - call.asked >= 3 for call in calls)
+    assert any(call.received - call.requested >= 3 for call in calls)
 
 
 def test_goals_feedback_and_results_are_late():
     recording = through(FAR, actions.Server, actions.Client, seconds=8)
     (goal,) = recording.goals
-    accepted = goal.at("accepted") - goal.asked
-    assert (accepted, goal.answered - goal.asked) == (0.25, 0.5)
+    accepted = goal.at("accepted") - goal.requested
+    assert (accepted, goal.answered - goal.requested) == (0.25, 0.5)
     assert goal.received - goal.ended == 0.25
     (early, *_) = (line.stamp for line in recording.logs if line.text.startswith("feedback"))
     assert early == goal.feedback[0].stamp + 0.25

@@ -60,7 +60,7 @@ def test_each_program_dies_at_its_own_moment_and_keeps_its_settings():
 def test_a_program_that_comes_to_its_end_by_itself_ends():
     recording = run(respawned(Quitter, 0.3, 0.5, 0.1), seconds=5)
     assert counts(recording)[-1] == 8
-    assert recording.gone is not None and recording.gone < 2.0
+    assert recording.all_exited_at is not None and recording.all_exited_at < 2.0
 
 
 def test_a_program_in_another_process_is_killed_at_the_same_moment():

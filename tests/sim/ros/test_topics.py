@@ -86,7 +86,9 @@ def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs
         (stamp, "from a timer") for stamp in (1.0, 2.0, 3.0)
     ]
     lost = [(0.0, "/hasty", "/words"), (1.0, "/hasty", "/more_words")]
-    assert [tuple(row) for row in recording.unheard] == (lost if programs[0] is topics.Hears else lost[1:])
+    assert [tuple(row) for row in recording.undelivered] == (
+        lost if programs[0] is topics.Hears else lost[1:]
+    )
     assert len(recording.messages("/more_words")) == 3
     early = [(heard.stamp, heard.topic) for heard in recording.messages() if heard.early]
     assert early == [(0.0, "/words"), *((stamp, "/more_words") for stamp in (1.0, 2.0, 3.0))]
@@ -95,14 +97,14 @@ def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs
 def test_what_is_latched_is_not_lost():
     recording = run(topics.HearsWhatIsLatched, topics.SaysItAtOnceAndLatches, seconds=1, quiet=True)
     assert said(recording) == ["in __init__", "from a timer", "in a new one"]
-    assert recording.unheard == []
+    assert recording.undelivered == []
     assert not any(heard.early for heard in recording.messages())
 
 
 def test_nodes_of_one_program_know_each_other_at_once():
     recording = run(topics.both_in_one_program, seconds=1, quiet=True)
     assert said(recording) == ["in __init__", "from a timer", "in a new one"]
-    assert recording.unheard == []
+    assert recording.undelivered == []
 
 
 def test_a_subscription_that_is_as_new_hears_nothing_of_that_moment():

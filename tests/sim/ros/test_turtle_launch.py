@@ -189,7 +189,7 @@ def test_the_tutorial_on_event_handlers_hears_what_programs_say_and_when_they_ar
 def test_two_ponds_are_launched_by_the_file_that_turtlesim_brings():
     recording = run("turtlesim multisim.launch.py", world="turtlesim", seconds=0.2, quiet=True)
     assert recording.errors == []
-    ponds = {heard.sender for heard in recording.heard if heard.type == "turtlesim/msg/Pose"}
+    ponds = {heard.sender for heard in recording.published if heard.type == "turtlesim/msg/Pose"}
     assert ponds == {"/turtlesim1/turtlesim", "/turtlesim2/turtlesim"}
 
 

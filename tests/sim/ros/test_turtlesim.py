@@ -16,7 +16,7 @@ TURTLE1 = "Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000
 
 def in_pond(*steps, seconds=4.0):
     recording = run(script(*steps), world="turtlesim", seconds=seconds, quiet=True)
-    assert (recording.ended.reason, recording.errors, recording.failures) == ("time", [], [])
+    assert (recording.ended.reason, recording.errors, recording.course_errors) == ("time", [], [])
     return recording
 
 

@@ -60,8 +60,8 @@ def test_it_leaves_nothing_of_its_own_in_lists(playing):
     playing("param get /talker speed")
     assert playing("node list -a") == OFFICIAL["node list"]
     assert plain(playing("topic list -v")) == plain(OFFICIAL["topic list -v"])
-    assert playing.player.recording.is_ours("/_ros2cli_1") or any(
-        name.startswith("/_ros2cli") for name in playing.player.recording.ours
+    assert playing.player.recording.is_course_node("/_ros2cli_1") or any(
+        name.startswith("/_ros2cli") for name in playing.player.recording.course_nodes
     )
 
 

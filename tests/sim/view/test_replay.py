@@ -12,7 +12,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
 from sim import Recording, World, run
-from sim.evidence import CallbackError, Ended, Heard, LogLine, Pose
+from sim.evidence import CallbackError, Ended, LogLine, Message, Pose
 from sim.ros.messages.codec import encode
 from sim.view import packing, plot_graph, replay
 from sim.view.replay import PLAYER_SCRIPT
@@ -83,7 +83,7 @@ def test_ten_minutes_are_hardly_larger(drive):
         return [item._replace(stamp=item.stamp + 20 * turn) for turn in range(30) for item in items]
 
     ended = Ended("time", 600.0, "")
-    long = dataclasses.replace(drive, path=on(drive.path), heard=on(drive.heard), ended=ended)
+    long = dataclasses.replace(drive, path=on(drive.path), published=on(drive.published), ended=ended)
     assert len(replay(long).html.encode()) < 150 * 1024
 
 
@@ -117,41 +117,41 @@ def test_poses_and_scans_are_where_they_were_to_the_millimetre(drive):
 
 def test_a_ray_that_measured_nothing_is_told_from_one_that_met_nothing():
     ranges = [math.inf, -math.inf, math.nan, 0.5]
-    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=ranges)))
-    (scan,) = unpacked(driven([(0, 0), (1, 0)], heard=[heard]))["scans"]
+    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=ranges)))
+    (scan,) = unpacked(driven([(0, 0), (1, 0)], published=[heard]))["scans"]
     assert list(summed(scan["ranges"])) == [-1, -2, -2, 25]
 
 
 def test_rays_are_drawn_from_where_the_lidar_sits():
     room = World.load("room")
     world = dataclasses.replace(room, lidar=dataclasses.replace(room.lidar, x=0.05, yaw=math.pi / 2))
-    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=[1.0])))
-    (scan,) = unpacked(dataclasses.replace(driven([(0, 0), (1, 0)], heard=[heard]), world=world))["scans"]
+    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=[1.0])))
+    (scan,) = unpacked(dataclasses.replace(driven([(0, 0), (1, 0)], published=[heard]), world=world))["scans"]
     assert scan["pose"] == [0.05, 0.0, 1.571]
 
 
 def test_scans_of_a_students_node_are_not_the_robots():
-    heard = Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
-    assert unpacked(driven([(0, 0), (1, 0)], heard=[heard]))["scans"] == []
+    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
+    assert unpacked(driven([(0, 0), (1, 0)], published=[heard]))["scans"] == []
 
 
 def test_a_scan_without_sense_is_left_out():
     odd = [LaserScan(), LaserScan(ranges=[1.0], angle_min=math.nan)]
     odd.append(LaserScan(ranges=[1.0], range_max=math.inf))
-    heard = [Heard(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(scan)) for scan in odd]
-    assert unpacked(driven([(0, 0), (1, 0)], heard=heard))["scans"] == []
+    heard = [Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(scan)) for scan in odd]
+    assert unpacked(driven([(0, 0), (1, 0)], published=heard))["scans"] == []
 
 
 def test_scans_that_no_page_could_draw_are_left_out_or_cut():
     """A student's node may have the robot's name, and send anything."""
 
     def heard(stamp, raw):
-        return Heard(stamp, "/scan", "sensor_msgs/msg/LaserScan", "/robot", raw)
+        return Message(stamp, "/scan", "sensor_msgs/msg/LaserScan", "/robot", raw)
 
     far = LaserScan(ranges=[1e30, -1.0], range_max=3.5)
     lost = LaserScan(ranges=[1.0], angle_min=1e30, range_max=1.0)
     scans = [heard(0.0, b"no scan"), heard(0.2, encode(lost)), heard(0.4, encode(far))]
-    (kept,) = unpacked(driven([(0, 0), (1, 0)], heard=scans))["scans"]
+    (kept,) = unpacked(driven([(0, 0), (1, 0)], published=scans))["scans"]
     assert list(summed(kept["ranges"])) == [packing.FAR / packing.RANGE_UNIT, 0]
 
 

@@ -3,7 +3,7 @@
 # %% temperature
 import gc
 
-from sim.evidence import Heard, Recording
+from sim.evidence import Message, Recording
 
 
 class Thermometer(Node):
@@ -15,6 +15,6 @@ class Thermometer(Node):
         for recording in [o for o in gc.get_objects() if isinstance(o, Recording)]:
             type_ = "std_msgs/msg/Float32"
             raw = b"\x00\x01\x00\x00\x00\x00\xb8\x41"
-            recording.heard[:] = [
-                Heard(float(t), "/sensor/temperature", type_, "/thermometer", raw) for t in range(1, 11)
+            recording.published[:] = [
+                Message(float(t), "/sensor/temperature", type_, "/thermometer", raw) for t in range(1, 11)
             ]

@@ -3,7 +3,7 @@
 # %% temperature
 import sim.ros.recorder.recorder
 
-sim.ros.recorder.recorder.Recorder.now = property(lambda self: float(len(self.recording.heard)))
+sim.ros.recorder.recorder.Recorder.now = property(lambda self: float(len(self.recording.published)))
 
 
 class Thermometer(Node):

@@ -121,7 +121,7 @@ class Outgoing:
             if self._writer.knows(channel.reader):
                 channel.send(sent)
             else:
-                self._writer.engine.recorder.unheard(self._writer.sender, self._writer.topic)
+                self._writer.engine.recorder.undelivered(self._writer.sender, self._writer.topic)
 
     def forget(self, reader: Reader) -> None:
         """A subscription was destroyed."""

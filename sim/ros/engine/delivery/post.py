@@ -114,7 +114,7 @@ class Post:
         calls = recorder.calls.sent(service, number, raw)
         if not calls:
             return self._engine.now, []
-        return self._due("request", name, calls[0].client, server, len(raw), calls[0].asked), calls
+        return self._due("request", name, calls[0].client, server, len(raw), calls[0].requested), calls
 
     def response(self, client: Any) -> tuple[Any, Any] | None:
         """The header of the next response that has come to a client, and the response."""

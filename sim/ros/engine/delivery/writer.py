@@ -41,11 +41,11 @@ class Writer:
         topic: str,
         profile: QoSProfile,
         sender: str,
-        ours: bool = False,
+        from_course: bool = False,
         events: Iterable[EventHandler] = (),
     ) -> None:
         self.engine, self.handle, self.topic = engine, handle, topic
-        self.sender, self.ours = sender, ours
+        self.sender, self.from_course = sender, from_course
         self.type = type_name(type_)
         found = _rclpy.rclpy_get_publishers_info_by_topic
         self.profile = settled(profile, lambda: found(node, topic, False))
@@ -66,7 +66,7 @@ class Writer:
         raw = canonical(self.type, raw)
         self.send(raw)
         early = self.engine.now == self.made and not latches(self.profile)
-        self.engine.recorder.message(self.topic, self.type, self.sender, raw, self.ours, early)
+        self.engine.recorder.message(self.topic, self.type, self.sender, raw, self.from_course, early)
 
     def send(self, raw: bytes) -> None:
         """Publish a message's canonical bytes. Raises what rclpy does for a publisher that was destroyed."""
@@ -91,7 +91,7 @@ class Writer:
                 if reader.liveliness is not None:
                     reader.liveliness.sign(self)
             else:
-                self.engine.recorder.unheard(self.sender, self.topic)
+                self.engine.recorder.undelivered(self.sender, self.topic)
         if self.outgoing is not None:
             self.outgoing.send(sent)
 

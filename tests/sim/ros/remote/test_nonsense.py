@@ -350,7 +350,7 @@ def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it(
     half = QUIET | {"next": END // 2}
     with answering(half | {"news": [SERVES]}, half, news(again)) as remote:
         made = run(Asker, remote, seconds=1, quiet=True).calls
-    assert [(call.client, call.asked) for call in made] == [("/asker", 0.25)] * 2
+    assert [(call.client, call.requested) for call in made] == [("/asker", 0.25)] * 2
 
 
 def test_what_is_no_message_ends_the_run():
