@@ -1,7 +1,7 @@
-"""Nodes of a run that live in another process.
+"""Runs whose student nodes live in another process.
 
-One process leads a run and is believed: it has the world, our own nodes and the recording. The other one only
-serves the student's nodes; it hears what they may hear, when they may hear it.
+The leader process has the world, the course's nodes and the recording, and is trusted. The follower process
+runs the student's nodes; it receives only what they may receive, at the simulated time at which they may.
 """
 
 from sim.ros.fibers.exceptions import RemoteLost

@@ -1,8 +1,8 @@
-"""The events that cross between the two sides of a run, each of its own type.
+"""The events that the two processes of a run exchange, one type for each kind.
 
-On the wire an event is a list: its word, and its fields in their order. The annotations say what a field
-should be; what another process sends may be anything, and is looked at by whoever reads it. Numbers of ends
-and nodes, and keys of requests and goals, are chosen by the side that begins to use them.
+On the wire an event is a list: its name, then its fields in order. The annotations say what a field should
+be; a received field may be anything, and the code that uses it validates it. Numbers of endpoints and nodes,
+and keys of requests and goals, are chosen by the process that uses them first.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from sim.ros.remote.checked import Nonsense, rows
+from sim.ros.remote.validation import ProtocolError, valid_list
 
-MOST_EVENTS = 100_000  # in one message
-ALL_EVENTS = 3_000_000  # in a run
+MAX_EVENTS_PER_MESSAGE = 100_000
+MAX_EVENTS_PER_RUN = 3_000_000
 
 
-class End(NamedTuple):
-    """A node has declared one end of a topic, service or action; with a QoS profile, but for actions."""
+class EndpointDeclared(NamedTuple):
+    """A node has created an endpoint of a topic, service or action. Actions have no QoS profile."""
 
     number: int
     node: int
@@ -28,14 +28,14 @@ class End(NamedTuple):
     profile: list[int] | None
 
 
-class Gone(NamedTuple):
-    """Ends were destroyed."""
+class EndpointsDestroyed(NamedTuple):
+    """Endpoints were destroyed."""
 
     numbers: list[int]
 
 
-class MessageEvent(NamedTuple):
-    """A message was published; on a topic of an action by nobody in particular. early: as of `Heard`."""
+class MessagePublished(NamedTuple):
+    """A message was published. node: empty for a topic of an action. early: as in `sim.evidence.Message`."""
 
     node: str
     topic: str
@@ -43,10 +43,10 @@ class MessageEvent(NamedTuple):
     early: bool
 
 
-class Arrived(NamedTuple):
-    """A message has come through the network to a subscription of the other side.
+class MessageDelivered(NamedTuple):
+    """The simulated network has delivered a message to a subscription of the other process.
 
-    stamp, count, expires: as of `Sent`. missed: so many have not come before it.
+    stamp, count, expires: as of `Sent`. missed: how many were lost just before it.
     """
 
     number: int
@@ -57,22 +57,22 @@ class Arrived(NamedTuple):
     missed: int
 
 
-class Sign(NamedTuple):
-    """A publisher's sign of life has come through the network to a subscription of the other side."""
+class LivelinessDelivered(NamedTuple):
+    """The simulated network has delivered a liveliness assertion to a subscription of the other process."""
 
     number: int
     node: str
 
 
-class Alive(NamedTuple):
-    """A publisher of this side says that it is alive."""
+class LivelinessAsserted(NamedTuple):
+    """A publisher of this process has asserted its liveliness."""
 
     node: str
     topic: str
 
 
-class Ask(NamedTuple):
-    """A client of this side asks a service of the other."""
+class RequestSent(NamedTuple):
+    """A client of this process has sent a request to a service of the other."""
 
     key: int
     service: str
@@ -80,54 +80,54 @@ class Ask(NamedTuple):
     raw: bytes
 
 
-class Answer(NamedTuple):
-    """A service of this side answers."""
+class ResponseSent(NamedTuple):
+    """A service of this process has sent a response to a client of the other."""
 
     key: int
     raw: bytes
 
 
-class CallMade(NamedTuple):
-    """A call between nodes of this side."""
+class CallRequested(NamedTuple):
+    """A client of this process has sent a request to a service of this process. timed: at a known time."""
 
     key: int
     service: str
     type: str
     client: str
-    asked: bool
+    timed: bool
     raw: bytes
     lost: bool
 
 
-class CallTaken(NamedTuple):
-    """A server of this side took a call's request."""
+class CallStarted(NamedTuple):
+    """A server of this process has taken a call's request."""
 
     key: int
     server: str
 
 
 class CallRaised(NamedTuple):
-    """An exception left the callback of its server."""
+    """The server's callback has raised an exception."""
 
     key: int
     error: str
 
 
 class CallAnswered(NamedTuple):
-    """A server of this side answered a client of this side."""
+    """A server of this process has answered a client of this process."""
 
     key: int
     raw: bytes
 
 
 class CallReceived(NamedTuple):
-    """A client of this side got its response."""
+    """A client of this process has received its response."""
 
     key: int
 
 
-class GoalMade(NamedTuple):
-    """A client of this side sent a goal; without one, a server of this side took a goal of the other side."""
+class GoalRequested(NamedTuple):
+    """A client of this process has sent a goal. client: empty for a goal of the other process taken here."""
 
     key: int
     action: str
@@ -138,95 +138,95 @@ class GoalMade(NamedTuple):
     lost: bool
 
 
-class GoalTaken(NamedTuple):
-    """A server of this side took a goal."""
+class GoalStarted(NamedTuple):
+    """A server of this process has taken a goal."""
 
     key: int
     server: str
 
 
 class GoalEvent(NamedTuple):
-    """A goal has another status, or was to be canceled; see `Goal.events`."""
+    """A goal's status has changed, or its cancellation was requested; see `Goal.events`."""
 
     key: int
-    word: str
+    event: str
 
 
 class GoalFeedback(NamedTuple):
-    """A server of this side sent feedback on a goal."""
+    """A server of this process has sent feedback on a goal."""
 
     key: int
     raw: bytes
 
 
 class GoalResult(NamedTuple):
-    """A server of this side has a goal's result."""
+    """A server of this process has set a goal's result."""
 
     key: int
     raw: bytes
 
 
 class GoalAnswered(NamedTuple):
-    """A client of this side heard whether its goal is accepted."""
+    """A client of this process has received the acceptance or rejection of its goal."""
 
     key: int
 
 
 class GoalReceived(NamedTuple):
-    """A client of this side got its goal's result."""
+    """A client of this process has received its goal's result."""
 
     key: int
 
 
-WORDS: dict[type, str] = {
-    End: "end",
-    Gone: "gone",
-    MessageEvent: "message",
-    Arrived: "arrived",
-    Sign: "sign",
-    Alive: "alive",
-    Ask: "ask",
-    Answer: "answer",
-    CallMade: "call",
-    CallTaken: "taken",
-    CallRaised: "raised",
-    CallAnswered: "response",
-    CallReceived: "received",
-    GoalMade: "goal",
-    GoalTaken: "goal taken",
+EVENT_NAMES: dict[type, str] = {
+    EndpointDeclared: "endpoint",
+    EndpointsDestroyed: "destroyed",
+    MessagePublished: "message",
+    MessageDelivered: "delivered",
+    LivelinessDelivered: "liveliness delivered",
+    LivelinessAsserted: "liveliness",
+    RequestSent: "request",
+    ResponseSent: "response",
+    CallRequested: "call",
+    CallStarted: "call started",
+    CallRaised: "call raised",
+    CallAnswered: "call answered",
+    CallReceived: "call received",
+    GoalRequested: "goal",
+    GoalStarted: "goal started",
     GoalEvent: "goal event",
     GoalFeedback: "goal feedback",
     GoalResult: "goal result",
     GoalAnswered: "goal answered",
     GoalReceived: "goal received",
 }
-_TYPES = {word: type_ for type_, word in WORDS.items()}
+_TYPES = {name: type_ for type_, name in EVENT_NAMES.items()}
 
 
-def row(event: Any) -> list[Any]:
-    """An event as it goes over the wire."""
-    return [WORDS[type(event)], *event]
+def to_wire(event: Any) -> list[Any]:
+    """The list that represents an event on the wire."""
+    return [EVENT_NAMES[type(event)], *event]
 
 
-class Incoming:
-    """The events that come in during one run."""
+class EventReader:
+    """Decodes the events received during one run."""
 
     def __init__(self) -> None:
         self._count = 0
 
-    def read(self, news: Any) -> Iterator[Any]:
-        """The events of these rows; their fields are whatever was sent. Raises Nonsense for what is none."""
-        self._count += len(rows(news, "events", MOST_EVENTS))
-        if self._count > ALL_EVENTS:
-            raise Nonsense(f"more than {ALL_EVENTS} events")
-        yield from map(_event, news)
+    def read(self, received: Any) -> Iterator[Any]:
+        """The events of these lists, with unchecked fields. Raises ProtocolError for what is not an event."""
+        self._count += len(valid_list(received, "events", MAX_EVENTS_PER_MESSAGE))
+        if self._count > MAX_EVENTS_PER_RUN:
+            raise ProtocolError(f"more than {MAX_EVENTS_PER_RUN} events")
+        yield from map(_from_wire, received)
 
 
-def _event(sent: Any) -> Any:
-    word = sent[0] if isinstance(sent, list) and sent else None
-    type_ = _TYPES.get(word) if isinstance(word, str) else None
+def _from_wire(received: Any) -> Any:
+    name = received[0] if isinstance(received, list) and received else None
+    type_ = _TYPES.get(name) if isinstance(name, str) else None
     if type_ is None:
-        raise Nonsense("an event of no known kind")
-    if len(sent) - 1 != len(type_._fields):
-        raise Nonsense(f"the event {word!r} with {len(sent) - 1} parts, not {len(type_._fields)}")
-    return type_(*sent[1:])
+        raise ProtocolError("an event of no known kind")
+    if len(received) - 1 != len(type_._fields):
+        raise ProtocolError(f"the event {name!r} with {len(received) - 1} parts, not {len(type_._fields)}")
+    return type_(*received[1:])

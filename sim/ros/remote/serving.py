@@ -1,4 +1,4 @@
-"""The process in which the student's nodes live. It follows: the other side leads."""
+"""The follower: the process in which the student's nodes run, led by the other process."""
 
 from __future__ import annotations
 
@@ -11,20 +11,19 @@ from sim.nanoseconds import Nanoseconds
 from sim.ros.engine.endings import blocked
 from sim.ros.engine.processes import StudentProcess
 from sim.ros.fibers.exceptions import Livelock
-from sim.ros.remote.checked import MOST_WRITTEN
-from sim.ros.remote.reports import Reports
+from sim.ros.remote.follower_link import FollowerLink
+from sim.ros.remote.validation import MAX_STDERR_LENGTH
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
 from sim.ros.session import FOREVER, Session
 
-MOST_ROUNDS = 20  # in one turn: the other side waits for its end, and looks after time
+MAX_ROUNDS_PER_TURN = 20  # in one turn, after which the leader checks its time limits
 
 
 def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
-    """Let the other end of the wire run these nodes, as often as it likes; returns its last message.
+    """Run these nodes for the leader at the other end of the wire; returns its last message.
 
-    nodes: what `sim.run` takes. Questions about them, and what is to be run in place of each, are functions
-    named as "module:function": this side belongs to the nodes, and hides nothing from the other. Raises
-    WireError when the wire breaks.
+    nodes: what `sim.run` takes. The leader names functions to call with them as "module:function"; this
+    process is the student's, so it has nothing to protect from the leader. Raises WireError.
     """
     while True:
         message = wire.receive()
@@ -54,17 +53,17 @@ def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
         programs = prepared(nodes, prepare, words)
         session = Follower(orders, programs, order["seconds"], order["seed"])
         session.advance()
-        orders.answer(stderr=session.recording.stderr[:MOST_WRITTEN])
+        orders.answer(stderr=session.recording.stderr[:MAX_STDERR_LENGTH])
     except (WireClosed, WireTimeout):
         raise
-    except BaseException as error:  # this side goes on to serve, whatever ended the run here
-        # Of the system's errors without the file: its name tells of this machine.
+    except BaseException as error:  # keep serving, whatever ended the run
+        # Leave out an OSError's file name, which would describe this machine.
         words = getattr(error, "strerror", None) or error
         orders.answer(failed=f"{type(error).__name__}: {words}")
 
 
 def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, words: Sequence[str]) -> list[Any]:
-    """What runs in place of the nodes. prepare: makes of each the one that runs, or a list of those."""
+    """The programs to run for the nodes. prepare: returns a program, or a list of them, for each node."""
     if prepare is None:
         return list(nodes)
     made = [prepare(node, *words) for node in nodes]
@@ -72,19 +71,19 @@ def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, words: Se
 
 
 class Orders:
-    """What the other side orders in a run, one thing after the other, and an answer to each."""
+    """Receives the leader's orders during a run, and sends an answer to each."""
 
     def __init__(self, wire: Wire) -> None:
         self._wire, self._due = wire, False
 
     def next(self) -> dict[str, Any]:
-        """The next one."""
+        """The next order."""
         order = self._wire.receive()
         self._due = True
         return order
 
     def answer(self, **message: Any) -> None:
-        """The answer to the last one; to the next, if that has its answer already."""
+        """Answer the last order or, if that is answered already, the next one."""
         if not self._due:
             self.next()
         self._wire.send(**message)
@@ -92,17 +91,17 @@ class Orders:
 
 
 class Follower(Session):
-    """A run whose time is that of the other side."""
+    """A run whose simulated time is set by the leader."""
 
     def __init__(self, orders: Orders, nodes: tuple[Any, ...], seconds: float, seed: int) -> None:
         super().__init__(nodes, None, seconds, seed, None, True, "grade")
         self._orders = orders
 
     def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Generator[Nanoseconds, None, Ended]:
-        link = Reports(self.engine)
+        link = FollowerLink(self.engine)
         while (order := self._orders.next()).get("do") == "go":
             self._move_to(order["now"])
-            link.enter(order["news"])
+            link.apply(order["events"])
             busy = self._rounds(link)
             self._orders.answer(**self._answer(link, busy, end))
             yield order["now"]
@@ -114,30 +113,30 @@ class Follower(Session):
             engine.time.move_to(now)
             engine.begin_moment()
 
-    def _rounds(self, link: Reports) -> bool:
-        """Let the nodes go on until they wait or have news for the other side; whether they could go on."""
+    def _rounds(self, link: FollowerLink) -> bool:
+        """Run the nodes until they wait or have events for the leader; returns whether they could go on."""
         engine, busy = self.engine, True
         try:
-            for _ in range(MOST_ROUNDS):
+            for _ in range(MAX_ROUNDS_PER_TURN):
                 engine.limits.check_pace()
                 engine.round()
-                link.gather()
+                link.collect()
                 left = [fiber for fiber in engine.fibers if not fiber.done]
                 waits = any(fiber.runnable() for fiber in left) or engine.agenda.next(FOREVER) <= engine.now
                 busy = engine.fault is None and waits
-                if link.news or not busy:
+                if link.outgoing or not busy:
                     break
-        except Livelock:  # its reason is kept
-            link.gather()
+        except Livelock:  # the engine has stored the reason
+            link.collect()
             return False
         return busy
 
-    def _answer(self, link: Reports, busy: bool, end: Nanoseconds) -> dict[str, Any]:
+    def _answer(self, link: FollowerLink, busy: bool, end: Nanoseconds) -> dict[str, Any]:
         engine = self.engine
         fault, planned = engine.fault, engine.agenda.next(end)
         return {
-            "news": link.take_news(),
-            "claims": link.claims(),
+            "events": link.take_outgoing(),
+            "self_reports": link.take_self_reports(),
             "next": engine.time.next_moment(end if planned <= engine.now else planned),
             "busy": busy,
             "alive": any(not fiber.done for fiber in engine.fibers),

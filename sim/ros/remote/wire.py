@@ -1,4 +1,4 @@
-"""A wire between two processes: messages, one after the other, over a connected unix stream socket.
+"""Messages between two processes, over a connected Unix stream socket.
 
 A message is a dictionary of plain data (texts, numbers, bytes, lists, dictionaries), packed by MessagePack.
 """
@@ -12,43 +12,43 @@ from typing import Any, NoReturn
 
 import msgpack
 
-_LENGTH = struct.Struct(">I")  # before each message, the number of its bytes
-HALVES = "surrogatepass"  # half a character, as in "\\ud83d", may be in what a student prints
-_PIECE = 1 << 16  # bytes asked for at a time: a false length must not cost memory
+_LENGTH = struct.Struct(">I")  # length prefix of each message, in bytes
+HALVES = "surrogatepass"  # a student may print a lone surrogate such as "\\ud83d"
+_CHUNK = 1 << 16  # bytes received at a time, so that a false length can't cost memory
 
 
 class WireError(Exception):
-    """The wire is of no use any more, or for now."""
+    """Sending or receiving has failed."""
 
 
 class WireClosed(WireError):
-    """The other side has gone."""
+    """The other process has closed the connection."""
 
 
 class WireTimeout(WireError):
-    """The other side did nothing in time."""
+    """The other process did not send or receive in time."""
 
 
 class WireBroken(WireError):
-    """What came is no message, or what is to be sent can't be one."""
+    """Received bytes are no message, or a value can't be sent as one."""
 
 
 class Wire:
-    """One end of the wire. Not for several threads.
+    """One end of a connection; not thread-safe.
 
     limit: the largest message that is sent or accepted, in bytes.
-    patience: wall seconds that the other side may take to make room for a message that is sent.
+    patience: wall seconds until the other process must have accepted a message.
     """
 
     def __init__(self, sock: socket.socket, limit: int = 64_000_000, patience: float = 60.0) -> None:
         self._socket, self._limit, self._patience = sock, limit, patience
         self._packer = msgpack.Packer(unicode_errors=HALVES)
-        self._received = bytearray()  # of the message under way, and what came behind it
+        self._received = bytearray()  # of the current message and those after it
 
     def send(self, **message: Any) -> None:
         """Send one message.
 
-        Raises WireBroken for what is no plain data and for too long a message, WireClosed, WireTimeout.
+        Raises WireBroken if the value is no plain data or the message too long, WireClosed, WireTimeout.
         """
         try:
             body = self._packer.pack(message)
@@ -62,10 +62,10 @@ class Wire:
         except TimeoutError:
             raise WireTimeout(f"the other side took no message for {self._patience:g} s") from None
         except OSError:
-            self._gone()
+            self._raise_closed()
 
     def receive(self, timeout: float | None = None) -> dict[str, Any]:
-        """The next message. timeout: wall seconds until all of it must be there; None waits for ever.
+        """The next message. timeout: wall seconds until it must be complete; None waits forever.
 
         Raises WireTimeout, after which the rest can still be received; WireClosed; WireBroken.
         """
@@ -86,25 +86,25 @@ class Wire:
         return message
 
     def close(self) -> None:
-        """Hang up: the other side gets WireClosed."""
+        """Close the connection: the other process gets WireClosed."""
         self._socket.close()
 
     def _fill(self, size: int, deadline: float | None, timeout: float | None) -> None:
-        """Receive until there are `size` bytes of the message under way."""
+        """Receive until `size` bytes are buffered."""
         while len(self._received) < size:
             left = None if deadline is None else deadline - monotonic()
             try:
                 if left is not None and left <= 0:
                     raise TimeoutError
                 self._socket.settimeout(left)
-                piece = self._socket.recv(_PIECE)
+                chunk = self._socket.recv(_CHUNK)
             except TimeoutError:
                 raise WireTimeout(f"nothing whole came for {timeout:g} s") from None
             except OSError:
-                self._gone()
-            if not piece:
-                self._gone()
-            self._received += piece
+                self._raise_closed()
+            if not chunk:
+                self._raise_closed()
+            self._received += chunk
 
-    def _gone(self) -> NoReturn:
+    def _raise_closed(self) -> NoReturn:
         raise WireClosed("the other side has hung up") from None

@@ -10,8 +10,8 @@ from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.judge.notebook_run import LEFT_OUT
 from grader.marking.result import Result
 from grader.marking.task import TimeLimits
-from sim.ros.remote.events import Message
-from sim.ros.remote.ledger import Ledger
+from sim.ros.remote.events import MessagePublished
+from sim.ros.remote.leader_link import LeaderLink
 from tests.marking.assignment import GREETER, RIGHT, hand_in, release, task
 from tests.marking.student_processes import QUICK, USUAL
 
@@ -350,8 +350,8 @@ def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked,
     def fails(*_):
         raise RuntimeError("an end that is gone")
 
-    monkeypatch.setattr(Ledger, "_message", fails)
-    monkeypatch.setitem(Ledger.HANDLERS, Message, fails)
+    monkeypatch.setattr(LeaderLink, "_message_published", fails)
+    monkeypatch.setitem(LeaderLink.HANDLERS, MessagePublished, fails)
     result = marked()
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
     assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
@@ -365,11 +365,11 @@ def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked,
 
 def test_who_sends_nonsense_loses_that_exercise(marked):
     forging = f"""
-from sim.ros.remote.reports import Reports
-honest = Reports.take_news
-Reports.take_news = lambda self: [["dance"]]
+from sim.ros.remote.follower_link import FollowerLink
+honest = FollowerLink.take_outgoing
+FollowerLink.take_outgoing = lambda self: [["dance"]]
 {GREETER}"""
-    honest = f"Reports.take_news = honest\n{RIGHT['temperature']}"
+    honest = f"FollowerLink.take_outgoing = honest\n{RIGHT['temperature']}"
     result = marked(greeting=forging, temperature=honest, greeting_see="")
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.flags[-1] == (

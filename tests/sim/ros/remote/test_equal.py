@@ -168,7 +168,7 @@ def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look
 
         def look(self):
             if link := engine().link:
-                made.append(len(link.puppets.services))
+                made.append(len(link.proxies.services))
             self.get_logger().info(f"{look(self)}")
 
     with apart.serving(f"{ENGINE}.services", "Adder") as remote:

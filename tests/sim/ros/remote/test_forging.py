@@ -65,7 +65,7 @@ def test_the_secret_changes_what_the_nodes_draw(apart):
         (
             "Heavy",
             120.0,
-            "The nodes could not be run: WireBroken: a message of 80000187 bytes is too long: "
+            "The nodes could not be run: WireBroken: a message of 80000195 bytes is too long: "
             "64000000 are allowed.",
         ),
         (

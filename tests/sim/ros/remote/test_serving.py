@@ -69,7 +69,7 @@ def test_it_tells_whether_there_is_something_to_run(wires, nodes):
 
 def test_nodes_that_can_t_be_run_are_told_of(wires):
     wires[0].send(do="run", seconds=1.0, seed=0, preparation="")
-    wires[0].send(do="go", now=0, news=[])
+    wires[0].send(do="go", now=0, events=[])
     Remote(wires[0]).end()
     assert serve(wires[1], [5]) == {"do": "end"}
     assert wires[0].receive(1) == {
@@ -80,7 +80,7 @@ def test_nodes_that_can_t_be_run_are_told_of(wires):
 
 def test_only_one_other_process_takes_part(wires):
     def answer():
-        far, quiet = wires[1], {"news": [], "claims": {}, "next": 10**9, "busy": False, "alive": True}
+        far, quiet = wires[1], {"events": [], "self_reports": {}, "next": 10**9, "busy": False, "alive": True}
         for _ in range(2):
             far.receive()
         far.send(**quiet, fault=None, blocked="")

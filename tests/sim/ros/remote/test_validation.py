@@ -18,7 +18,15 @@ from std_msgs.msg import String
 
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
-from sim.ros.remote.checked import ALL_TEXT, Nonsense, Texts, message, message_bytes, plain_qos, qos
+from sim.ros.remote.validation import (
+    MAX_TOTAL_TEXT,
+    ProtocolError,
+    TextBudget,
+    qos_to_list,
+    valid_message,
+    valid_message_bytes,
+    valid_qos,
+)
 
 MESSAGES = (
     String(data="hello world"),
@@ -32,31 +40,31 @@ MESSAGES = (
 
 @pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)
 def test_a_message_comes_as_it_was(original):
-    found, raw = message(encode(original), type(original), "a message")
+    found, raw = valid_message(encode(original), type(original), "a message")
     assert found == original
-    assert message(bytes(raw), type(original), "a message")[0] == original
+    assert valid_message(bytes(raw), type(original), "a message")[0] == original
     name = type_name(type(original))
-    assert canonical(name, message_bytes(encode(original), type(original), "")) == canonical(name, raw)
+    assert canonical(name, valid_message_bytes(encode(original), type(original), "")) == canonical(name, raw)
 
 
 @pytest.mark.parametrize("sent", [encode(Twist())[:-1], encode(Twist())[:20], "a text", 7, None])
 def test_what_is_no_twist_is_refused(sent):
-    with pytest.raises(Nonsense, match=r"^a command that is no geometry_msgs/msg/Twist$"):
-        message_bytes(sent, Twist, "a command")
+    with pytest.raises(ProtocolError, match=r"^a command that is no geometry_msgs/msg/Twist$"):
+        valid_message_bytes(sent, Twist, "a command")
 
 
 def test_names_count_once_and_other_texts_each_time(monkeypatch):
-    monkeypatch.setattr("sim.ros.remote.checked.MOST_KNOWN", 2)
-    texts, name = Texts(), "n" * 200
-    for _ in range(ALL_TEXT // len(name) + 1):
+    monkeypatch.setattr("sim.ros.remote.validation.MAX_CACHED_NAMES", 2)
+    texts, name = TextBudget(), "n" * 200
+    for _ in range(MAX_TOTAL_TEXT // len(name) + 1):
         assert texts.name(name, "a name") == name
     assert texts.name("/lidar\ud83d", "a name") == "/lidar?"
     texts.take("t" * 10, "a text", 10)
-    with pytest.raises(Nonsense, match=r"^a name that is no text$"):
+    with pytest.raises(ProtocolError, match=r"^a name that is no text$"):
         texts.name(["a", "list"], "a name")
-    words = f"more than {ALL_TEXT} characters of log lines, names and the like"
-    with pytest.raises(Nonsense, match=f"^{words}$"):
-        for _ in range(ALL_TEXT // len(name) + 1):  # one too many to be known
+    words = f"more than {MAX_TOTAL_TEXT} characters of log lines, names and the like"
+    with pytest.raises(ProtocolError, match=f"^{words}$"):
+        for _ in range(MAX_TOTAL_TEXT // len(name) + 1):  # one too many to be known
             texts.name("m" * len(name), "a name")
 
 
@@ -74,11 +82,11 @@ def test_spoilt_bytes_are_another_message_or_none(original):
                 (b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", chance.randbytes(4))
             )
         try:
-            _, written = message(bytes(raw), type(original), "a message")
-        except Nonsense:
+            _, written = valid_message(bytes(raw), type(original), "a message")
+        except ProtocolError:
             refused += 1
         else:
-            message(written, type(original), "a message")
+            valid_message(written, type(original), "a message")
     assert refused > 0
 
 
@@ -93,4 +101,4 @@ def test_spoilt_bytes_are_another_message_or_none(original):
     ],
 )
 def test_a_qos_profile_crosses_whole(profile):
-    assert qos(plain_qos(profile)) == profile
+    assert valid_qos(qos_to_list(profile)) == profile

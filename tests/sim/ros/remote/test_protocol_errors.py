@@ -1,4 +1,4 @@
-"""What the other process must not send: it ends the run with one sentence, and nothing of it is believed."""
+"""Invalid data from the other process ends the run with one sentence, and none of it is recorded."""
 
 import contextlib
 import math
@@ -18,17 +18,25 @@ from sim.ros.messages.codec import encode
 from sim.ros.remote import Remote, RemoteLost, Wire, WireError
 
 END = 1_000_000_000  # ns
-QUIET = {"news": [], "claims": {}, "next": END, "busy": False, "alive": True, "fault": None, "blocked": ""}
+QUIET = {
+    "events": [],
+    "self_reports": {},
+    "next": END,
+    "busy": False,
+    "alive": True,
+    "fault": None,
+    "blocked": "",
+}
 ENDED = {"stderr": ""}
 QOS = [10, 1, 2, 1, 0, 0, 0, 0]
 
 
 TWIST = encode(Twist())
 TOO_SHORT = b"\0\1\0\0\xff\xff\xff\xff"  # a text that would be longer
-TALKS = ["end", 1, 3, "/talker", "publisher", "/chat", "std_msgs/msg/String", QOS]
-SERVES = ["end", 11, 3, "/talker", "service", "/add", "example_interfaces/srv/AddTwoInts", QOS]
-ASKS = ["end", 5, 3, "/talker", "client", "/add", "example_interfaces/srv/AddTwoInts", QOS]
-ACTS = ["end", 7, 3, "/talker", "action client", "/fib", "example_interfaces/action/Fibonacci", None]
+TALKS = ["endpoint", 1, 3, "/talker", "publisher", "/chat", "std_msgs/msg/String", QOS]
+SERVES = ["endpoint", 11, 3, "/talker", "service", "/add", "example_interfaces/srv/AddTwoInts", QOS]
+ASKS = ["endpoint", 5, 3, "/talker", "client", "/add", "example_interfaces/srv/AddTwoInts", QOS]
+ACTS = ["endpoint", 7, 3, "/talker", "action client", "/fib", "example_interfaces/action/Fibonacci", None]
 CALL = ["call", 9, "/add", "example_interfaces/srv/AddTwoInts", "/talker", True, TWIST, False]
 ID = "00" * 16
 
@@ -66,12 +74,12 @@ def loses(*answers, over=ENDED) -> str:
     return lost.value.reason
 
 
-def news(*events) -> dict:
-    return QUIET | {"news": list(events)}
+def answer_with(*events) -> dict:
+    return QUIET | {"events": list(events)}
 
 
-def claims(**claimed) -> dict:
-    return QUIET | {"claims": claimed}
+def self_reports(**kinds) -> dict:
+    return QUIET | {"self_reports": kinds}
 
 
 def sent(reason: str) -> str:
@@ -90,8 +98,8 @@ def test_who_says_nothing_new_is_fine():
         ([["dance"]], "an event of no known kind"),
         ([[]], "an event of no known kind"),
         ([5], "an event of no known kind"),
-        ([[["end"]]], "an event of no known kind"),
-        ([["end", 1]], "the event 'end' with 1 parts, not 7"),
+        ([[["endpoint"]]], "an event of no known kind"),
+        ([["endpoint", 1]], "the event 'endpoint' with 1 parts, not 7"),
         ([TALKS, TALKS], "the end '/chat' of '/talker', which can't be"),
         ([[*TALKS[:3], "talker", *TALKS[4:]]], "the end '/chat' of 'talker', which can't be"),
         ([[*TALKS[:3], "/tal ker", *TALKS[4:]]], "the name '/chat' or '/tal ker', which ROS does not allow"),
@@ -100,8 +108,8 @@ def test_who_says_nothing_new_is_fine():
             [[*SERVES[:5], "/ad d", *SERVES[6:]]],
             "the name '/ad d' or '/talker', which ROS does not allow",
         ),
-        ([["end", "1", *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
-        ([["end", True, *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
+        ([["endpoint", "1", *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
+        ([["endpoint", True, *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
         ([[*TALKS[:4], "robot", *TALKS[5:]]], "an end of no known kind"),
         ([[*TALKS[:4], ["client"], *TALKS[5:]]], "an end of no known kind"),
         ([[*TALKS[:6], "os/msg/Path", QOS]], "the type os/msg/Path, which is not installed here"),
@@ -116,8 +124,8 @@ def test_who_says_nothing_new_is_fine():
         ([[*TALKS[:7], [10]]], "a QoS profile with parts missing"),
         ([[*TALKS[:7], [10, 99, *QOS[2:]]]], "the reliability 99, which there is none of"),
         ([[*TALKS[:7], [-1, *QOS[1:]]]], "a depth that is no whole number from 0 to 100000"),
-        ([["gone", [77]]], "the end of something that there is not"),
-        ([["gone", 77]], "numbers that are no list"),
+        ([["destroyed", [77]]], "the end of something that there is not"),
+        ([["destroyed", 77]], "numbers that are no list"),
         (
             [["message", "/talker", "/chat", TWIST, False]],
             "a message on '/chat', where '/talker' has no publisher",
@@ -126,9 +134,12 @@ def test_who_says_nothing_new_is_fine():
             [TALKS, ["message", "/robot", "/chat", TWIST, False]],
             "a message on '/chat', where '/robot' has no publisher",
         ),
-        ([TALKS, ["alive", "/robot", "/chat"]], "a sign of life on '/chat', where '/robot' has no publisher"),
-        ([TALKS, ["arrived", 1, "AA", 0, 1, 0, 0]], "an event of no known kind"),
-        ([TALKS, ["sign", 1, "/talker"]], "an event of no known kind"),
+        (
+            [TALKS, ["liveliness", "/robot", "/chat"]],
+            "a sign of life on '/chat', where '/robot' has no publisher",
+        ),
+        ([TALKS, ["delivered", 1, "AA", 0, 1, 0, 0]], "an event of no known kind"),
+        ([TALKS, ["liveliness delivered", 1, "/talker"]], "an event of no known kind"),
         (
             [TALKS, ["message", "/talker", "/chat", "AA", False]],
             "a message on /chat that is no std_msgs/msg/String",
@@ -145,23 +156,26 @@ def test_who_says_nothing_new_is_fine():
             [TALKS, ["message", "/talker", "/chat", TOO_SHORT, True]],
             "a message on /chat that is no std_msgs/msg/String",
         ),
-        ([["ask", 11, "/add", "/talker", TWIST]], "a request to '/add', of which '/talker' has no client"),
         (
-            [ASKS, ["ask", 11, "/add", "/talker", "AAEAAA=="]],
+            [["request", 11, "/add", "/talker", TWIST]],
+            "a request to '/add', of which '/talker' has no client",
+        ),
+        (
+            [ASKS, ["request", 11, "/add", "/talker", "AAEAAA=="]],
             "a request to /add that is no example_interfaces/srv/AddTwoInts_Request",
         ),
-        ([["answer", 2, TWIST]], "a response to a request that nobody has made"),
+        ([["response", 2, TWIST]], "a response to a request that nobody has made"),
         ([[*CALL[:6], "", False]], "a request that is no example_interfaces/srv/AddTwoInts_Request"),
         ([ASKS, ["call", 8, *CALL[2:]]], "a key that it may not choose"),
         ([CALL], "news of the node '/talker', which it does not have"),
         ([ASKS, CALL, CALL], "a key that it may not choose"),
-        ([["taken", 9, "/adder"]], "news of a call that there is not"),
-        ([ASKS, CALL, ["taken", 9, "/adder"]], "news of the node '/adder', which it does not have"),
+        ([["call started", 9, "/adder"]], "news of a call that there is not"),
+        ([ASKS, CALL, ["call started", 9, "/adder"]], "news of the node '/adder', which it does not have"),
         (
-            [ASKS, CALL, ["response", 9, "AAEAAA=="]],
+            [ASKS, CALL, ["call answered", 9, "AAEAAA=="]],
             "a response that is no example_interfaces/srv/AddTwoInts_Response",
         ),
-        ([["received", 9]], "news of a call that there is not"),
+        ([["call received", 9]], "news of a call that there is not"),
         (
             [["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False]],
             "a goal of '/fib', of which '/talker' has no client",
@@ -181,8 +195,8 @@ def test_who_says_nothing_new_is_fine():
             [
                 ACTS,
                 ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
-                ["goal taken", 9, "/talker"],
-                ["goal taken", 9, "/talker"],
+                ["goal started", 9, "/talker"],
+                ["goal started", 9, "/talker"],
             ],
             "a goal that another server has taken",
         ),
@@ -190,7 +204,7 @@ def test_who_says_nothing_new_is_fine():
             [
                 ACTS,
                 ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
-                ["goal taken", 9, "/fibber"],
+                ["goal started", 9, "/fibber"],
             ],
             "news of the node '/fibber', which it does not have",
         ),
@@ -198,11 +212,11 @@ def test_who_says_nothing_new_is_fine():
     ],
 )  # fmt: skip
 def test_an_event_that_can_t_be_ends_the_run(events, words):
-    assert loses(news(*events)) == sent(words)
+    assert loses(answer_with(*events)) == sent(words)
 
 
 @pytest.mark.parametrize(
-    ("claimed", "words"),
+    ("reports", "words"),
     [
         ({"logs": 5}, "logs that are no list"),
         ({"logs": [["INFO", "talker"]]}, "logs that are not lists of 3"),
@@ -228,14 +242,14 @@ def test_an_event_that_can_t_be_ends_the_run(events, words):
         ({"prints": [""] * 100_001}, "100001 prints at once; 100000 are allowed"),
     ],
 )  # fmt: skip
-def test_a_claim_that_can_t_be_ends_the_run(claimed, words):
-    assert loses(claims(**claimed)) == sent(words)
+def test_an_invalid_self_report_ends_the_run(reports, words):
+    assert loses(self_reports(**reports)) == sent(words)
 
 
 @pytest.mark.parametrize(
     ("answer", "words"),
     [
-        (QUIET | {"news": None}, "events that are no list"),
+        (QUIET | {"events": None}, "events that are no list"),
         (QUIET | {"next": 0}, "a next moment that is no whole number from 1 to 1000000000"),
         (QUIET | {"next": END + 1}, "a next moment that is no whole number from 1 to 1000000000"),
         (QUIET | {"next": None}, "a next moment that is no whole number from 1 to 1000000000"),
@@ -271,13 +285,13 @@ def test_who_is_never_done_with_a_moment_is_given_up():
 
 def test_who_floods_gets_a_livelock():
     hello = ["message", "/talker", "/chat", encode(String(data="hello")), False]
-    with answering(news(TALKS, *[hello] * 20_001)) as remote:
+    with answering(answer_with(TALKS, *[hello] * 20_001)) as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time move on.")
 
 
 def test_long_texts_are_cut_and_odd_ones_made_writable():
-    with answering(claims(logs=[["INFO", "a" * 999, "b" * 99_999], ["WARN", "x", "\ud800"]])) as remote:
+    with answering(self_reports(logs=[["INFO", "a" * 999, "b" * 99_999], ["WARN", "x", "\ud800"]])) as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert [(line.node, line.text) for line in recording.logs] == [("a" * 255, "b" * 20_000), ("x", "?")]
 
@@ -297,36 +311,36 @@ def test_a_stderr_that_is_no_text_ends_the_run():
 
 
 def test_who_makes_and_destroys_without_end_is_given_up(monkeypatch):
-    monkeypatch.setattr("sim.ros.remote.puppets.ALL_ENDS", 50)
-    again = [TALKS, ["gone", [1]]] * 50 + [TALKS]
-    assert loses(news(*again)) == sent(
+    monkeypatch.setattr("sim.ros.remote.proxies.MAX_ENDPOINTS_PER_RUN", 50)
+    again = [TALKS, ["destroyed", [1]]] * 50 + [TALKS]
+    assert loses(answer_with(*again)) == sent(
         "more than 50 ends of topics, services and actions, one after the other"
     )
 
 
 def test_all_events_of_a_run_have_a_limit(monkeypatch):
-    monkeypatch.setattr("sim.ros.remote.events.ALL_EVENTS", 2)
+    monkeypatch.setattr("sim.ros.remote.events.MAX_EVENTS_PER_RUN", 2)
     hello = ["message", "/talker", "/chat", encode(String(data="hello")), False]
-    assert loses(news(TALKS, hello) | {"next": 1}, news(hello)) == sent("more than 2 events")
+    assert loses(answer_with(TALKS, hello) | {"next": 1}, answer_with(hello)) == sent("more than 2 events")
 
 
 def test_all_texts_of_a_run_have_a_limit(monkeypatch):
-    monkeypatch.setattr("sim.ros.remote.checked.ALL_TEXT", 20)
+    monkeypatch.setattr("sim.ros.remote.validation.MAX_TOTAL_TEXT", 20)
     words = "more than 20 characters of log lines, names and the like"
-    assert loses(claims(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
-    assert loses(claims(prints=["x" * 21])) == sent(words)
-    assert loses(claims(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
+    assert loses(self_reports(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
+    assert loses(self_reports(prints=["x" * 21])) == sent(words)
+    assert loses(self_reports(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
 
 
 def test_what_takes_too_long_to_enter_ends_the_run():
-    with answering(news(TALKS), deadline=lambda: 0.0) as remote, pytest.raises(RemoteLost) as lost:
+    with answering(answer_with(TALKS), deadline=lambda: 0.0) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
     assert lost.value.reason == sent("more than can be looked at in the time that is left")
 
 
 @pytest.mark.parametrize("period", [2**64 - 1, math.inf, math.nan])
 def test_a_number_beyond_all_numbers_is_none(period):
-    assert loses(claims(timers=[["/talker", period, "tick"]])) == sent(
+    assert loses(self_reports(timers=[["/talker", period, "tick"]])) == sent(
         "a timer's period that is not a number from 0 to 1e+09"
     )
 
@@ -348,7 +362,7 @@ def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it(
     type_ = "example_interfaces/srv/AddTwoInts"
     again = ["call", 13, "/add", type_, "/asker", True, encode(AddTwoInts.Request(a=1, b=2)), False]
     half = QUIET | {"next": END // 2}
-    with answering(half | {"news": [SERVES]}, half, news(again)) as remote:
+    with answering(half | {"events": [SERVES]}, half, answer_with(again)) as remote:
         made = run(Asker, remote, seconds=1, quiet=True).calls
     assert [(call.client, call.requested) for call in made] == [("/asker", 0.25)] * 2
 
@@ -390,7 +404,7 @@ TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Compani
 
 def test_an_error_that_is_made_up_is_no_mistake_of_ours():
     made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
-    with answering({"answer": None}, claims(errors=[made_up])) as remote:
+    with answering({"answer": None}, self_reports(errors=[made_up])) as remote:
         score = TALKING.judge(RemoteCast(remote))
     assert (float(score), score.broken) == (0.0, [])
 

@@ -1,6 +1,6 @@
-"""What the other side's nodes say of themselves (log lines, exceptions, callbacks and the like).
+"""Records what the other process reports about its own nodes: log lines, exceptions, callbacks and so on.
 
-Nobody else can know whether it is so: it is looked at, cut to size and counted.
+No other process can verify these reports, so they are only validated, shortened and counted.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from sim.evidence import (
 )
 from sim.nanoseconds import SECOND
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
-from sim.ros.remote.checked import Nonsense, Texts, number, rows
+from sim.ros.remote.validation import ProtocolError, TextBudget, valid_float, valid_list
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
 
-MOST_CLAIMS = 100_000  # of a kind, in one message
-ALL_CLAIMS = 2_000_000  # in a run
-MOST_PERIOD = 1e9  # s, of a timer
+MAX_REPORTS_PER_MESSAGE = 100_000  # of each kind
+MAX_REPORTS_PER_RUN = 2_000_000
+MAX_TIMER_PERIOD = 1e9  # s
 KINDS = ("timer", "subscription", "service", "client", "action", "event", "guard condition", "task")
 
 
-class Claims:
-    """Writes them into the recording of one run. texts: those of the run."""
+class SelfReports:
+    """Writes the reports into the recording of one run."""
 
-    def __init__(self, engine: Engine, texts: Texts) -> None:
+    def __init__(self, engine: Engine, texts: TextBudget) -> None:
         self._engine, self._recording, self._texts = engine, engine.recording, texts
         self._count = 0
-        # What can be claimed: of how many parts, and what writes it down. With no parts it is one thing.
+        # Kind -> number of fields and what records them. With 0 fields a report is a single value.
         self._kinds: dict[str, tuple[int, Callable[..., None]]] = {
-            "nodes": (0, self._made),
+            "nodes": (0, self._node_created),
             "timers": (3, self._timer),
             "logs": (3, self._log),
             "prints": (0, self._printed),
@@ -49,19 +49,19 @@ class Claims:
             "callbacks": (5, self._callback),
         }
 
-    def believe(self, claims: dict[str, Any]) -> None:
-        """Write down what came in one message, by kind. Raises Nonsense for what can't be."""
+    def record(self, reports: dict[str, Any]) -> None:
+        """Record the reports of one message, given by kind. Raises ProtocolError for an invalid report."""
         for kind, (width, write) in self._kinds.items():
-            if kind in claims:
-                for claim in self._claimed(claims[kind], kind, width):
-                    write(*claim)
+            if kind in reports:
+                for report in self._valid(reports[kind], kind, width):
+                    write(*report)
 
-    def _claimed(self, claims: Any, kind: str, width: int) -> list[Any]:
-        found = rows(claims, kind, MOST_CLAIMS, width)
-        self._count += len(found)
-        if self._count > ALL_CLAIMS:
-            raise Nonsense(f"more than {ALL_CLAIMS} log lines, callbacks and the like")
-        return found if width else [(claim,) for claim in found]
+    def _valid(self, reports: Any, kind: str, width: int) -> list[Any]:
+        valid = valid_list(reports, kind, MAX_REPORTS_PER_MESSAGE, width)
+        self._count += len(valid)
+        if self._count > MAX_REPORTS_PER_RUN:
+            raise ProtocolError(f"more than {MAX_REPORTS_PER_RUN} log lines, callbacks and the like")
+        return valid if width else [(report,) for report in valid]
 
     @property
     def _now(self) -> float:
@@ -73,19 +73,19 @@ class Claims:
     def _name(self, name: Any) -> str:
         return self._texts.name(name, "a name")
 
-    # -- what is claimed -----------------------------------------------------------------------------
+    # -- kinds of reports ----------------------------------------------------------------------------
 
-    def _made(self, node: Any) -> None:
+    def _node_created(self, node: Any) -> None:
         self._engine.recorder.named(self._node(node), from_course=False)
 
     def _timer(self, node: Any, period: Any, callback: Any) -> None:
-        seconds = number(period, "a timer's period", 0, MOST_PERIOD)
+        seconds = valid_float(period, "a timer's period", 0, MAX_TIMER_PERIOD)
         timer = TimerInfo(self._node(node), seconds, self._name(callback))
         self._recording.graph.timers.append(timer)
 
     def _log(self, level: Any, logger: Any, line: Any) -> None:
         if level not in LEVELS.values():
-            raise Nonsense("a log line of no known level")
+            raise ProtocolError("a log line of no known level")
         logger, line = self._name(logger), self._texts.take(line, "a log line")
         if len(self._recording.logs) < MAX_LOG_LINES:
             self._recording.logs.append(LogLine(self._now, level, logger, line))
@@ -94,8 +94,8 @@ class Claims:
         self._engine.recorder.printed(self._texts.take(line, "a print"))
 
     def _error(self, *parts: Any) -> None:
-        told = (self._texts.take(part, "an error") for part in parts)
-        self._recording.errors.append(CallbackError(self._now, *told))
+        texts = (self._texts.take(part, "an error") for part in parts)
+        self._recording.errors.append(CallbackError(self._now, *texts))
 
     def _busy_loop(self, node: Any, place: Any) -> None:
         loop = BusyLoop(self._now, self._node(node), self._texts.take(place, "a busy loop"))
@@ -105,14 +105,14 @@ class Claims:
         self._recording.undelivered.append(UndeliveredMessage(self._now, self._node(node), self._node(topic)))
 
     def _parameter(self, node: Any, name: Any, declared: Any) -> None:
-        named = ParameterName(self._now, self._node(node), self._name(name), bool(declared))
-        self._recording.parameters.append(named)
+        parameter = ParameterName(self._now, self._node(node), self._name(name), bool(declared))
+        self._recording.parameters.append(parameter)
 
     def _callback(self, began: Any, lasted: Any, node: Any, callback: Any, kind: Any) -> None:
         if kind not in KINDS:
-            raise Nonsense("a callback of no known kind")
+            raise ProtocolError("a callback of no known kind")
         now = self._now
-        begin = number(began, "the beginning of a callback", 0, now)
-        length = number(lasted, "a callback's duration", 0, now - begin + 1 / SECOND)
+        begin = valid_float(began, "the beginning of a callback", 0, now)
+        length = valid_float(lasted, "a callback's duration", 0, now - begin + 1 / SECOND)
         run = CallbackRun(begin, length, self._name(node), self._name(callback), kind)
         self._recording.callbacks.append(run)
