@@ -8,14 +8,21 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from grader import seeds
-from grader.cast import Cast, LocalCast, Prepare, told
 from grader.checks.check import Check, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
+from grader.programs import LocalPrograms, Prepare, ProgramSource, serialize_preparation
 from grader.quiet import quiet_stderr
 from grader.score import Score
-from grader.slips import MOST_AFTER_ANOTHER, in_what_was_sent, mended, retyped, slips_of, with_half
+from grader.typos import (
+    MAX_CHAINED,
+    auto_correct,
+    only_wrong_types,
+    partial_credit,
+    typos_of,
+    with_right_types,
+)
 from grader.workspace.description import PYTHON
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
@@ -25,7 +32,7 @@ Companions = Sequence[Any] | Callable[[int], Sequence[Any]]
 
 
 class CompanionError(Exception):
-    """A node of ours, not the student's, raised: our mistake."""
+    """A node of the course raised an exception: not the student's mistake."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +42,7 @@ class Scenario:
     seconds: how long it lasts; 0 where nothing is run, and only the package is looked at.
     world: the name of a world, or None for a run without a robot; or a function of the seed that gives a
         World, such as `lambda seed: World.generate("maze", seed=seed)`.
-    companions: nodes of ours that run alongside, as for sim.run; or a function of the seed that gives them.
+    companions: programs of the course, as for sim.run; or a function of the seed that returns them.
     until: a function of the growing recording that ends the run early, as in sim.run.
     prepare: a module's function that makes of each of the student's programs the one that runs in its place.
     name: by which checks that hold in some scenarios only name this one.
@@ -53,19 +60,19 @@ class Scenario:
     network: Network | None = None
     fair: Sequence[int] = ()
 
-    def run(self, cast: Cast, seed: int, package: Package | None = None) -> Recording:
+    def run(self, source: ProgramSource, seed: int, package: Package | None = None) -> Recording:
         """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
 
-        Ours come first, as a robot's drivers are up before. Raises CompanionError when one of ours raised.
+        The course's programs start first, as a robot's drivers do. Raises CompanionError if one raised.
         """
-        recording = self._run(cast, seed) if self.seconds else Recording(seed=seed)
+        recording = self._run(source, seed) if self.seconds else Recording(seed=seed)
         return recording if package is None else PackageRun.of(recording, package)
 
-    def _run(self, cast: Cast, seed: int) -> Recording:
+    def _run(self, source: ProgramSource, seed: int) -> Recording:
         from sim import run
 
         recording = run(
-            *cast.programs(self.prepare),
+            *source.programs(self.prepare),
             companions=self.companions(seed) if callable(self.companions) else self.companions,
             world=self._world(seed),
             seconds=self.seconds,
@@ -157,7 +164,7 @@ class Exercise:
         for before in item.after:
             if before.name not in known:
                 raise ValueError(f"{where} comes after {before.name}, so list {before.name} first")
-            if item.asks and before.only and not (item.only and set(item.only) <= set(before.only)):
+            if item.takes_measured and before.only and not (item.only and set(item.only) <= set(before.only)):
                 places = ", ".join(before.only)
                 raise ValueError(f"{where} is handed what {before.name} measures only in {places}")
         strange = set(item.only) - {scenario.name for scenario in self.scenarios}
@@ -187,9 +194,9 @@ class Exercise:
         grading = current_grading()
         if grading.hand_over is not None:
             return grading.hand_over(self.name, nodes)
-        return self.judge(LocalCast(nodes), grading.secret)
+        return self.judge(LocalPrograms(nodes), grading.secret)
 
-    def judge(self, cast: Cast, secret: str = "") -> Score:
+    def judge(self, source: ProgramSource, secret: str = "") -> Score:
         """The same for programs wherever they live, on private worlds where there is a secret.
 
         Raises ValueError without a check that gives points, and what the cast raises.
@@ -197,22 +204,22 @@ class Exercise:
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
         with quiet_stderr():
-            found = cast.package(self.package, self.build_type) if self.package else cast.refusal()
+            found = source.package(self.package, self.build_type) if self.package else source.refusal()
             if isinstance(found, Fault):
                 reason = "Not judged: there is nothing to run."
                 verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
                 return Score(self.name, verdicts, title=self.title)
             try:
-                return self._run_and_judge(cast, secret, found)
+                return self._run_and_judge(source, secret, found)
             finally:
-                cast.leave()
+                source.leave()
 
-    def _run_and_judge(self, cast: Cast, secret: str, package: Package | None) -> Score:
+    def _run_and_judge(self, source: ProgramSource, secret: str, package: Package | None) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
         for scenario, seed in self.runs(secret):
             try:
-                recording, verdicts = self._judged(scenario, seed, cast, package)
+                recording, verdicts = self._judged(scenario, seed, source, package)
             except Exception as error:
                 recording = Recording(seed=seed)
                 verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
@@ -221,29 +228,30 @@ class Exercise:
         return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
 
     def _judged(
-        self, scenario: Scenario, seed: int, cast: Cast, package: Package | None
+        self, scenario: Scenario, seed: int, source: ProgramSource, package: Package | None
     ) -> tuple[Recording, list[Verdict]]:
-        """One run and its verdicts; where it shows a slip, with half of what a run without it earns."""
-        run = functools.partial(Scenario.run, cast=cast, seed=seed, package=package)
+        """One run and its verdicts; where it shows a typo, with half of what the corrected program earns."""
+        run = functools.partial(Scenario.run, source=source, seed=seed, package=package)
         recording = run(scenario)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
-        return recording, with_half(verdicts, self._without_slips(scenario, run, recording, verdicts))
+        return recording, partial_credit(verdicts, self._without_typos(scenario, run, recording, verdicts))
 
-    def _without_slips(
+    def _without_typos(
         self, scenario: Scenario, run: Callable[..., Recording], recording: Recording, verdicts: list[Verdict]
     ) -> list[Verdict]:
-        """The verdicts on the program with its slips mended; the same ones where it has none.
+        """The verdicts on the program with its typos corrected; the same verdicts if it has none.
 
-        A slip may hide another, as a misspelt name hides that the topic has another type.
+        One typo may hide another, as a misspelt name hides that the topic has another type.
         """
-        slips: list[str] = []
-        for _ in range(MOST_AFTER_ANOTHER):
-            new = [slip for slip in slips_of(recording, verdicts) if slip not in slips]
+        typos: list[str] = []
+        for _ in range(MAX_CHAINED):
+            new = [typo for typo in typos_of(recording, verdicts) if typo not in typos]
             if not new:
                 break
-            slips += new
-            if not in_what_was_sent(new):
-                mend = functools.partial(mended, told(scenario.prepare), *slips)
-                recording = run(replace(scenario, prepare=mend))
-            verdicts = judge(self.checks, retyped(recording, slips), scenario.name, may_end=self.may_end)
+            typos += new
+            if not only_wrong_types(new):
+                prepare = functools.partial(auto_correct, serialize_preparation(scenario.prepare), *typos)
+                recording = run(replace(scenario, prepare=prepare))
+            corrected = with_right_types(recording, typos)
+            verdicts = judge(self.checks, corrected, scenario.name, may_end=self.may_end)
         return verdicts

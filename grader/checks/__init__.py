@@ -23,7 +23,7 @@ from grader.checks.control import (
 )
 from grader.checks.joints import commands_within, draws, keeps_off, tip_at, tip_path
 from grader.checks.judge import Verdict, judge
-from grader.checks.logs import Said, answers, come_every, logs
+from grader.checks.logs import LogMatch, answers, come_every, logs
 from grader.checks.mistakes import usual_mistake
 from grader.checks.motion import (
     arrives,
@@ -46,10 +46,10 @@ __all__ = [
     "Check",
     "Encounter",
     "Job",
+    "LogMatch",
     "Missed",
     "Program",
     "Question",
-    "Said",
     "Shift",
     "Verdict",
     "accepts",

@@ -9,7 +9,7 @@ from typing import Any
 from grader.checks.check import Missed
 from grader.checks.ends import declared
 from grader.checks.fields import differing, read, told, words
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.checks.topics import longest_pause
 from sim.evidence import (
     CANCEL_REJECTED,
@@ -55,7 +55,7 @@ def sends_goals(recording: Recording, action: str, type: str = "", *, at_least: 
 def accepts(recording: Recording, action: str, *, where: Picks = _all) -> list[Goal]:
     """Every goal is accepted. where: picks the goals.
 
-    Raises Missed for the first that isn't, and without a server; without such goals as `silence`.
+    Raises Missed for the first that isn't, and without a server; without such goals as `no_data`.
     """
     return _decides(recording, action, where, "accepted", lambda goal: goal.at("accepted") is not None)
 
@@ -86,7 +86,7 @@ def finishes(
 
     status: succeeded, canceled or aborted. right: gives the fields of the right result and their values for
     a goal's request; other fields may be anything. within: seconds since the goal was accepted; None for any.
-    Raises Missed for the first goal that doesn't, with credit for those that do; without goals as `silence`.
+    Raises Missed for the first goal that doesn't, with credit for those that do; without goals as `no_data`.
     """
     goals = _goals(recording, action, where)
     misses = [miss for goal in goals if (miss := _unfinished(goal, status, right, within))]
@@ -128,7 +128,7 @@ def gives_feedback(
 
     hz: its rate in Hz of simulated time, to within `tolerance` as a fraction; 0 for any rate.
     rising, falling: a field that never goes back while a goal is executed, such as "distance_remaining".
-    Raises Missed for the first goal that doesn't; without such goals as `silence`.
+    Raises Missed for the first goal that doesn't; without such goals as `no_data`.
     """
     goals = [goal for goal in _goals(recording, action, where) if goal.at("executing") is not None]
     if not goals:
@@ -169,12 +169,12 @@ def _goes_one_way(goal: Goal, field: str, sign: int) -> None:
 def cancels(recording: Recording, action: str, *, within: Seconds = 1.0, where: Picks = _all) -> list[Goal]:
     """Every goal that a client wants to cancel ends as canceled within so many seconds of that.
 
-    Raises Missed for the first that doesn't; when nobody wanted to cancel one as `silence`.
+    Raises Missed for the first that doesn't; when nobody wanted to cancel one as `no_data`.
     """
     asked = [goal for goal in _goals(recording, action, where) if goal.at(CANCEL_REQUESTED) is not None]
     if not asked:
         speakers = recording.graph.ends("action client", action)
-        raise silence(recording, f"goals for {action} that somebody cancels", "none", speakers)
+        raise no_data(recording, f"goals for {action} that somebody cancels", "none", speakers)
     for goal in asked:
         began, ended = goal.at(CANCEL_REQUESTED) or 0.0, goal.at("canceled")
         if ended is None or ended - began > within + 1e-9:
@@ -194,7 +194,7 @@ def _goals(recording: Recording, action: str, where: Picks) -> list[Goal]:
     if not goals:
         serves_action(recording, action)
         saw = f"{len(recording.goals_of(action))}, and none of them is one"
-        raise silence(
+        raise no_data(
             recording, f"goals for {action} that fit", saw, recording.graph.ends("action client", action)
         )
     return goals

@@ -23,7 +23,7 @@ class Missed(Exception):
     credit: the fraction 0..1 of the check's points that is earned all the same.
     picture: "path" or "topics" where a figure of the recording says more than words.
     measured: with a credit, what checks that come after this one are handed.
-    slip: a name that was misspelt, and how it is written; or the type Float32 where Float64 was asked for, or
+    typo: a name that was misspelt, and the right one; or the type Float32 where Float64 is wanted, or
         the other way round.
     unsafe: the robot did what may hurt somebody: then the exercise gives no more than a part of its points.
     """
@@ -38,13 +38,13 @@ class Missed(Exception):
         credit: float = 0.0,
         picture: Picture = "",
         measured: Any = None,
-        slip: tuple[str, str] | None = None,
+        typo: tuple[str, str] | None = None,
         unsafe: bool = False,
     ) -> None:
         super().__init__(f"expected {expected}; saw {saw}")
         self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
         self.credit, self.picture, self.measured = fraction(credit), picture, measured
-        self.slip, self.unsafe = slip, unsafe
+        self.typo, self.unsafe = typo, unsafe
 
 
 @contextmanager
@@ -80,8 +80,8 @@ class Check:
         return self.function(recording, *measured)
 
     @property
-    def asks(self) -> int:
-        """How many of the results of `after` the function wants: all of them, or none."""
+    def takes_measured(self) -> int:
+        """How many results of `after` the function takes: all of them, or none."""
         return len(inspect.signature(self.function).parameters) - 1
 
     def holds_in(self, scenario: str) -> bool:
@@ -113,10 +113,10 @@ def new_check(
     before = (after,) if isinstance(after, Check) else tuple(after)
     places = (only,) if isinstance(only, str) else only
     made = Check(name, sentence, float(points), before, function, places, guess, lasts or bool(before))
-    if made.asks not in (0, len(before)):
+    if made.takes_measured not in (0, len(before)):
         raise ValueError(
             f"{name} takes a recording and nothing else, or also what each of its {len(before)} checks in "
-            f"`after` has measured; it takes {made.asks} more"
+            f"`after` has measured; it takes {made.takes_measured} more"
         )
     return made
 

@@ -44,16 +44,16 @@ def declared(recording: Recording, kind: str, name: str, type: str, expected: st
     wrong = next((end for end in found if type and end.type != type), None)
     if wrong:
         hint = f"Both ends of {_a(words.what)} must use the same {words.type}: on {name} it is {type}."
-        slip = (wrong.type, type) if kind == "publisher" and {wrong.type, type} == _FLOATS else None
-        raise Missed(expected, f"type {wrong.type} on {name}", hint, slip=slip)
+        typo = (wrong.type, type) if kind == "publisher" and {wrong.type, type} == _FLOATS else None
+        raise Missed(expected, f"type {wrong.type} on {name}", hint, typo=typo)
     if not found:
         connected = {end.name for end in recording.graph.ends(words.other)}
         # a connected one is no slip
         others = sorted({end.name for end in ends} - INFRASTRUCTURE_TOPICS - connected)
         near = closest_ros_name(name, others)
         saw = words.nobody + (f"; {words.instead.format(', '.join(others))}" if others else "")
-        hint, slip = (describe_difference(near, name), (near, name)) if near else ("", None)
-        raise Missed(expected, saw, hint, slip=slip)
+        hint, typo = (describe_difference(near, name), (near, name)) if near else ("", None)
+        raise Missed(expected, saw, hint, typo=typo)
     return found
 
 

@@ -20,9 +20,9 @@ Status = Literal["passed", "failed", "skipped", "broken"]
 
 BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
-EXPLAINED_BY_INTRUSION = "Not judged: nobody can tell what came from whom, see above."
+EXPLAINED_BY_SPOOFING = "Not judged: nobody can tell what came from whom, see above."
 EXPLAINED_BY_HINT = "Not judged: the hint above explains it."
-STAGED = "keeps_apart"  # the name of the line that tells of a topic or service with two owners
+SPOOFED_TOPICS = "keeps_apart"  # the name of the line that tells of a topic or service with two owners
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Verdict:
     alarm: str = ""
     run: int = 0  # index of the run it speaks of
     unsafe: bool = False  # as in Missed
-    slip: tuple[str, str] | None = None  # as in Missed
+    typo: tuple[str, str] | None = None  # as in Missed
 
     @property
     def earned(self) -> float:
@@ -67,13 +67,13 @@ def judge(
     The student's own error comes first and explains the checks that then miss. An error before the nodes were
     up leaves nothing to judge: everything is skipped.
     """
-    court = _Court(recording, may_end)
+    judging = _Judging(recording, may_end)
     for item in checks:
         if item.holds_in(scenario):
-            court.verdicts[item.name] = court.judge(item)
-    first = [faulty(court.fault)] if court.fault else []
-    first += [_staged(found) for found in court.intrusions[:1]]
-    return [*first, *court.verdicts.values()]
+            judging.verdicts[item.name] = judging.judge(item)
+    first = [faulty(judging.fault)] if judging.fault else []
+    first += [_spoofed(found) for found in judging.intrusions[:1]]
+    return [*first, *judging.verdicts.values()]
 
 
 def faulty(fault: Fault) -> Verdict:
@@ -81,10 +81,10 @@ def faulty(fault: Fault) -> Verdict:
     return Verdict("runs", fault.sentence, 0.0, "failed", 0.0, fault.expected, fault.saw, fault.hint)
 
 
-def _staged(found: Intrusion) -> Verdict:
+def _spoofed(found: Intrusion) -> Verdict:
     """The line that tells a student of an end where only another program has one. It carries no points."""
     return Verdict(
-        STAGED,
+        SPOOFED_TOPICS,
         "Topics and services of other programs are left to them.",
         0.0,
         "failed",
@@ -106,7 +106,7 @@ def broken(item: Check, error: BaseException) -> Verdict:
     return Verdict(item.name, item.sentence, item.points, "broken", 0.0, hint=BROKEN_HINT, alarm=alarm)
 
 
-class _Court:
+class _Judging:
     """Judges one recording, and remembers what is explained already: one mistake gives one red line."""
 
     def __init__(self, recording: Recording, may_end: bool) -> None:
@@ -125,7 +125,7 @@ class _Court:
         if unmet:
             return skipped(item, f"Not judged: first comes “{unmet.sentence}”")
         if item.after and self.intrusions:
-            return skipped(item, EXPLAINED_BY_INTRUSION)
+            return skipped(item, EXPLAINED_BY_SPOOFING)
         try:
             self.measured[item.name] = item(self.evidence, *self._handed(item))
         except Missed as missed:
@@ -139,17 +139,19 @@ class _Court:
         return Verdict(item.name, item.sentence, item.points, "passed", 1.0)
 
     def _handed(self, item: Check) -> list[Any]:
-        silent = [before.name for before in item.after if item.asks and before.name not in self.measured]
-        if silent:
+        unmeasured = [
+            before.name for before in item.after if item.takes_measured and before.name not in self.measured
+        ]
+        if unmeasured:
             raise ValueError(
-                f"{silent[0]} missed without saying what it measured: {item.name} can't be judged"
+                f"{unmeasured[0]} missed without saying what it measured: {item.name} can't be judged"
             )
-        return [self.measured[before.name] for before in item.after] if item.asks else []
+        return [self.measured[before.name] for before in item.after] if item.takes_measured else []
 
     def _missed(self, item: Check, missed: Missed) -> Verdict:
         cause = "" if missed.hint else explain(self.recording)
         if missed.credit == 0.0 and self.fault and not missed.unsafe:
-            return replace(skipped(item, EXPLAINED_BY_FAULT), slip=missed.slip)
+            return replace(skipped(item, EXPLAINED_BY_FAULT), typo=missed.typo)
         if missed.credit == 0.0 and cause in self.explained and not missed.unsafe:
             return skipped(item, EXPLAINED_BY_HINT)
         if cause:
@@ -165,7 +167,7 @@ class _Court:
             missed.hint or cause or missed.guess or item.guess,
             missed.picture,
             unsafe=missed.unsafe,
-            slip=missed.slip,
+            typo=missed.typo,
         )
 
 
@@ -185,5 +187,5 @@ def worst(checks: Sequence[Check], runs: Iterable[Sequence[Verdict]]) -> list[Ve
         for verdict in verdicts:
             found.setdefault(verdict.name, []).append(replace(verdict, run=index))
     chosen = [_worst_of(group) for group in found.values()]
-    order = ["runs", STAGED, *(item.name for item in checks)]
+    order = ["runs", SPOOFED_TOPICS, *(item.name for item in checks)]
     return sorted(chosen, key=lambda verdict: order.index(verdict.name))

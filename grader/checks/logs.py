@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from grader.checks.check import Missed
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.checks.work import worked_until
 from grader.diagnosis.activity import slow_callback
 from sim.evidence import LogLine, Message, Recording, Seconds
@@ -17,7 +17,7 @@ from sim.suggestions import closest_match
 FLOOD = 10.0  # times as many answers as were asked for earn nothing
 
 
-class Said(NamedTuple):
+class LogMatch(NamedTuple):
     """A log line that a pattern was found in, and the texts of the pattern's groups."""
 
     stamp: Seconds
@@ -28,7 +28,7 @@ class Said(NamedTuple):
 
 def logs(
     recording: Recording, pattern: str, *, level: str = "", at_least: int = 1, example: str = ""
-) -> list[Said]:
+) -> list[LogMatch]:
     """The log lines in which a regular expression is found (capital letters don't count).
 
     level: DEBUG, INFO, WARN, ERROR or FATAL; "" for any. example: such a line, for who reads no patterns.
@@ -36,7 +36,7 @@ def logs(
     """
     example = example or pattern
     texts = [
-        Said(line.stamp, line.level, line.text, match.groups())
+        LogMatch(line.stamp, line.level, line.text, match.groups())
         for line in recording.logs
         if not line.from_course and (match := re.search(pattern, line.text, re.IGNORECASE))
     ]
@@ -51,7 +51,7 @@ def logs(
 
 
 def _nearest(
-    recording: Recording, pattern: str, example: str, texts: list[Said], found: list[Said], level: str
+    recording: Recording, pattern: str, example: str, texts: list[LogMatch], found: list[LogMatch], level: str
 ) -> tuple[str, str]:
     """What was seen instead, and a hint."""
     if found:
@@ -79,8 +79,8 @@ def _most_similar(recording: Recording, example: str) -> str:
 
 
 def come_every(
-    recording: Recording, lines: list[Said], period: Seconds, *, credit: float = 0.0
-) -> list[Said]:
+    recording: Recording, lines: list[LogMatch], period: Seconds, *, credit: float = 0.0
+) -> list[LogMatch]:
     """The lines, which come one by one from the start of the run to its end, at the pace of a timer.
 
     credit: what is earned by the lines alone; checks that come after this one are handed them all the same.
@@ -105,7 +105,7 @@ def come_every(
     raise Missed(expected, _pace(stamps, gaps), hint, credit=credit, measured=lines)
 
 
-def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[Said]) -> None:
+def _set_by_a_timer(recording: Recording, period: Seconds, credit: float, lines: list[LogMatch]) -> None:
     if all(timer.node in recording.course_nodes for timer in recording.graph.timers):
         hint = (
             "A node hears nothing and answers nobody while a loop of its own sleeps: "
@@ -143,14 +143,14 @@ def answers(
     pattern: regular expression, or a function that gives one for each message.
     where: picks the messages that want an answer. what: what these are, such as "levels below 20 %".
     only: and none of the student's lines at this level comes after a message that wants no answer.
-    Raises Missed for the first message without an answer, and as `silence` when there is none to answer.
+    Raises Missed for the first message without an answer, and as `no_data` when there is none to answer.
     """
     heard = recording.messages(topic)
     asked = [one for one in heard if where(one)]
     if not asked:
         saw = f"none among the {len(heard)} on {topic}" if heard else "none"
         wanted = what or f"messages on {topic} that want a log line"
-        raise silence(recording, wanted, saw, recording.graph.publishers(topic))
+        raise no_data(recording, wanted, saw, recording.graph.publishers(topic))
     text = pattern if callable(pattern) else lambda heard: pattern
     open_ = [one for one in asked if not _lines_after(recording, one.stamp, within, text(one), level)]
     at_level = f" at level {level}" if level else ""

@@ -24,8 +24,8 @@ def named(recording: Recording, name: str) -> None:
     near = closest_ros_name(name, recording.graph.nodes)
     default = "The name of a node is set by super().__init__('name')."
     hint = describe_difference(near, name) if near else default
-    slip = ("__node", name.rpartition("/")[2]) if near else None
-    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, slip=slip)
+    typo = ("__node", name.rpartition("/")[2]) if near else None
+    raise Missed(f"a node called {name}", ", ".join(recording.graph.nodes) or "no node", hint, typo=typo)
 
 
 def has_timer(recording: Recording, period: float, *, tolerance: float = 1e-3) -> list[TimerInfo]:

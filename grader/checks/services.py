@@ -8,7 +8,7 @@ from typing import Any
 from grader.checks.check import Missed
 from grader.checks.ends import declared
 from grader.checks.fields import differing, read, told, words
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from sim.evidence import Call, Endpoint, Recording, Seconds
 
 
@@ -50,13 +50,13 @@ def responds(
     right: gives the fields of the right response and their values for a request, such as
     `lambda request: {"sum": request.a + request.b}`; other fields may be anything.
     where: picks the calls that are judged.
-    Raises Missed for the first that is not, and when nobody offers the service; without calls as `silence`.
+    Raises Missed for the first that is not, and when nobody offers the service; without calls as `no_data`.
     """
     asked = [call for call in recording.calls_of(service) if where(call) and _due(recording, call, within)]
     if not asked:
         serves(recording, service)
         saw = f"{len(recording.calls_of(service))}, and none of them is one"
-        raise silence(
+        raise no_data(
             recording, f"calls of {service} that want an answer", saw, recording.graph.ends("client", service)
         )
     misses = [miss for call in asked if (miss := _miss(call, right, within))]

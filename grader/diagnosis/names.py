@@ -23,7 +23,7 @@ def shared_name(recording: Recording) -> str:
     )
 
 
-def typing_slip(recording: Recording) -> str:
+def topic_name_typo(recording: Recording) -> str:
     """A topic with only publishers and one with only subscriptions, whose names are nearly the same.
 
     Between programs of ours it is what the exercise is about.
@@ -39,7 +39,7 @@ def typing_slip(recording: Recording) -> str:
     return ""
 
 
-def service_slip(recording: Recording) -> str:
+def service_name_typo(recording: Recording) -> str:
     """A client for something that nobody offers, of nearly the same name as what somebody does offer."""
     for kind, client_kind, what in (
         ("service", "client", "services"),

@@ -11,8 +11,8 @@ import sys
 from unittest import mock
 
 from grader import Exercise, Score
-from grader.cast import LocalCast
 from grader.catalogue import exercises
+from grader.programs import LocalPrograms
 from tests.exercises.adversaries import adversary
 from tests.exercises.assignment import first_run
 from tests.exercises.cards import Card
@@ -42,7 +42,7 @@ def card_of(topic: str, name: str) -> Card:
 def earned(exercise: Exercise, kind: str, program: object) -> Score:
     """The score of a program in a private world; in all of them where it may be lucky in one."""
     judge = exercise if kind == BY_LOT else first_run(exercise)
-    score = judge.judge(LocalCast(programs_of(program)), SECRET)
+    score = judge.judge(LocalPrograms(programs_of(program)), SECRET)
     assert score.broken == []
     return score
 

@@ -18,8 +18,8 @@ from typing import Any
 import nbformat
 
 from grader import Exercise
-from grader.cast import LocalCast
 from grader.checks import Missed
+from grader.programs import LocalPrograms
 from tests.exercises.score_tables import GRADES, ROOT, students
 from tests.exercises.seeds import right_nodes
 from tests.students.teams import programs_of
@@ -42,7 +42,7 @@ def unfair(exercise: Exercise, programs: tuple[Any, ...], seed: int) -> set[str]
     """The names of the scenarios in which these programs miss something with this seed."""
     tried = copy.copy(exercise)
     tried.scenarios = [replace(scenario, seed=seed) for scenario in exercise.scenarios]
-    score = tried.judge(LocalCast(programs))
+    score = tried.judge(LocalPrograms(programs))
     missed = {verdict.run for verdict in score.verdicts if verdict.status != "passed"}
     everywhere = [check for check in exercise.checks if not check.only]  # a verdict names the first run alone
     for run, recording in enumerate(score.recordings):

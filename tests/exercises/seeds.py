@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator
 
 from grader import Exercise
-from grader.cast import LocalCast
+from grader.programs import LocalPrograms
 from tests.exercises.score_tables import graded_exercises, page, shown, students
 from tests.students.teams import programs_of
 
@@ -24,7 +24,7 @@ def fallen_short(topic: str, name: str, numbers: range) -> Iterator[str]:
     exercise, nodes, right = exercise_of(topic, name), students(topic, name), right_nodes(topic, name)
     for number in numbers:
         node = right[number % len(right)]
-        score = exercise.judge(LocalCast(programs_of(nodes[node])), f"secret {number}")
+        score = exercise.judge(LocalPrograms(programs_of(nodes[node])), f"secret {number}")
         if shown(node, score) != f"{node}: {exercise.points:g}":
             yield f"secret {number}: {shown(node, score)}"
 

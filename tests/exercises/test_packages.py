@@ -4,11 +4,11 @@ import random
 
 import pytest
 
-from grader.cast import _refuse_to_build
 from grader.exercises import packages
 from grader.exercises.packages.looks import package_of
 from grader.exercises.packages.mending import FAULTY, faulty
 from grader.exercises.packages.patrol import FAULTS
+from grader.programs import _refuse_to_build
 from grader.workspace import building
 from grader.workspace.building import NotHere
 from grader.workspace.package import PackageRun
@@ -86,5 +86,6 @@ def test_where_nothing_can_be_built_the_notebook_says_who_does(monkeypatch, caps
 def test_a_look_at_a_package_needs_one():
     with pytest.raises(ValueError, match=r"^this exercise has no package: give it one$"):
         package_of(PackageRun())
-    with pytest.raises(ValueError, match=r"^a RemoteCast that is asked for a package needs its `build`$"):
+    message = r"^RemotePrograms needs its `build` for an exercise with a package$"
+    with pytest.raises(ValueError, match=message):
         _refuse_to_build({})

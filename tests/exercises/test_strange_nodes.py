@@ -13,11 +13,11 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import Float64
 
 from grader import Missed
-from grader.cast import LocalCast
 from grader.exercises import navigator, sensing
 from grader.exercises.navigator.mapping import answers_clicks
 from grader.exercises.navigator.planning import answers_a_goal
 from grader.exercises.sensing.turning import does_not_drift
+from grader.programs import LocalPrograms
 from sim.evidence import Ended, Graph
 from tests.exercises.assignment import first_run
 from tests.exercises.score_tables import misses, students
@@ -126,7 +126,7 @@ def test_who_never_lets_the_robot_get_free_is_told_so():
             command.angular.z = -3.0 if self.left > 0 else 0.0
             self.publisher.publish(command)
 
-    score = first_run(sensing.guard).judge(LocalCast([TurnsToTheWall]), "an instructor's")
+    score = first_run(sensing.guard).judge(LocalPrograms([TurnsToTheWall]), "an instructor's")
     assert earned(score) == 3.0
     assert [tuple(miss)[1:] for miss in misses(score)] == [(
         "0.5 s or more in which all is well and 1 m are free ahead",

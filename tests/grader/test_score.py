@@ -247,7 +247,7 @@ def test_numbers_have_no_needless_zeros(points, shown):
     assert number(points) == shown
 
 
-def slip(from_course=False):
+def typo(from_course=False):
     """A run with a slip in a topic's name; from_course: both nodes are the course's."""
     recording = Recording()
     for kind, node, name in (("publisher", "/talker", "/news"), ("subscription", "/paper", "/newz")):
@@ -265,7 +265,7 @@ NEWS = {"expected": "messages on /newz", "saw": "none"}
 
 def test_where_a_missing_connection_cost_points_the_graph_of_that_run_is_folded_below():
     missed = verdict(2.0, "failed", run=1, **NEWS)
-    score = Score("talk", [verdict(3.0), missed, missed], [Recording(), slip()])
+    score = Score("talk", [verdict(3.0), missed, missed], [Recording(), typo()])
     first, second, third = rows(score)
     assert "<details>" not in first + third  # once is enough
     words, folded = second.split("<details>")
@@ -289,18 +289,18 @@ def test_where_a_missing_connection_cost_points_the_graph_of_that_run_is_folded_
     ],
 )
 def test_a_miss_that_tells_of_something_else_has_no_graph(missed):
-    assert "<details>" not in Score("talk", [missed], [slip()])._repr_html_()
+    assert "<details>" not in Score("talk", [missed], [typo()])._repr_html_()
 
 
 def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody_drives():
-    recording = slip(from_course=True)
+    recording = typo(from_course=True)
     recording.graph.endpoints.append(Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, from_course=True))
     missed = verdict(2.0, "failed", expected="messages on /cmd_vel and /newz")
     assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
 
 
 def test_the_graph_passes_what_cleans_the_pages_and_hostile_names_stay_words():
-    recording = slip()
+    recording = typo()
     recording.graph.nodes.append('/x"><script>steal()</script>')
     page = clean(Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])._repr_html_())
     assert re.search(r'<img src="data:image/png;base64,[^"]+" alt="[^"]+" style="max-width:\s?100%">', page)
@@ -309,7 +309,7 @@ def test_the_graph_passes_what_cleans_the_pages_and_hostile_names_stay_words():
 
 
 def test_a_graph_that_cannot_be_drawn_costs_nothing():
-    recording = slip()
+    recording = typo()
     recording.graph.nodes.append(None)
     score = Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])
     assert "<details>" not in score._repr_html_() and "messages on /newz" in score._repr_html_()

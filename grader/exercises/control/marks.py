@@ -16,7 +16,7 @@ from grader.checks import (
     subscribes,
 )
 from grader.checks.control import EFFORT
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.control.partners import Marks
 from grader.exercises.control.places import WEAK, weak_cart
@@ -72,7 +72,7 @@ def _legs(run: Recording) -> list[Leg]:
     changes = [said[0]] if said else []
     changes += [after for before, after in itertools.pairwise(said) if after[1] != before[1]]
     if len(changes) < 3:
-        raise silence(run, "three marks", f"{len(changes)}", run.graph.publishers("/mark"))
+        raise no_data(run, "three marks", f"{len(changes)}", run.graph.publishers("/mark"))
     ends = [begin for begin, _ in changes[1:]] + [run.ended.stamp]
     return [(begin, end, mark) for (begin, mark), end in zip(changes, ends, strict=True)]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.control.partners import PERIOD, Sensor
 from sim.evidence import Recording, Seconds, since_start
@@ -74,7 +74,7 @@ def _beats(run: Recording) -> list[Beat]:
     """Arrival and measurement of each of our messages: nothing lies between, they arrive as they are sent."""
     ours = [heard for heard in run.messages("/beat") if heard.from_course]
     if len(ours) < 10:
-        raise silence(run, "messages on /beat", f"{len(ours)}", run.graph.publishers("/beat"))
+        raise no_data(run, "messages on /beat", f"{len(ours)}", run.graph.publishers("/beat"))
     return [(heard.stamp, since_start(heard.message.stamp)) for heard in ours]
 
 

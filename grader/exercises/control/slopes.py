@@ -6,7 +6,7 @@ import itertools
 import math
 
 from grader.checks import Missed, hinting, keeps_clear, publishes, within
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.control.partners import MOST, Slope
 from grader.exercises.control.places import ramp
@@ -44,7 +44,7 @@ def filters(run: Recording) -> None:
     raw = [heard.message.ranges[0] for heard in run.messages("/scan") if heard.from_course]
     said = [heard.message.data for heard in run.messages("/distance")]
     if not raw:
-        raise silence(run, "scans", "none", run.graph.publishers("/scan"))
+        raise no_data(run, "scans", "none", run.graph.publishers("/scan"))
     # The first scans may be sent before the node is there; a scan in the end may be unanswered.
     first = next((n for n in range(min(len(raw), 6)) if abs(said[0] - raw[n]) < SAME), 0)
     raw = raw[first:]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from grader.checks import Missed, hinting, keeps_deadline, publishes, stands, subscribes
 from grader.checks.control import EFFORT
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from grader.exercises.control.partners import Camera
@@ -111,7 +111,7 @@ def _looks(run: Recording) -> list[Look]:
             said = [one for one in answers if begin - 1e-6 <= one.stamp <= end]
             found.append(Look(begin, pixels.index(max(pixels)), said))
     if not found:
-        raise silence(run, "pictures", "none", run.graph.publishers("/picture"))
+        raise no_data(run, "pictures", "none", run.graph.publishers("/picture"))
     return found
 
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 from grader.checks import Missed, hinting, publishes, rate, subscribes, travelled
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.delivery.floor import flat
 from grader.exercises.delivery.known import Moment, about, allowed, close, old, spans
@@ -42,7 +42,7 @@ def arrives(run: Recording) -> None:
         raise Missed("nobody touched", saw, hint, picture="path", unsafe=True)
     places = [flat(heard.message.pose)[:2] for heard in run.messages(GOAL) if heard.from_course]
     if not places:
-        raise silence(run, f"places on {GOAL}", "none", run.graph.publishers(GOAL))
+        raise no_data(run, f"places on {GOAL}", "none", run.graph.publishers(GOAL))
     if len(set(places)) < 2:
         guess = (
             "Drive along self.way with steer, as fast as the gate allows, and stand when the goal is near."

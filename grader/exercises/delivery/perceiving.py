@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, hinting, publishes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.delivery.floor import Point, far_from, flat, points_of
 from grader.exercises.delivery.sights import (
@@ -171,7 +171,7 @@ def _must_be_told(run: Recording, heard: Message, whom: str, hint: str) -> None:
 
 def _must_have(run: Recording, judged: int, whom: str) -> None:
     if judged < 3:
-        raise silence(run, f"messages on {PEOPLE} with {whom} in view", f"{judged}", [])
+        raise no_data(run, f"messages on {PEOPLE} with {whom} in view", f"{judged}", [])
 
 
 def _is_seen(run: Recording, when: Seconds, lasting: Seconds) -> bool:

@@ -13,7 +13,7 @@ from rclpy.node import Node
 
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.fields import stamp_words
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.frames.measures import (
     FULL_TURN,
@@ -160,5 +160,5 @@ def _told(run: Recording) -> list[tuple[float, Odometry]]:
     """What the wheels said, and when."""
     told = [(heard.stamp, heard.message) for heard in run.messages("/wheels/odom") if heard.from_course]
     if len(told) < 5:
-        raise silence(run, "odometry", f"{len(told)}", run.graph.publishers("/wheels/odom"))
+        raise no_data(run, "odometry", f"{len(told)}", run.graph.publishers("/wheels/odom"))
     return told

@@ -11,7 +11,7 @@ from rclpy.time import Time
 from tf2_ros import TransformBroadcaster
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.frames.partners import Flat, transform
 from sim.evidence import Message, Recording, since_start
@@ -138,7 +138,7 @@ def _seen(run: Recording) -> list[Message]:
         one for one in run.messages("/detection") if one.from_course and one.stamp < run.ended.stamp - SOON
     ]
     if len(seen) < 5:
-        raise silence(run, "detections", f"{len(seen)}", run.graph.publishers("/detection"))
+        raise no_data(run, "detections", f"{len(seen)}", run.graph.publishers("/detection"))
     return seen
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.fields import stamp_words
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.frames.measures import flat
 from grader.exercises.frames.partners import Flat
@@ -120,7 +120,7 @@ def _seen(run: Recording) -> list[Message]:
         one for one in run.messages("/sighting") if one.from_course and one.stamp < run.ended.stamp - SOON
     ]
     if len(seen) < len(SIGHTINGS):
-        raise silence(run, "sightings of all kinds", f"{len(seen)}", run.graph.publishers("/sighting"))
+        raise no_data(run, "sightings of all kinds", f"{len(seen)}", run.graph.publishers("/sighting"))
     return seen
 
 

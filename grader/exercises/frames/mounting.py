@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.frames.measures import (
     FULL_TURN,
@@ -115,5 +115,5 @@ def says_it_once(run: Recording, _: object) -> None:
 def _truth(run: Recording) -> Flat:
     told = [heard.message for heard in run.messages("/mounting") if heard.from_course]
     if not told:
-        raise silence(run, "a place on /mounting", "none", run.graph.publishers("/mounting"))
+        raise no_data(run, "a place on /mounting", "none", run.graph.publishers("/mounting"))
     return told[0].x, told[0].y, told[0].theta

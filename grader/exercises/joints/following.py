@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from grader.checks import Missed, hinting, publishes, sends_goals
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.joints.crew import CRUISE, teacher
 from grader.exercises.joints.places import arm_of
@@ -121,7 +121,7 @@ def _lessons(run: Recording) -> list[Lesson]:
     """All paths with the goals sent for them. Raises Missed for a path without its goal."""
     wishes = [one for one in run.messages("/path") if one.from_course and one.stamp < run.ended.stamp - SOON]
     if len(wishes) < 2:
-        raise silence(run, "two paths", f"{len(wishes)}", run.graph.publishers("/path"))
+        raise no_data(run, "two paths", f"{len(wishes)}", run.graph.publishers("/path"))
     found, goals = [], sends_goals(run, ACTION, TYPE)
     for wish in wishes:
         its = [goal for goal in goals if wish.stamp <= goal.requested < wish.stamp + SOON]

@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from grader.checks import Missed, answers, commands_within, publishes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.joints.lift import JOINT, lift
 from grader.exercises.joints.watching import limits_of
@@ -113,7 +113,7 @@ def _wishes(run: Recording) -> list[tuple[Message, bool]]:
     heard = [one for one in run.messages(WANTED) if one.from_course and one.stamp < run.ended.stamp - SOON]
     found = [(one, lower <= one.message.data <= upper) for one in heard]
     if len({good for _, good in found}) < 2:
-        raise silence(run, "good and bad wishes", f"{len(found)} wishes", run.graph.publishers(WANTED))
+        raise no_data(run, "good and bad wishes", f"{len(found)} wishes", run.graph.publishers(WANTED))
     return found
 
 

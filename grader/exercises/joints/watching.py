@@ -6,7 +6,7 @@ from typing import NamedTuple
 from xml.etree import ElementTree as XML
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.joints.crew import gymnast
 from grader.exercises.joints.places import arm_of
@@ -89,7 +89,7 @@ def limits_of(run: Recording) -> dict[str, tuple[float, float]]:
 
 
 def visits_of(run: Recording) -> list[Visit]:
-    """When each joint was near a limit, by what our drivers said. Raises as `silence` where none was."""
+    """When each joint was near a limit, by what our drivers said. Raises as `no_data` where none was."""
     known, open_, found = limits_of(run), {}, []
     for heard in run.messages("/joint_states"):
         if not heard.from_course:
@@ -106,7 +106,7 @@ def visits_of(run: Recording) -> list[Visit]:
                 found.append(Visit(name, open_.pop(name), heard.stamp))
     found += [Visit(name, begin, run.ended.stamp) for name, begin in open_.items()]
     if len(found) < 2:
-        raise silence(run, "two joints near a limit", f"{len(found)}", run.graph.publishers("/joint_states"))
+        raise no_data(run, "two joints near a limit", f"{len(found)}", run.graph.publishers("/joint_states"))
     return sorted(found, key=lambda one: one.begin)
 
 

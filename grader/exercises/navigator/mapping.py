@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from grader.checks import Missed, hinting, publishes, subscribes, usual_mistake
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.navigator.ground import Point
 from grader.exercises.navigator.measures import cells_of, tenths
@@ -77,7 +77,7 @@ def answers_clicks(run: Recording, given: Any) -> None:
     publishes(run, "/cell_centre", POINT)
     clicks = _clicks(run)
     if not clicks:
-        raise silence(run, "messages on /clicked_point", "none", run.graph.publishers("/clicked_point"))
+        raise no_data(run, "messages on /clicked_point", "none", run.graph.publishers("/clicked_point"))
     wrong = [click for click in clicks if not click.fits(given.info, _middle)]
     if wrong:
         stamp, point, told = wrong[0]
@@ -85,8 +85,8 @@ def answers_clicks(run: Recording, given: Any) -> None:
         saw = "no answer" if told is None else f"({told[0]:.3f}, {told[1]:.3f})"
         answered = [click for click in wrong if click.told]
 
-        def explains(slip: Formula) -> bool:
-            return bool(answered) and all(click.fits(given.info, slip) for click in answered)
+        def explains(typo: Formula) -> bool:
+            return bool(answered) and all(click.fits(given.info, typo) for click in answered)
 
         raise Missed(
             f"({x:.3f}, {y:.3f}) m after the click on ({point[0]:.3f}, {point[1]:.3f}) m at {stamp:.3g} s",

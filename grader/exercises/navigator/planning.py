@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, hinting, publishes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise, Scenario
 from grader.exercises.navigator.ground import Point, ground
 from grader.exercises.navigator.measures import cells_of, tenths
@@ -123,7 +123,7 @@ def _answer(run: Recording, goal: int) -> tuple[Seconds, Any]:
     """When a goal was sent, and the last path of the 2 s after it; None without one."""
     goals = [heard.stamp for heard in run.messages("/goal_pose") if heard.from_course]
     if len(goals) <= goal:
-        raise silence(run, "goals on /goal_pose", f"{len(goals)}", run.graph.publishers("/goal_pose"))
+        raise no_data(run, "goals on /goal_pose", f"{len(goals)}", run.graph.publishers("/goal_pose"))
     paths = run.during(goals[goal] - 1e-6, goals[goal] + 2.0 + 1e-6).messages("/plan")
     return goals[goal], paths[-1].message if paths else None
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, Said, come_every, hinting, logs
+from grader.checks import LogMatch, Missed, come_every, hinting, logs
 from grader.checks.fields import listed
 from grader.checks.logs import FLOOD
 from grader.exercise import Exercise
@@ -12,7 +12,7 @@ battery = Exercise("battery", "A battery that warns", seconds=12)
 
 
 @battery.check(3, lasts=True)
-def reports_the_charge(run: Recording) -> list[Said]:
+def reports_the_charge(run: Recording) -> list[LogMatch]:
     """A line comes every second, from “Battery: 90 %” down to “Battery: 0 %”."""
     lines = logs(run, r"^\W*?battery\W+(\d+)", example="Battery: 90 %")
     found = [_charge(line) for line in lines]
@@ -25,24 +25,24 @@ def reports_the_charge(run: Recording) -> list[Said]:
 
 
 @battery.check(3, after=reports_the_charge)
-def informs(run: Recording, lines: list[Said]) -> None:
+def informs(run: Recording, lines: list[LogMatch]) -> None:
     """Above 30 % the line is at info level."""
     _have_level(run, lines, range(40, 91, 10), "INFO")
 
 
 @battery.check(3, after=reports_the_charge)
-def warns(run: Recording, lines: list[Said]) -> None:
+def warns(run: Recording, lines: list[LogMatch]) -> None:
     """From 30 % down to above 10 % it is a warning."""
     _have_level(run, lines, range(20, 31, 10), "WARN")
 
 
 @battery.check(3, after=reports_the_charge)
-def alarms(run: Recording, lines: list[Said]) -> None:
+def alarms(run: Recording, lines: list[LogMatch]) -> None:
     """At 10 % and below it is an error."""
     _have_level(run, lines, range(0, 11, 10), "ERROR")
 
 
-def _have_level(run: Recording, lines: list[Said], charges: range, level: str) -> None:
+def _have_level(run: Recording, lines: list[LogMatch], charges: range, level: str) -> None:
     """The lines about these charges have the level. Raises Missed for the first without."""
     about = [line for line in lines if _charge(line) in charges]
     wrong = [line for line in about if line.level != level]
@@ -60,7 +60,7 @@ def _have_level(run: Recording, lines: list[Said], charges: range, level: str) -
         raise Missed(expected, saw, hint, credit=1 - len(wrong) / len(about))
 
 
-def _charge(line: Said) -> int:
+def _charge(line: LogMatch) -> int:
     return int(line.groups[0])
 
 

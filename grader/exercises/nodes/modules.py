@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, Said, come_every, logs, named
+from grader.checks import LogMatch, Missed, come_every, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise
 from sim.evidence import Recording
@@ -20,13 +20,13 @@ def called_weather(run: Recording) -> None:
 
 
 @weather.check(3, lasts=True)
-def tells_the_weather(run: Recording) -> list[Said]:
+def tells_the_weather(run: Recording) -> list[LogMatch]:
     """A line like “12 C = 53.6 F, mild” comes every second."""
     return come_every(run, logs(run, LINE, example="12 C = 53.6 F, mild"), 1.0, credit=0.25)
 
 
 @weather.check(3, after=tells_the_weather)
-def takes_readings_in_turn(run: Recording, lines: list[Said]) -> None:
+def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
     """The readings come in their order, and after the last one the first again."""
     found = [round(_celsius(line)) for line in lines]
     wanted = [READINGS[index % len(READINGS)] for index in range(max(len(found), len(READINGS) + 1))]
@@ -37,7 +37,7 @@ def takes_readings_in_turn(run: Recording, lines: list[Said]) -> None:
 
 
 @weather.check(4, after=tells_the_weather)
-def converts(run: Recording, lines: list[Said]) -> None:
+def converts(run: Recording, lines: list[LogMatch]) -> None:
     """The degrees Fahrenheit are right, to one decimal."""
     wrong = [line for line in lines if abs(float(line.groups[1]) - _fahrenheit(line)) >= 0.051]
     if wrong:
@@ -47,7 +47,7 @@ def converts(run: Recording, lines: list[Said]) -> None:
 
 
 @weather.check(4, after=tells_the_weather)
-def describes(run: Recording, lines: list[Said]) -> None:
+def describes(run: Recording, lines: list[LogMatch]) -> None:
     """The words are right: frost below 0 °C, hot from 30 °C on, else mild."""
     wrong = [line for line in lines if line.groups[2].lower() != _word(line)]
     if wrong:
@@ -57,7 +57,7 @@ def describes(run: Recording, lines: list[Said]) -> None:
 
 
 @weather.check(4, after=tells_the_weather)
-def warns_of_frost_and_heat(run: Recording, lines: list[Said]) -> None:
+def warns_of_frost_and_heat(run: Recording, lines: list[LogMatch]) -> None:
     """Frost and hot are warnings, mild is information."""
     wrong = [line for line in lines if line.level != _level(line)]
     if wrong:
@@ -66,17 +66,17 @@ def warns_of_frost_and_heat(run: Recording, lines: list[Said]) -> None:
         raise Missed(expected, saw, hint, credit=1 - len(wrong) / len(lines))
 
 
-def _celsius(line: Said) -> float:
+def _celsius(line: LogMatch) -> float:
     return float(line.groups[0])
 
 
-def _fahrenheit(line: Said) -> float:
+def _fahrenheit(line: LogMatch) -> float:
     return _celsius(line) * 9 / 5 + 32
 
 
-def _word(line: Said) -> str:
+def _word(line: LogMatch) -> str:
     return "frost" if _celsius(line) < 0 else "mild" if _celsius(line) < 30 else "hot"
 
 
-def _level(line: Said) -> str:
+def _level(line: LogMatch) -> str:
     return "INFO" if line.groups[2].lower() == "mild" else "WARN"

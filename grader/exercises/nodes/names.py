@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, Said, come_every, logs
+from grader.checks import LogMatch, Missed, come_every, logs
 from grader.exercise import Exercise
 from sim.evidence import Recording
 
@@ -22,21 +22,21 @@ def called_heart_of_robot1(run: Recording) -> None:
 
 
 @heart.check(5, lasts=True)
-def beats(run: Recording) -> list[Said]:
+def beats(run: Recording) -> list[LogMatch]:
     """“Beat” is logged every 0.25 s."""
     lines = logs(run, r"^\W*?beat\W*$", level="INFO", example="Beat")
     return come_every(run, lines, 0.25, credit=0.2)
 
 
 @heart.check(5, lasts=True)
-def reports(run: Recording) -> list[Said]:
+def reports(run: Recording) -> list[LogMatch]:
     """A report like “Beats: 4” is logged every second."""
     lines = logs(run, r"^\W*?beats\W+(\d+)", level="INFO", example="Beats: 4")
     return come_every(run, lines, 1.0, credit=0.2)
 
 
 @heart.check(6, after=(beats, reports))
-def reports_all_beats(run: Recording, beats: list[Said], reports: list[Said]) -> None:
+def reports_all_beats(run: Recording, beats: list[LogMatch], reports: list[LogMatch]) -> None:
     """Each report says how many beats there have been since the start."""
     moments = [beat.stamp for beat in beats]
     for report in reports:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.checks import Missed, Said, come_every, hinting, logs, named
+from grader.checks import LogMatch, Missed, come_every, hinting, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise
 from sim.evidence import Recording
@@ -37,13 +37,13 @@ def called_counter(run: Recording) -> None:
 
 
 @counter.check(5)
-def logs_counts(run: Recording) -> list[Said]:
+def logs_counts(run: Recording) -> list[LogMatch]:
     """The node logs lines like “Count: 1” at info level."""
     return logs(run, r"^\W*?count\W+(\d+)", level="INFO", example="Count: 1")
 
 
 @counter.check(6, after=logs_counts)
-def counts_up(run: Recording, lines: list[Said]) -> None:
+def counts_up(run: Recording, lines: list[LogMatch]) -> None:
     """The count begins at 1 and goes up by 1 from line to line."""
     counts = [int(line.groups[0]) for line in lines]
     wanted = list(range(1, len(counts) + 1))
@@ -58,6 +58,6 @@ def counts_up(run: Recording, lines: list[Said]) -> None:
 
 
 @counter.check(6, after=logs_counts)
-def counts_every_half_second(run: Recording, lines: list[Said]) -> None:
+def counts_every_half_second(run: Recording, lines: list[LogMatch]) -> None:
     """A count comes every 0.5 s."""
     come_every(run, lines, 0.5)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import textwrap
 
-from grader.cast import LocalCast
 from grader.checks import Missed
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.exercise import Exercise
 from grader.exercises.packages.definitions import PARTS, read_definition
+from grader.programs import LocalPrograms
 from grader.tell import BEGIN, tell
 from grader.workspace.building import NotHere
 from grader.workspace.package import Package
@@ -22,9 +22,9 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
     workspace: the folder with src/ in it. What goes wrong is printed; the recording of a package that can't
     be built is empty. No points are given. A package of interfaces is not built: what it defines is printed.
     """
-    cast = LocalCast((workspace,))
+    source = LocalPrograms((workspace,))
     try:
-        found = cast.package(exercise.package, exercise.build_type)
+        found = source.package(exercise.package, exercise.build_type)
         if isinstance(found, Fault):
             print(BEGIN if found.sentence == NOT_STARTED else f"{found.saw}\nHint: {found.hint}")
             return Recording()
@@ -32,14 +32,14 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
             _tell_definitions(found)
             return Recording()
         chosen, seed = exercise.runs()[scenario]
-        recording = chosen.run(cast, seed)
+        recording = chosen.run(source, seed)
         tell(recording)
         return recording
     except NotHere:
         print("Here nothing can be built: when a class is marked, the test cell below does it.")
         return Recording()
     finally:
-        cast.leave()
+        source.leave()
 
 
 def _tell_definitions(package: Package) -> None:

@@ -9,7 +9,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float32
 
 from grader.checks import Missed, publishes, rate
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise, Scenario
 from grader.exercises.packages.looks import package_of
 from grader.workspace import place
@@ -64,7 +64,7 @@ def shows(run: PackageRun) -> None:
     publishes(run, SHOWN, "std_msgs/msg/String")
     heard = [one for one in run.messages(HEARD) if one.from_course and one.stamp + SOON < run.seconds]
     if not heard:
-        raise silence(run, f"temperatures on {HEARD}", "none", run.graph.publishers(HEARD))
+        raise no_data(run, f"temperatures on {HEARD}", "none", run.graph.publishers(HEARD))
     for one in heard:
         text = f"{one.message.data:.1f}"
         answers = [it for it in run.messages(SHOWN) if one.stamp <= it.stamp <= one.stamp + SOON]

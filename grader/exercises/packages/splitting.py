@@ -10,7 +10,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float32
 
 from grader.checks import Missed, publishes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise, Scenario
 from grader.exercises.packages.looks import ROS, imports, package_of, parsed
 from grader.workspace import place
@@ -64,7 +64,7 @@ def converts(run: PackageRun) -> None:
     """Each voltage becomes 100 degrees for each volt, less 50; and none comes for one outside 0 to 3.3 V."""
     heard = [one for one in run.messages(VOLTS) if one.from_course and one.stamp + SOON < run.seconds]
     if not heard:
-        raise silence(run, f"voltages on {VOLTS}", "none", run.graph.publishers(VOLTS))
+        raise no_data(run, f"voltages on {VOLTS}", "none", run.graph.publishers(VOLTS))
     for one in heard:
         volts = one.message.data
         said = [it for it in run.messages(DEGREES) if one.stamp <= it.stamp < one.stamp + 0.2]

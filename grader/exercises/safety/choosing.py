@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import OUT, TWIST, alike, last, must_stand, ours, speeds, told
 from grader.exercises.safety.partners import JOY, NAV, Drivers
@@ -82,7 +82,7 @@ def stands_without_both(run: Recording) -> None:
 def _compare(run: Recording, moments: list[Moment], topic: str, hint: str) -> None:
     """Raises Missed at the first moment at which the robot was told something else than by this driver."""
     if not moments:
-        raise silence(run, f"commands on {topic}", "none at that time", run.graph.publishers(topic))
+        raise no_data(run, f"commands on {topic}", "none at that time", run.graph.publishers(topic))
     wrong = [one for one in moments if one.sent is None or not alike(one.sent, _wanted(one, topic))]
     if wrong:
         first = wrong[0]

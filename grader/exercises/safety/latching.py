@@ -6,7 +6,7 @@ import itertools
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, serves, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.safety.moving import OUT, TWIST, alike, must_stand, ours, speeds, told
 from grader.exercises.safety.partners import BUTTON, RAW, RESET, Operator
@@ -126,7 +126,7 @@ def _times(run: Recording) -> Times:
     cuts = [a for a, b in itertools.pairwise(button) if b - a > 1.0]
     pauses = [(a, b) for a, b in itertools.pairwise(commands) if b - a > 1.0]
     if not (pressed and cuts and pauses):
-        raise silence(run, "a stop, a reset and a broken cable", "less", run.graph.publishers(BUTTON))
+        raise no_data(run, "a stop, a reset and a broken cable", "less", run.graph.publishers(BUTTON))
     return Times(pressed[0], pressed[-1] + 0.1, *pauses[0], cuts[0])
 
 
@@ -145,7 +145,7 @@ def _granted(run: Recording) -> Call:
     asked, release = _resets(run), _times(run).release
     after = [call for call in asked if call.requested > release]
     if not after or len(asked) < 2:
-        raise silence(run, f"two calls of {RESET}", f"{len(asked)}", run.graph.ends("client", RESET))
+        raise no_data(run, f"two calls of {RESET}", f"{len(asked)}", run.graph.ends("client", RESET))
     return after[0]
 
 

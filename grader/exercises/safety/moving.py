@@ -6,7 +6,7 @@ import itertools
 import math
 
 from grader.checks import Missed
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from sim.evidence import Message, Recording, Seconds
 
 OUT, TWIST = "/cmd_vel", "geometry_msgs/msg/Twist"
@@ -15,10 +15,10 @@ SAME = 1e-3  # m/s, rad/s
 
 
 def ours(run: Recording, topic: str, at_least: int = 1) -> list[Message]:
-    """What our nodes said on a topic. Raises as `silence` does for fewer messages."""
+    """What our nodes said on a topic. Raises as `no_data` does for fewer messages."""
     said = [heard for heard in run.messages(topic) if heard.from_course]
     if len(said) < at_least:
-        raise silence(run, f"messages on {topic}", f"{len(said)}", run.graph.publishers(topic))
+        raise no_data(run, f"messages on {topic}", f"{len(said)}", run.graph.publishers(topic))
     return said
 
 

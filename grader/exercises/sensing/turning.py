@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 
 from grader.checks import Missed, lasts, publishes, series, subscribes, usual_mistake
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.sensing.partners import Circling, LateStarter
 from sim.evidence import Recording, Seconds
@@ -17,7 +17,7 @@ FLOAT64 = "std_msgs/msg/Float64"
 HEADING = "/heading"
 NEAR = 1.0  # degrees
 
-Said = list[tuple[Seconds, float]]  # headings with their stamps, degrees
+LogMatch = list[tuple[Seconds, float]]  # headings with their stamps, degrees
 
 heading = Exercise(
     "heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling], seeds=(1, 2)
@@ -25,7 +25,7 @@ heading = Exercise(
 
 
 @heading.check(2)
-def says_a_heading(run: Recording) -> Said:
+def says_a_heading(run: Recording) -> LogMatch:
     """The node hears /odom, and publishes Float64 messages on /heading."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
     publishes(run, HEADING, FLOAT64, at_least=20)
@@ -33,7 +33,7 @@ def says_a_heading(run: Recording) -> Said:
 
 
 @heading.check(4, after=says_a_heading)
-def heading_is_right(run: Recording, headings: Said) -> Said:
+def heading_is_right(run: Recording, headings: LogMatch) -> LogMatch:
     """It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right."""
 
     def error(stamp: Seconds, said: float) -> float:
@@ -68,7 +68,7 @@ _MISTAKES: dict[str, Callable[[float], float]] = {  # what a node says in place 
 
 
 @heading.check(2, after=heading_is_right)
-def heading_is_in_range(run: Recording, headings: Said) -> None:
+def heading_is_in_range(run: Recording, headings: LogMatch) -> None:
     """It is always from -180 to 180 degrees."""
     for stamp, said in headings:
         if not abs(said) <= 180.0 + 1e-6:
@@ -110,7 +110,7 @@ gyro = Exercise(
 
 
 @gyro.check(3, lasts=True)
-def sums_up(run: Recording) -> Said:
+def sums_up(run: Recording) -> LogMatch:
     """The node hears /imu/data, and publishes Float64 messages on /heading, from start to end."""
     subscribes(run, "/imu/data", "sensor_msgs/msg/Imu")
     heard = publishes(run, HEADING, FLOAT64, at_least=50)
@@ -125,7 +125,7 @@ def sums_up(run: Recording) -> Said:
 
 
 @gyro.check(4, after=sums_up)
-def ends_right(run: Recording, headings: Said) -> Said:
+def ends_right(run: Recording, headings: LogMatch) -> LogMatch:
     """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
     stamp, said = headings[-1]
     turned = _turned(run, stamp)
@@ -150,11 +150,11 @@ def _is_in_other_units(said: float, turned: float) -> bool:
 
 
 @gyro.check(5, after=ends_right)
-def does_not_drift(run: Recording, headings: Said) -> None:
+def does_not_drift(run: Recording, headings: LogMatch) -> None:
     """At the end the robot stands for 8 s, and the heading stands, too: it changes by less than 1 degree."""
     resting = [(stamp, said) for stamp, said in headings if stamp >= RESTING]
     if len(resting) < 2:
-        raise silence(run, f"headings from {RESTING:g} s on", f"{len(resting)}", [])
+        raise no_data(run, f"headings from {RESTING:g} s on", f"{len(resting)}", [])
     (first, before), (last, after) = resting[0], resting[-1]
     drift = _turn(after, before)
     if abs(drift) >= 1.0:
@@ -167,7 +167,7 @@ def does_not_drift(run: Recording, headings: Said) -> None:
 
 
 @gyro.check(3, after=ends_right)
-def is_right_all_the_time(run: Recording, headings: Said) -> None:
+def is_right_all_the_time(run: Recording, headings: LogMatch) -> None:
     """It is right on the way, too, within 5 degrees."""
     for stamp, said in headings:
         if _least_error(said, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= 5.0:
@@ -183,7 +183,7 @@ def _turned(run: Recording, stamp: Seconds) -> float:
     return _turn(_yaw(run, stamp), math.degrees(run.path[0].yaw))
 
 
-def _why_not_turned(run: Recording, headings: Said) -> str:
+def _why_not_turned(run: Recording, headings: LogMatch) -> str:
     """The usual reasons for a wrong sum."""
     largest = max(abs(said) for _, said in headings)
     if largest == 0.0:
@@ -195,7 +195,7 @@ def _why_not_turned(run: Recording, headings: Said) -> str:
     return _wrong_sum(run, headings)
 
 
-def _wrong_sum(run: Recording, headings: Said) -> str:
+def _wrong_sum(run: Recording, headings: LogMatch) -> str:
     """Where something is added up, but not the turn: what is wrong with it, most likely."""
     strange = next((said for _, said in headings if not math.isfinite(said)), None)
     if strange is not None:
@@ -203,7 +203,7 @@ def _wrong_sum(run: Recording, headings: Said) -> str:
     return _wrong_scale(run, headings) or _wrong_bias(run, headings) or BIAS
 
 
-def _wrong_bias(run: Recording, headings: Said) -> str:
+def _wrong_bias(run: Recording, headings: LogMatch) -> str:
     """Where a bias was taken, but not as it should be: how."""
     begin = next((stamp for stamp, said in headings if said != 0.0), 0.0)
     if begin > LEAVING + 0.1:
@@ -228,7 +228,7 @@ def _wrong_bias(run: Recording, headings: Said) -> str:
     return ""
 
 
-def _wrong_scale(run: Recording, headings: Said) -> str:
+def _wrong_scale(run: Recording, headings: LogMatch) -> str:
     """Where the sum is a multiple of the turn: what is wrong with it, most likely."""
     steps = (after.yaw - before.yaw for before, after in itertools.pairwise(run.path))
     turned = math.degrees(sum(math.remainder(step, math.tau) for step in steps))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.silence.senders import FREE, MapServer, Visitor
 from sim.evidence import Recording, Seconds
@@ -68,7 +68,7 @@ def _truth(run: Recording) -> list[int]:
     """How many cells are free in each of our maps."""
     maps = [heard.message.data for heard in run.messages("/map") if heard.from_course]
     if len(maps) < 2:
-        raise silence(run, "two maps", f"{len(maps)}", run.graph.publishers("/map"))
+        raise no_data(run, "two maps", f"{len(maps)}", run.graph.publishers("/map"))
     return [sum(cell == FREE for cell in cells) for cells in maps]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.silence.ward import FAULTS, PAUSE, Case, cases, ward
 from sim.evidence import Recording, Seconds
@@ -106,7 +106,7 @@ def _patients(run: Recording) -> list[Patient]:
     told = run.during(late, run.ended.stamp + 1.0).messages("/heard")
     heard = {one.message.data for one in told if one.from_course}
     if not complaints:
-        raise silence(run, "complaints", "none", run.graph.publishers("/complaint"))
+        raise no_data(run, "complaints", "none", run.graph.publishers("/complaint"))
     found = []
     for complaint in complaints:
         topic, begin = complaint.message.data, complaint.stamp

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.silence.crowd import LATE, PAUSE, crowd
 from sim.evidence import Message, Recording, Seconds
@@ -82,7 +82,7 @@ def _lately(heard: Message, topic: str, moment: Seconds) -> bool:
 
 def _right(run: Recording, asked: list[Asked], what: str) -> None:
     if not asked:
-        raise silence(run, what, "none", run.graph.publishers(QUESTION))
+        raise no_data(run, what, "none", run.graph.publishers(QUESTION))
     all_named = all(len(one.answers) == 1 and set(_names(one)) == set(one.speakers) for one in asked)
     for one in asked:
         if one.answers != (one.right,):

@@ -7,7 +7,7 @@ import itertools
 import math
 
 from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.silence import silence
+from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.silence.joysticks import OFFERED, PAUSE, Joystick
 from sim.evidence import Message, Recording, Seconds
@@ -82,7 +82,7 @@ def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
     stamps = [one.stamp for one in run.messages(ASKED) if one.from_course]
     found = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > PAUSE / 2]
     if len(found) < 2:
-        raise silence(run, "two silences", f"{len(found)}", run.graph.publishers(ASKED))
+        raise no_data(run, "two silences", f"{len(found)}", run.graph.publishers(ASKED))
     return found
 
 

@@ -8,7 +8,6 @@ from typing import Any
 
 from nbformat import NotebookNode
 
-from grader.cast import Cast
 from grader.diagnosis.fault import Fault
 from grader.exercise import Exercise
 from grader.marking.judge.cell_outputs import CellOutputs
@@ -16,6 +15,7 @@ from grader.marking.judge.led_process import LedProcess
 from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.league.contest import Contest, Game, game_of
+from grader.programs import ProgramSource
 from grader.quiet import quiet_stderr
 from grader.score import Score
 
@@ -32,19 +32,19 @@ class Rounds:
         self.problem = ""
         self._contest = contest
 
-    def judge(self, cast: Cast, secret: str = "") -> Score:
+    def judge(self, source: ProgramSource, secret: str = "") -> Score:
         """Play. The score has no points. Raises what the cast raises."""
         with quiet_stderr():
-            found = cast.refusal()
+            found = source.refusal()
             if isinstance(found, Fault):
                 self.problem = f"Expected {found.expected}, saw {found.saw}. {found.hint}"
             else:
-                self.games.extend(self._play(cast))
+                self.games.extend(self._play(source))
         return Score(self.name, [])
 
-    def _play(self, cast: Cast) -> Iterator[Game]:
+    def _play(self, source: ProgramSource) -> Iterator[Game]:
         for scenario, seed in self._contest.rounds():
-            yield game_of(scenario.run(cast, seed))
+            yield game_of(scenario.run(source, seed))
 
 
 class LeagueRun(NotebookRun):

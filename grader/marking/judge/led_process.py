@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any, Protocol
 
-from grader.cast import Cast, RemoteCast
 from grader.marking.errors import StudentProcessGone
 from grader.marking.judge.cell_outputs import CellOutputs, Displays
 from grader.marking.task import TimeLimits
+from grader.programs import ProgramSource, RemotePrograms
 from grader.score import Score
 from grader.workspace.building import Build, Built
 from grader.workspace.sources import Sources
@@ -28,7 +28,7 @@ class Judging(Protocol):
 
     name: str
 
-    def judge(self, cast: Cast, secret: str = "") -> Score:
+    def judge(self, source: ProgramSource, secret: str = "") -> Score:
         """As `Exercise.judge`."""
 
 
@@ -138,7 +138,7 @@ class LedProcess:
 
         try:
             try:
-                tested.score = exercise.judge(RemoteCast(remote, build), secret)
+                tested.score = exercise.judge(RemotePrograms(remote, build), secret)
             except RemoteLost as lost:
                 if not lost.lives:
                     raise

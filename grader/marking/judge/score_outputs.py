@@ -7,7 +7,7 @@ from typing import Any
 
 from IPython.core.formatters import DisplayFormatter
 
-from grader.checks.judge import STAGED
+from grader.checks.judge import SPOOFED_TOPICS
 from grader.marking.outputs import FOR_INSTRUCTOR, mime_bundle
 from grader.marking.result import CellResult
 from grader.score import Score
@@ -32,7 +32,7 @@ def staged(score: Score) -> list[str]:
     return [
         f"{verdict.expected}; there were {verdict.saw.replace('of yours', 'of the student')}"
         for verdict in score.verdicts
-        if verdict.name == STAGED
+        if verdict.name == SPOOFED_TOPICS
     ]
 
 

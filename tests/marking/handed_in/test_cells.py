@@ -91,7 +91,7 @@ HARMLESS = {
     ],
 }
 
-MENDED = {
+CORRECTED_HINT = {
     "answer deleted": (delete("hello"), "The answer `hello` was missing; an empty cell took its place."),
     "test deleted": (
         delete("hello-points"),
@@ -223,7 +223,7 @@ def test_what_changes_nothing_is_passed_over_in_silence(damage):
     assert same(result.notebook)
 
 
-@pytest.mark.parametrize(("damage", "words"), MENDED.values(), ids=MENDED)
+@pytest.mark.parametrize(("damage", "words"), CORRECTED_HINT.values(), ids=CORRECTED_HINT)
 def test_an_accident_is_mended_and_said(damage, words, request):
     result = rebuilt(damage)
     assert (result.repairs, result.flags) == ([words], [])

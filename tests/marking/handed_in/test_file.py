@@ -45,7 +45,7 @@ def zipped():
     return file.getvalue()
 
 
-MENDED = {
+CORRECTED_HINT = {
     "byte order mark": (
         b"\xef\xbb\xbf" + WHOLE,
         "The notebook's file began with a byte order mark; it was read without.",
@@ -178,7 +178,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize(("content", "words"), MENDED.values(), ids=MENDED)
+@pytest.mark.parametrize(("content", "words"), CORRECTED_HINT.values(), ids=CORRECTED_HINT)
 def test_a_damaged_file_is_read_as_well_as_possible_and_that_is_said(content, words):
     result = rebuild(STARTER, read_notebook(content, "nodes.ipynb"))
     assert (result.repairs, result.flags) == ([words], [])

@@ -226,7 +226,7 @@ def test_a_check_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch)
 
 
 def test_a_judge_that_breaks_gives_no_points_and_is_flagged(marked, monkeypatch):
-    def judge(self, cast, secret):
+    def judge(self, source, secret):
         raise IndexError("list index out of range")
 
     monkeypatch.setattr(Exercise, "judge", judge)

@@ -1,13 +1,19 @@
 """What of a score goes to the instructor alone."""
 
 from grader import Score
-from grader.checks.judge import STAGED, Verdict
+from grader.checks.judge import SPOOFED_TOPICS, Verdict
 from grader.marking.judge.score_outputs import staged
 
 
 def test_a_topic_with_two_owners_is_flagged():
     line = Verdict(
-        STAGED, "", 0.0, "failed", 0.0, "one publisher on /odom: /robot", "two, /robot and /square of yours"
+        SPOOFED_TOPICS,
+        "",
+        0.0,
+        "failed",
+        0.0,
+        "one publisher on /odom: /robot",
+        "two, /robot and /square of yours",
     )
     assert staged(Score("square", [line, Verdict("drives", "", 2.0, "passed", 1.0)])) == [
         "one publisher on /odom: /robot; there were two, /robot and /square of the student"

@@ -6,8 +6,8 @@ import itertools
 from rclpy.node import Node
 from std_msgs.msg import Int32
 
-from grader.cast import LocalCast, RemoteCast
 from grader.exercise import Scenario
+from grader.programs import LocalCast, RemoteCast
 from sim import Process, run
 from sim.ros.launching.respawned import respawned
 from tests.sim.ros.remote.apart import Apart

@@ -11,7 +11,7 @@ import sys
 import time
 
 from grader import Exercise
-from grader.cast import RemoteCast
+from grader.programs import RemoteCast
 from grader.workspace import building
 from sim.ros.remote import RemoteLost
 from tests.exercises.builds import kept_builds

@@ -12,7 +12,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from grader import Exercise, check
-from grader.cast import RemoteCast
+from grader.programs import RemoteCast
 from sim import run
 from sim.ros.messages.codec import encode
 from sim.ros.remote import Remote, RemoteLost, Wire, WireError

@@ -59,7 +59,7 @@ def test_it_ends_with_the_wire(wires):
 
 @pytest.mark.parametrize("nodes", [[None], [5], ["Idle"]])
 def test_it_tells_whether_there_is_something_to_run(wires, nodes):
-    wires[0].send(do="ask", question="grader.cast:plain_refusal", words=[])
+    wires[0].send(do="ask", question="grader.programs:plain_refusal", words=[])
     Remote(wires[0]).end()
     serve(wires[1], nodes)
     saw, hint = wires[0].receive(1)["answer"]

@@ -1,4 +1,4 @@
-"""Who plays in a run: the student's programs, in this process or in another one that nobody trusts."""
+"""The student's programs for a run: in this process, or in another one that is not trusted."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ Prepare = Callable[[Any], Any]
 """Makes of one of the student's programs the one that runs in its place, or a list of those: a function of a
 module, or functools.partial of one with further words."""
 
-MOST_TEXT = 2_000  # characters of what another process says
+MOST_TEXT = 2_000  # characters of a text that another process sends
 
 
-class Cast(Protocol):
+class ProgramSource(Protocol):
     """The student's programs, wherever they live."""
 
     def refusal(self) -> Fault | None:
@@ -39,7 +39,7 @@ class Cast(Protocol):
         """What `package` installed is needed no more."""
 
 
-class LocalCast:
+class LocalPrograms:
     """Programs in this process: Node classes, callables that return a node, main() functions.
 
     Or the folder of a workspace, whose packages `build` builds.
@@ -49,26 +49,26 @@ class LocalCast:
         self._nodes, self._build = nodes, build or building.build
 
     def refusal(self) -> Fault | None:
-        """As Cast."""
+        """See ProgramSource."""
         return not_run(self._nodes) or refusal(self._nodes)
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
-        """As Cast."""
+        """See ProgramSource."""
         return prepared(self._nodes, *_parts(prepare))
 
     def package(self, name: str, build_type: str) -> Package | Fault:
-        """As Cast."""
+        """See ProgramSource."""
         made = make_package(name, place.told_sources(self._nodes, name), self._build, build_type)
         if isinstance(made, Package):
             place.install(made.built.files, made.built.programs)
         return made
 
     def leave(self) -> None:
-        """As Cast."""
+        """See ProgramSource."""
         place.leave()
 
 
-class RemoteCast:
+class RemotePrograms:
     """Programs in the process at the other end of `remote`, which does as it likes.
 
     build: builds packages, on this side.
@@ -79,7 +79,7 @@ class RemoteCast:
         self._remote, self._build = remote, build or _refuse_to_build
 
     def refusal(self) -> Fault | None:
-        """As Cast; the other process is asked."""
+        """See ProgramSource. The other process answers."""
         answer = self._remote.ask(_name(plain_refusal))
         if answer is None:
             return None
@@ -88,19 +88,19 @@ class RemoteCast:
         return unusable(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
-        """As Cast."""
-        return [self._remote.program(told(prepare))]
+        """See ProgramSource."""
+        return [self._remote.program(serialize_preparation(prepare))]
 
     def package(self, name: str, build_type: str) -> Package | Fault:
-        """As Cast; the other process is asked for the sources, and told what to install."""
-        told = self._remote.ask(_name(place.told_sources), name)
-        made = make_package(name, told, self._build, build_type)
+        """See ProgramSource. The other process sends the sources and installs what was built."""
+        sources = self._remote.ask(_name(place.told_sources), name)
+        made = make_package(name, sources, self._build, build_type)
         if isinstance(made, Package):
             self._remote.ask(_name(place.installed), *place.told(made.built))
         return made
 
     def leave(self) -> None:
-        """As Cast: the other process ends soon, and it is the student's."""
+        """See ProgramSource. The other process ends soon, and it is the student's."""
 
 
 def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[Any]]:
@@ -109,7 +109,7 @@ def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence
 
 
 def _refuse_to_build(_: Any) -> NoReturn:
-    raise ValueError("a RemoteCast that is asked for a package needs its `build`")
+    raise ValueError("RemotePrograms needs its `build` for an exercise with a package")
 
 
 def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:
@@ -118,10 +118,10 @@ def plain_refusal(nodes: Sequence[Any]) -> list[str] | None:
     return None if fault is None else [fault.saw, fault.hint]
 
 
-def told(prepare: Prepare | None) -> list[Any]:
-    """What tells another process of a preparation: its function's name, and further words; [] for none."""
-    function, words = _parts(prepare)
-    return [] if function is None else [_name(function), *words]
+def serialize_preparation(prepare: Prepare | None) -> list[Any]:
+    """Return a preparation in a form to send: its function's name and arguments; [] for none."""
+    function, arguments = _parts(prepare)
+    return [] if function is None else [_name(function), *arguments]
 
 
 def _name(function: Callable[..., Any]) -> str:

@@ -8,11 +8,11 @@ from rclpy.node import Node
 from std_msgs.msg import Float32, Float64, Int32
 
 from grader import Exercise, grade
-from grader.cast import RemoteCast
 from grader.checks import keeps_clear, publishes, rate, within
 from grader.diagnosis.names import misspelt
 from grader.exercise import Scenario
-from grader.slips import MENDED, mended, slips_of
+from grader.programs import RemotePrograms
+from grader.typos import CORRECTED_HINT, auto_correct, typos_of
 from sim import Process, Recording
 from sim.evidence import CallbackError, Endpoint, Graph
 from sim.ros.launching.respawned import respawned
@@ -111,8 +111,8 @@ def test_a_slip_costs_half(student, points):
 
 def test_the_slip_is_told_and_what_would_have_been_right_says_why_it_has_half():
     *_, pace, value = warm.grade(Misspelt).verdicts
-    assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, MENDED)] * 2
-    assert MENDED == "Judged as if the slip above were mended, for half of the points."
+    assert [(it.status, it.credit, it.hint) for it in (pace, value)] == [("skipped", 0.5, CORRECTED_HINT)] * 2
+    assert CORRECTED_HINT == "Judged as if the slip above were mended, for half of the points."
     assert (
         warm.grade(Misspelt).verdicts[0].hint == "Is /sensor/wram a typing slip? Did you mean /sensor/warm?"
     )
@@ -140,10 +140,10 @@ def test_only_numbers_of_the_other_kind_and_names_are_slips():
     def failing(text, type="AssertionError"):
         return Recording(errors=[CallbackError(1.0, "/a", "A.b", type, text, "")])
 
-    assert slips_of(failing("The 'data' field must be of type 'float'"), []) == ["numbers"]
-    assert slips_of(failing("The 'data' field must be of type 'int'"), []) == ["numbers"]
-    assert slips_of(failing("The 'data' field must be of type 'str'"), []) == []
-    assert slips_of(failing("The 'data' field must be of type 'int'", "ValueError"), []) == []
+    assert typos_of(failing("The 'data' field must be of type 'float'"), []) == ["numbers"]
+    assert typos_of(failing("The 'data' field must be of type 'int'"), []) == ["numbers"]
+    assert typos_of(failing("The 'data' field must be of type 'str'"), []) == []
+    assert typos_of(failing("The 'data' field must be of type 'int'", "ValueError"), []) == []
 
 
 @pytest.mark.parametrize(
@@ -181,7 +181,7 @@ def test_a_slip_costs_half_in_what_a_scenario_makes_of_a_program_too(student, po
 def test_it_does_so_where_the_program_lives_in_another_process():
     apart = Apart()
     with apart.serving(__name__, "MisspeltAndWhole") as remote:
-        score = killed.judge(RemoteCast(remote))
+        score = killed.judge(RemotePrograms(remote))
     apart.close()
     assert (score.broken, float(score)) == ([], 4.0)
 
@@ -192,12 +192,12 @@ def twice(program):
 
 
 def test_several_programs_that_a_scenario_makes_of_one_are_mended_each():
-    both = mended(Warm, [f"{__name__}:twice"], "numbers")
+    both = auto_correct(Warm, [f"{__name__}:twice"], "numbers")
     assert [(one.target, one.forgiving) for one in both] == [(Warm, True)] * 2
 
 
 def test_a_launch_file_has_no_slips_that_are_mended():
-    assert mended(None, ["grader.workspace.place:launched", "patrol", "patrol.launch.py"], "a:=b") == (
+    assert auto_correct(None, ["grader.workspace.place:launched", "patrol", "patrol.launch.py"], "a:=b") == (
         "patrol patrol.launch.py"
     )
 

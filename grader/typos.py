@@ -1,6 +1,6 @@
-"""Slips of a name, of a number's type and of a topic's: what the program would have done is worth half.
+"""Typos in a name, a number's type or a topic's type: the corrected program earns half of the points.
 
-Names are those of topics, services and actions, and of parameters.
+Names are those of topics, services, actions and parameters.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from sim import Process
 from sim.evidence import CallbackError, Message, Recording
 
 WORTH = 0.5  # of the points
-MOST_AFTER_ANOTHER = 3  # each may hide the next: a name, a type, a number
+MAX_CHAINED = 3  # each may hide the next: a name, a type, a number
 OF_NUMBERS, OF_PARAMETERS = "numbers", "parameters"
 FORGIVEN = {OF_NUMBERS, OF_PARAMETERS}
-MENDED = "Judged as if the slip above were mended, for half of the points."
+CORRECTED_HINT = "Judged as if the slip above were mended, for half of the points."
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
 _PACKED = {"std_msgs/msg/Float32": ("<f", ctypes.c_float), "std_msgs/msg/Float64": ("<d", ctypes.c_double)}
 _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 
-def slips_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
-    """What `mended` has to mend, for the slips that a run and its verdicts show."""
+def typos_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
+    """Return the typos that a run and its verdicts show, in the form that `auto_correct` takes."""
     failed = any(verdict.status == "failed" for verdict in verdicts)
-    pairs = [verdict.slip for verdict in verdicts if verdict.slip]
+    pairs = [verdict.typo for verdict in verdicts if verdict.typo]
     pairs += misspelt(recording) if failed else []
-    slips = [f"{wrong}:={right}" for wrong, right in pairs]
+    typos = [f"{wrong}:={right}" for wrong, right in pairs]
     if any(_is_of_numbers(error, recording) for error in recording.errors):
-        slips.append(OF_NUMBERS)
+        typos.append(OF_NUMBERS)
     if failed and (misspelt_parameter(recording) or whole_parameter(recording)):
-        slips.append(OF_PARAMETERS)
-    return list(dict.fromkeys(slips))
+        typos.append(OF_PARAMETERS)
+    return list(dict.fromkeys(typos))
 
 
 def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
@@ -51,19 +51,19 @@ def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
     return found is not None and {found.type, found.other.type} == set(_PACKED)
 
 
-def mended(program: Any, preparation: Sequence[Any], *slips: str) -> Any:
-    """What a scenario makes of a student's program, without these slips; a launch file stays as it is.
+def auto_correct(program: Any, preparation: Sequence[Any], *typos: str) -> Any:
+    """Return a student's program as a scenario prepares it, with these typos corrected. Launch files stay.
 
-    preparation: the scenario's own: the name of a function, and further words for it; [] for none.
+    preparation: the scenario's own, serialized: the name of a function and its arguments; [] for none.
     """
     for name in preparation[:1]:
         program = pkgutil.resolve_name(name)(program, *preparation[1:])
     if isinstance(program, list):  # several programs were made of it
-        return [mended(one, [], *slips) for one in program]
+        return [auto_correct(one, [], *typos) for one in program]
     if isinstance(program, str):
         return program
     process = program if isinstance(program, Process) else Process(program)
-    names = [slip.split(":=") for slip in slips if not _of_a_type(slip) and slip not in FORGIVEN]
+    names = [typo.split(":=") for typo in typos if not _of_a_type(typo) and typo not in FORGIVEN]
     rules = [(wrong, right) for wrong, right in names]
     rules += [
         (f"{wrong}/_action/{part}", f"{right}/_action/{part}")
@@ -72,17 +72,17 @@ def mended(program: Any, preparation: Sequence[Any], *slips: str) -> Any:
         for part in _PARTS
     ]
     remappings = [*process.remappings, *rules]
-    return replace(process, remappings=remappings, forgiving=not FORGIVEN.isdisjoint(slips))
+    return replace(process, remappings=remappings, forgiving=not FORGIVEN.isdisjoint(typos))
 
 
-def in_what_was_sent(slips: Sequence[str]) -> bool:
-    """Whether `retyped` mends all of these slips, and no run without them is needed."""
-    return all(map(_of_a_type, slips))
+def only_wrong_types(typos: Sequence[str]) -> bool:
+    """Return whether `with_right_types` corrects all of these typos, so that no further run is needed."""
+    return all(map(_of_a_type, typos))
 
 
-def retyped(recording: Recording, slips: Sequence[str]) -> Recording:
-    """What was recorded, with what a student's program sent and declared in the type that was asked for."""
-    kinds = dict(slip.split(":=") for slip in slips if _of_a_type(slip))
+def with_right_types(recording: Recording, typos: Sequence[str]) -> Recording:
+    """Return the recording with the student's messages and endpoints in the type that the exercise wants."""
+    kinds = dict(typo.split(":=") for typo in typos if _of_a_type(typo))
 
     def right(row: Any) -> Any:
         if row.from_course or row.type not in kinds:
@@ -90,7 +90,7 @@ def retyped(recording: Recording, slips: Sequence[str]) -> Recording:
         return row._replace(type=kinds[row.type], **_repacked(row, kinds[row.type]))
 
     graph = replace(recording.graph, endpoints=[right(end) for end in recording.graph.endpoints])
-    return replace(recording, published=[right(heard) for heard in recording.published], graph=graph)
+    return replace(recording, published=[right(message) for message in recording.published], graph=graph)
 
 
 def _repacked(row: Any, kind: str) -> dict[str, bytes]:
@@ -100,12 +100,12 @@ def _repacked(row: Any, kind: str) -> dict[str, bytes]:
     return {"raw": row.raw[:4] + struct.pack(code, number(row.message.data).value)}
 
 
-def _of_a_type(slip: str) -> bool:
-    return slip.partition(":=")[0] in _PACKED
+def _of_a_type(typo: str) -> bool:
+    return typo.partition(":=")[0] in _PACKED
 
 
-def with_half(given: Sequence[Verdict], without: Sequence[Verdict]) -> list[Verdict]:
-    """The verdicts on a program, with half of what it earns without its slips where that is more."""
+def partial_credit(given: Sequence[Verdict], without: Sequence[Verdict]) -> list[Verdict]:
+    """Return the verdicts, each with half of what the corrected program earns where that is more."""
     again = {verdict.name: verdict for verdict in without}
     return [_better(verdict, again.get(verdict.name)) for verdict in given]
 
@@ -120,4 +120,4 @@ def _better(given: Verdict, without: Verdict | None) -> Verdict:
         return replace(given, credit=max(credit, given.credit), unsafe=given.unsafe or without.unsafe)
     if without.status == "failed":
         return replace(without, credit=max(credit, given.credit), picture="")
-    return replace(given, status="skipped", credit=credit, hint=MENDED)
+    return replace(given, status="skipped", credit=credit, hint=CORRECTED_HINT)
