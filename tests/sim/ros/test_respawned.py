@@ -7,7 +7,7 @@ from rclpy.node import Node
 from std_msgs.msg import Int32
 
 from grader.exercise import Scenario
-from grader.programs import LocalCast, RemoteCast
+from grader.programs import LocalPrograms, RemotePrograms
 from sim import Process, run
 from sim.ros.launching.respawned import respawned
 from tests.sim.ros.remote.apart import Apart
@@ -52,7 +52,7 @@ def test_a_program_is_killed_and_begins_anew_later():
 
 def test_each_program_dies_at_its_own_moment_and_keeps_its_settings():
     prepare = functools.partial(respawned, 1.0, 3.0, 0.5)
-    cast = LocalCast([Counter, Process(Counter, remappings=[("/count", "/other")])])
+    cast = LocalPrograms([Counter, Process(Counter, remappings=[("/count", "/other")])])
     recording = run(*[prepare.func(program, *prepare.args) for program in cast.programs()], seconds=5)
     assert counts(recording).index(1, 1) != counts(recording, "/other").index(1, 1)
 
@@ -67,6 +67,6 @@ def test_a_program_in_another_process_is_killed_at_the_same_moment():
     scenario = Scenario(None, 5.0, prepare=functools.partial(respawned, 1.0, 2.0, 0.5))
     apart = Apart()
     with apart.serving(__name__, "Counter") as remote:
-        there = counts(scenario.run(RemoteCast(remote), 0))
+        there = counts(scenario.run(RemotePrograms(remote), 0))
     apart.close()
-    assert there == counts(scenario.run(LocalCast([Counter]), 0))
+    assert there == counts(scenario.run(LocalPrograms([Counter]), 0))

@@ -11,7 +11,7 @@ import sys
 import time
 
 from grader import Exercise
-from grader.programs import RemoteCast
+from grader.programs import RemotePrograms
 from grader.workspace import building
 from sim.ros.remote import RemoteLost
 from tests.exercises.builds import kept_builds
@@ -59,7 +59,7 @@ def earned(apart: Apart, assignment: str, exercise: str, name: str, secret: str 
     """What a node gets that lives in the other process, as a table's page says it."""
     module = f"tests.students.{assignment}.{exercise}"
     with kept_builds(), apart.serving(module, name, secret=secret) as remote:
-        score = judge(assignment, exercise).judge(RemoteCast(remote, building.build), secret)
+        score = judge(assignment, exercise).judge(RemotePrograms(remote, building.build), secret)
     return shown(name, score)
 
 

@@ -12,7 +12,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from grader import Exercise, check
-from grader.programs import RemoteCast
+from grader.programs import RemotePrograms
 from sim import run
 from sim.ros.messages.codec import encode
 from sim.ros.remote import Remote, RemoteLost, Wire, WireError
@@ -405,24 +405,24 @@ TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Compani
 def test_an_error_that_is_made_up_is_no_mistake_of_ours():
     made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
     with answering({"answer": None}, self_reports(errors=[made_up])) as remote:
-        score = TALKING.judge(RemoteCast(remote))
+        score = TALKING.judge(RemotePrograms(remote))
     assert (float(score), score.broken) == (0.0, [])
 
 
 def test_a_lost_process_is_no_mistake_of_ours():
     with answering({"answer": None}, {"failed": "no"}) as remote, pytest.raises(RemoteLost):
-        TALKING.judge(RemoteCast(remote))
+        TALKING.judge(RemotePrograms(remote))
 
 
 @pytest.mark.parametrize("answer", [5, ["saw"], ["saw", 5], {}, [["saw"], "hint"]])
 def test_a_refusal_that_can_t_be_is_a_lost_process(answer):
     with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
-        TALKING.judge(RemoteCast(remote))
+        TALKING.judge(RemotePrograms(remote))
     assert lost.value.reason == "The process with the nodes did not say whether they can be run."
 
 
 def test_a_refusal_is_told_in_its_own_words():
     with answering({"answer": ["None", "Write your class."]}) as remote:
-        score = TALKING.judge(RemoteCast(remote))
+        score = TALKING.judge(RemotePrograms(remote))
     assert float(score) == 0.0
     assert (score.verdicts[0].saw, score.verdicts[0].hint) == ("None", "Write your class.")
