@@ -20,13 +20,13 @@ from grader.marking.building import builder
 from grader.marking.cores import Cores
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result
-from grader.marking.sandbox import ConfinedProcess, Limits, Sandbox
+from grader.marking.sandbox import ConfinedProcess, ResourceLimits, Sandbox
 from grader.marking.task import RESULT, JudgeOrder, Task, TimeLimits, send_order
 from sim.ros.remote import Wire, WireError, WireTimeout
 
 PRELOAD = ("grader.marking.preload",)
 JUDGE_ENTRY = "grader.marking.judge.judge_process:main"
-JUDGE = Limits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
+JUDGE = ResourceLimits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
 SPARE_S = 120.0  # that a submission may take beside its notebooks
 BUILD_S = 420.0  # more for each package, with what it takes until a sandbox for it is there
 END_S = 5.0  # for a process that has hung up to be gone
@@ -47,7 +47,7 @@ class Pool:
         unsafe: bool = False,
         secret: str = "",
         time_limits: TimeLimits = TimeLimits(),  # noqa: B008
-        limits: Limits = Limits(),  # noqa: B008
+        limits: ResourceLimits = ResourceLimits(),  # noqa: B008
     ) -> None:
         self._jobs, self._secret, self._time_limits = jobs, secret, time_limits
         self._cores = Cores(jobs)

@@ -6,13 +6,13 @@ import contextlib
 import socket
 from pathlib import Path
 
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 from grader.workspace.building import SECONDS, build_in
 from sim.ros.remote import Wire, WireError
 
 ENTRY = "grader.marking.building.builder:main"
 PRELOAD = ("grader.marking.building.builder",)
-LIMITS = Limits(
+LIMITS = ResourceLimits(
     memory_mb=1500, cpu_s=60, wall_s=SECONDS + 30, file_mb=16, threads=64, scratch_files=2048, programs=True
 )
 

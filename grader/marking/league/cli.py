@@ -17,7 +17,7 @@ from grader.marking.league.play import Drawing, Marker, Played, draw, play, time
 from grader.marking.league.standings import REFERENCE, Row, anonymous_names, standings
 from grader.marking.pool import Pool
 from grader.marking.progress import printable
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 
 DESCRIPTION = """Let delivery robots work in the same warehouses, and compare them.
 
@@ -100,7 +100,7 @@ def _draw(options: argparse.Namespace, journal: Journal) -> Drawing:
 
 def _open_pool(options: argparse.Namespace, contest: Contest) -> Pool:
     whole = int(contest.worlds * contest.seconds)
-    usual = Limits()
+    usual = ResourceLimits()
     limits = replace(usual, cpu_s=usual.cpu_s + whole, wall_s=usual.wall_s + whole)
     jobs = options.jobs or len(usable())
     return Pool(jobs, options.unsafe, time_limits=time_limits(contest), limits=limits)

@@ -21,7 +21,7 @@ from grader.marking.machines.on_worker import MARKED, UNFIT, RunSettings, mark_t
 from grader.marking.machines.workers import Workers
 from grader.marking.pool import refused_result
 from grader.marking.result import Result
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 from grader.marking.task import Task, TimeLimits
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class DaskPool:
         unsafe: bool = False,
         secret: str = "",
         time_limits: TimeLimits = TimeLimits(),  # noqa: B008
-        limits: Limits = Limits(),  # noqa: B008
+        limits: ResourceLimits = ResourceLimits(),  # noqa: B008
         wait_s: float = WAIT_S,
     ) -> None:
         self._address, self._wait_s = address, wait_s

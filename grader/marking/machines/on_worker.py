@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from grader.marking.errors import SandboxFailed, SandboxMissing
 from grader.marking.pool import Pool
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 from grader.marking.task import Task, TimeLimits
 from grader.marking.version import versions
 
@@ -28,7 +28,7 @@ class RunSettings:
     unsafe: bool
     secret: str = field(repr=False)
     time_limits: TimeLimits
-    limits: Limits
+    limits: ResourceLimits
 
 
 class WorkerPool:

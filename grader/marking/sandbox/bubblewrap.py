@@ -1,4 +1,4 @@
-"""The sandbox as bubblewrap makes it: what confined processes see of this machine, and why it may refuse."""
+"""The command line of bubblewrap: what confined processes see of this machine, and why it may fail."""
 
 import importlib.util
 import os
@@ -8,27 +8,28 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from grader.marking.errors import SandboxMissing
-from grader.marking.sandbox.walls import HOME, STAGE
+from grader.marking.sandbox.confinement import HOME
+from grader.marking.sandbox.mounts import STAGE
 
 UNSAFE = "or mark with `--unsafe`, which lets students' code read and change all your files"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64")
 SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "fonts")
 USER = 1000
 
-# Where Linux can forbid what a sandbox needs, the value that does, and what undoes it.
-KNOBS = (
+# Settings that forbid user namespaces: the file below /proc/sys, the value that does, and what undoes it.
+SYSCTLS = (
     ("kernel/apparmor_restrict_unprivileged_userns", "1", "kernel.apparmor_restrict_unprivileged_userns=0"),
     ("kernel/unprivileged_userns_clone", "0", "kernel.unprivileged_userns_clone=1"),
     ("user/max_user_namespaces", "0", "user.max_user_namespaces=10000"),
 )
-# Ubuntu's; it lets bubblewrap make a sandbox and confined processes none.
+# Ubuntu's profile: bubblewrap may make namespaces, and the processes that it starts may not.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
 IN_PYTHON = "launch", "launch_ros", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "tf_transformations"
 COURSE = "sim", "grader", *IN_PYTHON
 
 
-def visible(extra: Sequence[Path]) -> list[str]:
-    """Return what can be read inside besides the system: Python, its packages, the course's, and `extra`.
+def visible_paths(extra: Sequence[Path]) -> list[str]:
+    """Return the paths that can be read inside besides the system's: Python, all packages, and `extra`.
 
     Raises FileNotFoundError.
     """
@@ -46,7 +47,7 @@ def _packages() -> list[Path]:
 
 
 def _links(program: str) -> Iterator[tuple[str, str]]:
-    """Yield the links on the way from a program to its file, each after what it stands for."""
+    """Yield the symbolic links from a program to its file, as pairs of target and link."""
     while os.path.islink(program):
         folder = os.path.realpath(os.path.dirname(program))
         to = os.path.normpath(os.path.join(folder, os.readlink(program)))
@@ -55,7 +56,7 @@ def _links(program: str) -> Iterator[tuple[str, str]]:
 
 
 def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, str]:
-    """Return all environment variables of a confined process; nothing of the marker's own goes through.
+    """Return all environment variables of a confined process; none of the marker's own is passed on.
 
     imports: folders of modules besides Python's own and the course's.
     """
@@ -66,11 +67,11 @@ def environment(home: str, scratch: str, imports: Iterable[str]) -> dict[str, st
         "USER": "student",
         "PATH": f"{sys.prefix}/bin:/usr/bin:/bin",
         "LANG": "C.UTF-8",
-        "PYTHONPATH": os.pathsep.join(modules),  # the same course as here, wherever it is from
+        "PYTHONPATH": os.pathsep.join(modules),  # the same course as here, wherever it is installed
         "PYTHONHASHSEED": "0",
         "OPENBLAS_NUM_THREADS": "1",
         "OMP_NUM_THREADS": "1",
-        "MALLOC_ARENA_MAX": "2",  # an arena takes 64 MB of address space, and threads would take one each
+        "MALLOC_ARENA_MAX": "2",  # an arena takes 64 MB of address space, and each thread would have its own
         "MPLBACKEND": "module://matplotlib_inline.backend_inline",
         "MPLCONFIGDIR": f"{scratch}/matplotlib",
     }
@@ -89,7 +90,7 @@ def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) ->
     words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
     for name, value in environment(HOME, "/tmp", imports).items():
         words += ["--setenv", name, value]
-    # What is private comes first: the course may lie in /tmp.
+    # Private folders come first: the course may be in /tmp.
     words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME, "--dir", STAGE]
     for path in SYSTEM:
         if os.path.islink(path):
@@ -100,7 +101,7 @@ def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) ->
         words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     for path in paths:
         words += ["--ro-bind", path, path]
-    # A Python may be called by a link from anywhere, as ~/.local/bin is full of them.
+    # Python may be started through a link outside these paths, such as one in ~/.local/bin.
     there = (*SYSTEM, *(f"/etc/{name}" for name in SETTINGS), *paths)
     for to, link in _links(program[0]):
         if not any(Path(link).is_relative_to(path) for path in there):
@@ -108,11 +109,11 @@ def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) ->
     return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
 
-def forbidden(words: str, root: Path = Path("/")) -> SandboxMissing:
-    """Return the error for a system that lets bubblewrap make no sandbox; `words` are its own."""
+def forbidden(message: str, root: Path = Path("/")) -> SandboxMissing:
+    """Return the error for a system on which bubblewrap fails with this message."""
     undo = [
         f"`sudo sysctl {undo}`"
-        for name, value, undo in KNOBS
+        for name, value, undo in SYSCTLS
         if (file := root / "proc/sys" / name).exists() and file.read_text().strip() == value
     ]
     if (root / PROFILE).exists():
@@ -120,4 +121,4 @@ def forbidden(words: str, root: Path = Path("/")) -> SandboxMissing:
     way = "In a container, allow user namespaces, as with `docker run --security-opt seccomp=unconfined`"
     if undo:
         way = f"Allow user namespaces with {' and '.join(undo)}"
-    return SandboxMissing(f"This system lets bubblewrap make no sandbox ({words}). {way}, {UNSAFE}.")
+    return SandboxMissing(f"This system lets bubblewrap make no sandbox ({message}). {way}, {UNSAFE}.")

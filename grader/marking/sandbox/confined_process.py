@@ -1,4 +1,4 @@
-"""One student's process, as seen from outside."""
+"""A handle on one student's process."""
 
 import contextlib
 import json
@@ -10,9 +10,9 @@ import socket
 import threading
 from pathlib import Path
 
-from grader.marking.sandbox.limits import Ending
+from grader.marking.sandbox.resource_limits import ProcessEnd
 
-GONE = Ending("killed", "The process was killed: the cage around it broke.")
+GONE = ProcessEnd("killed", "The process was killed: the cage around it broke.")
 
 
 class ConfinedProcess:
@@ -23,37 +23,37 @@ class ConfinedProcess:
         self._pidfd = pidfd
         self._lock = threading.Lock()
         self._report = report
-        self._ending: Ending | None = None
+        self._ending: ProcessEnd | None = None
 
     def keep_to(self, core: int) -> None:
-        """Let it run on this core alone, with what it starts from now on."""
+        """Pin it to this core, with all that it starts from now on."""
         with contextlib.suppress(OSError):  # it may have ended
             if self.pid > 0:  # 0 would be ourselves
                 os.sched_setaffinity(self.pid, {core})
 
     def kill(self) -> None:
-        """End it with all it started, at once. Does nothing if it has ended."""
+        """Kill it with all that it started. Does nothing if it has ended."""
         with self._lock, contextlib.suppress(ProcessLookupError):
-            if self._ending is None:  # else the descriptor may be somebody else's by now
+            if self._ending is None:  # else the descriptor may belong to another process by now
                 signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
 
-    def wait(self, timeout: float | None = None) -> Ending:
+    def wait(self, timeout: float | None = None) -> ProcessEnd:
         """Wait for its end, at most `timeout` seconds of the wall clock. Raises TimeoutError."""
         if self._ending is None:
             poll = select.poll()
             poll.register(self._report, select.POLLIN)
             if not poll.poll(None if timeout is None else 1000 * timeout):
                 raise TimeoutError(f"the process still runs after {timeout:g} s")
-            said = self._report.recv(1 << 16)
-            self.kill()  # without a supervisor nobody else would
+            report = self._report.recv(1 << 16)
+            self.kill()  # its supervisor may have died
             self._report.close()
             with self._lock:
-                self._ending = Ending(**json.loads(said)) if said else GONE
+                self._ending = ProcessEnd(**json.loads(report)) if report else GONE
                 os.close(self._pidfd)
         return self._ending
 
     def memory(self) -> float:
-        """Return the most memory it had so far, in MB; 0 if nobody can tell."""
+        """Return its peak memory so far, in MB; 0 if that is unknown."""
         if self._ending:
             return self._ending.peak_mb or 0.0
         with contextlib.suppress(OSError):

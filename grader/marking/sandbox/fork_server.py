@@ -1,8 +1,8 @@
 """The warm process that forks the confined ones: `python -m grader.marking.sandbox.fork_server DESCRIPTOR`.
 
-DESCRIPTOR is a socket to the Sandbox. First comes a JSON object with what to prepare; the answer is {},
-{"failed": why} or {"forbidden": by what}. Then each message brings two sockets: the wire of a new process and
-the place to report to. The fork server lives until the Sandbox closes its end.
+DESCRIPTOR is a socket to the Sandbox. The first message is a JSON object with what to prepare; the answer is
+{}, {"failed": why} or {"forbidden": by what}. Each further message brings two sockets: the wire of a new
+process and the socket for its reports. The fork server runs until the Sandbox closes its end.
 """
 
 import gc
@@ -16,17 +16,18 @@ import traceback
 from typing import Any, NoReturn
 
 from grader.marking.sandbox import linux
-from grader.marking.sandbox.limits import Limits
+from grader.marking.sandbox.confinement import Confinement
+from grader.marking.sandbox.resource_limits import ResourceLimits
 from grader.marking.sandbox.supervisor import EntryFunction, supervise
-from grader.marking.sandbox.walls import Confinement
 
 
 class ForkServer:
-    """Forks a supervisor, and by it a confined process, whenever the Sandbox asks for one."""
+    """Forks a supervisor, which forks a confined process, for each request of the Sandbox."""
 
     def __init__(self, control: socket.socket, order: dict[str, Any]) -> None:
         self._control = control
-        self._confinement = Confinement(Limits(**order["limits"]), order["sandboxed"], order["visible"])
+        limits = ResourceLimits(**order["limits"])
+        self._confinement = Confinement(limits, order["sandboxed"], order["visible"])
         self._entry = _load(order)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # supervisors report to the Sandbox, not here
         if self._confinement.sandboxed:
@@ -45,7 +46,7 @@ class ForkServer:
                 self._control.close()
                 supervise(entry, wire, report, self._confinement)
 
-    def rehearse(self) -> None:
+    def start_trial_process(self) -> None:
         """Start a confined process that does nothing. Raises OSError if this system does not allow it."""
         _, wire = socket.socketpair()
         ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
@@ -54,8 +55,8 @@ class ForkServer:
             answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
         for descriptor in descriptors:
             os.close(descriptor)
-        if "failed" in (said := json.loads(answer or b'{"failed": "the keeper died"}')):
-            raise OSError(said["failed"])
+        if "failed" in (report := json.loads(answer or b'{"failed": "the supervisor died"}')):
+            raise OSError(report["failed"])
 
     def serve(self) -> None:
         """Fork confined processes until the Sandbox closes its end."""
@@ -68,20 +69,20 @@ class ForkServer:
 
 
 def _load(order: dict[str, Any]) -> EntryFunction:
-    """Import what confined processes will need, so that each is born with it; return their entry."""
+    """Import what confined processes need, so that each is forked with it loaded; return their entry."""
     for name in order["preload"]:
         importlib.import_module(name)
     module, _, function = order["entry"].partition(":")
     entry = getattr(importlib.import_module(module), function)
-    # What was compiled until here is kept for the next time; what belongs to students leaves nothing.
+    # Bytecode of what was imported until here is cached; that of students' modules is not.
     sys.dont_write_bytecode, os.environ["PYTHONDONTWRITEBYTECODE"] = True, "1"
     gc.collect()
-    gc.freeze()  # pages of what is warm stay shared with all confined processes
+    gc.freeze()  # memory pages that are loaded now stay shared with all confined processes
     return entry
 
 
 def main(descriptor: int) -> NoReturn:
-    """Prepare, say so, and serve."""
+    """Prepare, report that, and serve."""
     control = socket.socket(fileno=descriptor)
     control.set_inheritable(False)
     order = json.loads(control.recv(1 << 16))
@@ -91,18 +92,18 @@ def main(descriptor: int) -> NoReturn:
         _answer(control, failed="".join(traceback.format_exception_only(error)).strip())
     else:
         try:
-            fork_server.rehearse()
+            fork_server.start_trial_process()
         except OSError as error:
             _answer(control, forbidden=str(error))
         else:
             _answer(control)
             fork_server.serve()
-    os._exit(0)  # and with it everybody in the sandbox
+    os._exit(0)  # and with it all processes in the sandbox
 
 
-def _answer(control: socket.socket, **words: str) -> None:
-    """Tell the Sandbox what became of the preparations, with a handle on this process."""
-    socket.send_fds(control, [json.dumps(words).encode()], [os.pidfd_open(os.getpid())])
+def _answer(control: socket.socket, **report: str) -> None:
+    """Report the outcome of the preparations to the Sandbox, with a handle on this process."""
+    socket.send_fds(control, [json.dumps(report).encode()], [os.pidfd_open(os.getpid())])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 NEW_USER = 0x10000000
 NEW_PID = 0x20000000
@@ -49,7 +50,7 @@ def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str
 
 
 def unmount(target: str) -> None:
-    """Take `target` out of sight; what was bound from it to other places stays there."""
+    """Unmount `target` lazily; what was bound from it to other paths stays mounted there."""
     _call("umount2", target.encode(), _MNT_DETACH)
 
 
@@ -60,9 +61,9 @@ def die_with_parent(signal: int) -> None:
 
 @contextlib.contextmanager
 def same_addresses() -> Iterator[None]:
-    """Let programs that this thread starts meanwhile have their code at equal addresses, see personality(2).
+    """Turn off address space randomisation for programs that this thread starts meanwhile: personality(2).
 
-    Where a system forbids it, as containers may, they start as ever.
+    Where a system forbids it, as containers may, it stays on.
     """
     usual = _libc.personality(ctypes.c_ulong(0xFFFFFFFF))
     _libc.personality(ctypes.c_ulong(usual | _ADDR_NO_RANDOMIZE))
@@ -73,21 +74,26 @@ def same_addresses() -> Iterator[None]:
 
 
 def set_dumpable(dumpable: bool) -> None:
-    """Say whether others of the same user may look into this process."""
+    """Set whether processes of the same user may read and trace this one."""
     _prctl(_PR_SET_DUMPABLE, int(dumpable))
 
 
+def be_killed_first() -> None:
+    """Make this process the first that the kernel kills when memory runs out."""
+    Path("/proc/self/oom_score_adj").write_text("1000")
+
+
 def drop_capabilities() -> None:
-    """Give up every capability. With no new privileges, which `filter_calls` sets, that is for ever."""
+    """Drop every capability, for good: `filter_calls` sets that no program regains privileges."""
     header = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION_3, 0)
     _call("capset", header, (ctypes.c_uint32 * 6)())
 
 
 def filter_calls(program: bytes) -> None:
-    """Let the BPF `program` decide on every system call from now on, see seccomp(2)."""
+    """Filter every system call from now on with the BPF `program`, see seccomp(2)."""
 
-    class Program(ctypes.Structure):
+    class BpfProgram(ctypes.Structure):
         _fields_ = [("length", ctypes.c_ushort), ("instructions", ctypes.c_char_p)]
 
     _prctl(_PR_SET_NO_NEW_PRIVS, 1)
-    _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(Program(len(program) // 8, program)))
+    _prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(BpfProgram(len(program) // 8, program)))

@@ -1,4 +1,4 @@
-"""Where confined processes live: walls made by bubblewrap, with a warm interpreter inside."""
+"""Starts confined processes: a warm interpreter inside bubblewrap forks them."""
 
 import platform
 import socket
@@ -11,22 +11,22 @@ from typing import Self
 from grader.marking.errors import SandboxFailed, SandboxMissing
 from grader.marking.sandbox import bubblewrap
 from grader.marking.sandbox.confined_process import ConfinedProcess
-from grader.marking.sandbox.limits import USUAL, Limits
+from grader.marking.sandbox.resource_limits import USUAL, ResourceLimits
 from grader.marking.sandbox.warm_process import WarmProcess
 
 PRELOAD = ("sim", "grader.exercises", "numpy", "matplotlib.pyplot", "IPython.core.interactiveshell")
 
 
 class Sandbox:
-    """Starts students' processes, each apart from everything and from each other. Thread-safe.
+    """Starts students' processes, isolated from the machine and from each other. Thread-safe.
 
-    entry: "module:function"; each confined process calls it with a connected unix socket, its only way out.
+    entry: "module:function"; each confined process calls it with a unix socket, its only connection.
     preload: modules that are imported once, before any confined process. imports: folders with more modules.
     readable: files and folders that can be read inside, at the same paths as here. Besides those they see the
     system's programs, Python with its packages, and the packages sim and grader; nothing else.
-    unsafe: no walls. They then are plain processes with the same limits. They have no rights of their own
-    over the machine, and every right of the user who marks: they can read and write all files, use the
-    network and kill processes. For machines without bubblewrap, and for code that is trusted.
+    unsafe: no isolation. They are plain processes with the same limits and all rights of the user who marks:
+    they can read and write all files, use the network and kill processes. For machines without bubblewrap,
+    and for code that is trusted.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Sandbox:
         preload: Sequence[str] = PRELOAD,
         readable: Sequence[Path] = (),
         unsafe: bool = False,
-        limits: Limits = USUAL,
+        limits: ResourceLimits = USUAL,
         imports: Sequence[Path] = (),
     ) -> None:
         """Start the warm process.
@@ -53,7 +53,7 @@ class Sandbox:
             "imports": [str(path) for path in imports],
             "limits": asdict(limits),
             "sandboxed": not unsafe,
-            "visible": [] if unsafe else bubblewrap.visible([*readable, *imports]),
+            "visible": [] if unsafe else bubblewrap.visible_paths([*readable, *imports]),
         }
         self._lock = threading.Lock()
         self._warm: WarmProcess | None = WarmProcess(self._order)

@@ -1,7 +1,7 @@
 """The filter on system calls that every confined process has: a BPF program for x86_64.
 
 A call that is denied fails with EPERM, so student code gets an ordinary PermissionError. Threads are allowed,
-processes are not, unless it may start programs; nor is anything that outlives the confined process or is
+processes are not, unless it may start programs. Nothing is allowed that outlives the confined process or is
 shared with another one.
 """
 
@@ -21,12 +21,12 @@ DENIED = {
     # other processes
     "ptrace": 101, "process_vm_readv": 310, "process_vm_writev": 311, "process_madvise": 440, "kcmp": 312,
     "pidfd_open": 434, "pidfd_getfd": 438,
-    # memory and messages that stay when the confined process is gone, or that no limit counts
+    # memory and messages that remain after the confined process has ended, or that no limit counts
     "shmget": 29, "shmat": 30, "shmctl": 31, "semget": 64, "msgget": 68, "mq_open": 240,
     "memfd_create": 319, "memfd_secret": 447,
     "inotify_init": 253, "inotify_init1": 294,  # a user has 128 of them, on the whole machine
     "add_key": 248, "request_key": 249, "keyctl": 250,
-    # files in other places
+    # other files and mounts
     "mount": 165, "umount2": 166, "pivot_root": 155, "chroot": 161, "open_tree": 428, "move_mount": 429,
     "fsopen": 430, "fsconfig": 431, "fsmount": 432, "fspick": 433, "mount_setattr": 442,
     "open_tree_attr": 467, "unshare": 272, "setns": 308, "name_to_handle_at": 303, "open_by_handle_at": 304,
@@ -42,11 +42,11 @@ DENIED = {
 }  # fmt: skip
 
 _LOAD, _EQUAL, _AT_LEAST, _HAS, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
-_NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16  # where they stand in struct seccomp_data
+_NUMBER, _ARCHITECTURE, _ARGUMENTS = 0, 4, 16  # offsets in struct seccomp_data
 
 
 def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
-    """Return an instruction; `then` and `otherwise` are how many of the next a comparison passes over."""
+    """Return an instruction; `then` and `otherwise`: how many instructions a comparison skips."""
     return struct.pack("=HBBI", code, then, otherwise, value)
 
 
@@ -60,12 +60,12 @@ _UNKNOWN = _step(_RETURN, 0x00050000 | errno.ENOSYS)
 
 
 def _rule(number: int, *steps: bytes) -> bytes:
-    """Return steps that decide on the call `number` and are passed over by every other call."""
+    """Return steps that decide on the call `number` and are skipped for every other call."""
     return _step(_EQUAL, number, 0, len(steps)) + b"".join(steps)
 
 
 def program(programs: bool = False) -> bytes:
-    """Return the filter as BPF instructions of 8 bytes. programs: whether it lets start programs."""
+    """Return the filter as BPF instructions of 8 bytes. programs: whether it allows starting programs."""
     denied = DENIED if programs else PROGRAMS | DENIED
     new, others = (_CLONE_NEW, (0, 1)) if programs else (_CLONE_THREAD, (1, 0))
     steps = [
@@ -75,11 +75,11 @@ def program(programs: bool = False) -> bytes:
         _step(_LOAD, _NUMBER),
         _step(_AT_LEAST, _X32, 0, 1),
         _DENY,
-        # clone3 keeps its flags where no filter can see them: glibc falls back to clone.
+        # clone3 has its flags in memory, which no filter can read: glibc falls back to clone.
         _rule(_CLONE3, _UNKNOWN),
         _rule(_CLONE, _argument(0), _step(_HAS, new, *others), _DENY, _ALLOW),
-        # Fast DDS wants UDP, and netlink to list the interfaces; nobody answers on either. Others, such as
-        # sockets to the host of a virtual machine, belong to no network namespace.
+        # Fast DDS opens UDP sockets, and netlink to list the interfaces; nothing is reachable through them.
+        # Other families, such as sockets to the host of a virtual machine, belong to no network namespace.
         _rule(
             _SOCKET,
             _argument(0),

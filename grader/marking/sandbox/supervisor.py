@@ -1,4 +1,4 @@
-"""The process beside each confined one: makes it, watches its limits and reports how it ended."""
+"""The parent of each confined process: starts it, watches its limits and reports how it ended."""
 
 import contextlib
 import json
@@ -14,28 +14,28 @@ import traceback
 from collections.abc import Callable
 from typing import IO, Any, NoReturn
 
-from grader.marking.sandbox import linux, walls
-from grader.marking.sandbox.family import used_by
-from grader.marking.sandbox.limits import MB, Ending, Limits
-from grader.marking.sandbox.walls import Confinement
+from grader.marking.sandbox import confinement, linux, mounts
+from grader.marking.sandbox.confinement import Confinement
+from grader.marking.sandbox.process_tree import tree_usage
+from grader.marking.sandbox.resource_limits import MB, ProcessEnd, ResourceLimits
 
-WATCH_S = 0.25  # between two looks at a confined process
-CORES = 1.1  # on which it may compute for long: with hundreds of threads it would have the whole machine
-WORDS = 4000  # bytes of stderr that are reported
-OUT_OF_MEMORY = 70  # the exit status of a confined process whose MemoryError nobody caught
+WATCH_S = 0.25  # between two checks of a confined process
+CORES = 1.1  # that it may use over a longer time: with hundreds of threads it would have the whole machine
+STDERR_BYTES = 4000  # of stderr that are reported
+OUT_OF_MEMORY = 70  # the exit status of a confined process after an uncaught MemoryError
 
 EntryFunction = Callable[[socket.socket], Any]
 
 
 def supervise(
-    entry: EntryFunction, wire: socket.socket, report: socket.socket, confinement: Confinement
+    entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement
 ) -> NoReturn:
-    """Start a confined process and stay until its end; for a fresh child of the fork server.
+    """Start a confined process and watch it until it ends; for a fresh child of the fork server.
 
-    Sends two messages over `report`: {} with its pidfd once it runs, or {"failed": why}; then its Ending.
+    Sends two messages over `report`: {} with its pidfd once it runs, or {"failed": why}; then its ProcessEnd.
     """
     try:
-        _supervise(entry, wire, report, confinement)
+        _supervise(entry, wire, report, how)
     except Exception as error:
         report.send(json.dumps({"failed": str(error)}).encode())
     finally:
@@ -43,18 +43,18 @@ def supervise(
 
 
 def _supervise(
-    entry: EntryFunction, wire: socket.socket, report: socket.socket, confinement: Confinement
+    entry: EntryFunction, wire: socket.socket, report: socket.socket, how: Confinement
 ) -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     linux.die_with_parent(signal.SIGKILL)
-    with walls.folder(confinement) as home, tempfile.TemporaryFile() as stderr:
-        if confinement.sandboxed:
-            walls.separate()
+    with confinement.home_folder(how) as home, tempfile.TemporaryFile() as stderr:
+        if how.sandboxed:
+            confinement.unshare_namespaces()
         processes = os.open("/proc", os.O_RDONLY)
         ready, answer = os.pipe()
         process = os.fork()
         if not process:
-            _become_confined(entry, wire, answer, stderr, confinement, home)
+            _become_confined(entry, wire, answer, stderr, how, home)
         os.close(answer)
         wire.close()
         pidfd = os.pidfd_open(process)
@@ -63,22 +63,22 @@ def _supervise(
             raise OSError(problem)
         socket.send_fds(report, [b"{}"], [pidfd])
         reserved = _reserved_mb(process, processes)
-        reason = _watch(process, pidfd, processes, confinement.limits)
+        reason = _watch(process, pidfd, processes, how.limits)
         _, status, used = os.wait4(process, 0)
-        ending = describe(status, used, confinement.limits, reason, reserved)
-        words = _last_words(stderr)
-    report.send(json.dumps(vars(ending) | {"words": words}).encode())
+        end = describe(status, used, how.limits, reason, reserved)
+        tail = _tail(stderr)
+    report.send(json.dumps(vars(end) | {"stderr": tail}).encode())
 
 
 def _problem(ready: int) -> str:
-    """Wait until the confined process is confined; return "" or what went wrong."""
+    """Wait until the new process is confined; return "" or what went wrong."""
     with os.fdopen(ready, "rb") as pipe:
-        said = pipe.read()
-    return "" if said == b"ready" else said.decode() or "the process died before it was confined"
+        report = pipe.read()
+    return "" if report == b"ready" else report.decode() or "the process died before it was confined"
 
 
-def _watch(process: int, pidfd: int, processes: int, limits: Limits) -> str:
-    """Return when the confined process has ended; if a limit made us end it, return the kind of its end.
+def _watch(process: int, pidfd: int, processes: int, limits: ResourceLimits) -> str:
+    """Return when the confined process has ended: the kind of limit for which it was killed, or "".
 
     See proc(5) for the fields of `stat`.
     """
@@ -88,8 +88,8 @@ def _watch(process: int, pidfd: int, processes: int, limits: Limits) -> str:
     since, before = time.monotonic(), 0.0
     while not poll.poll(1000 * WATCH_S):
         if limits.programs:
-            if reason := _family_exceeded(process, processes, deadline, limits):
-                os.kill(process, signal.SIGKILL)  # and with it all in its namespace
+            if reason := _tree_exceeded(process, processes, deadline, limits):
+                os.kill(process, signal.SIGKILL)  # and with it all processes in its namespace
                 return reason
             continue
         fields = _read(f"{process}/stat", processes).rpartition(b")")[2].split()
@@ -106,25 +106,25 @@ def _watch(process: int, pidfd: int, processes: int, limits: Limits) -> str:
     return ""
 
 
-def _exceeded(cpu_s: float, threads: int, deadline: float, limits: Limits) -> str:
-    """Return which limit does not hold any more, or ""."""
+def _exceeded(cpu_s: float, threads: int, deadline: float, limits: ResourceLimits) -> str:
+    """Return which limit is exceeded, or ""."""
     if cpu_s > limits.cpu_s:
         return "cpu"
-    if threads > limits.threads:  # RLIMIT_NPROC does not bind the real root
+    if threads > limits.threads:  # RLIMIT_NPROC does not hold for the real root
         return "threads"
     return "time" if time.monotonic() > deadline else ""
 
 
-def _family_exceeded(process: int, processes: int, deadline: float, limits: Limits) -> str:
-    """The same for a process with all that it started."""
-    used = used_by(process, processes)
+def _tree_exceeded(process: int, processes: int, deadline: float, limits: ResourceLimits) -> str:
+    """The same for a process with all its descendants."""
+    used = tree_usage(process, processes)
     if used.memory_mb > limits.memory_mb:
         return "memory"
     return _exceeded(used.cpu_s, used.threads, deadline, limits)
 
 
 def _reserved_mb(process: int, processes: int) -> float:
-    """Return how much address space it has without memory behind it."""
+    """Return the size of its address space that has no physical memory."""
     size, resident, *_ = map(int, _read(f"{process}/statm", processes).split())
     return (size - resident) * resource.getpagesize() / MB
 
@@ -134,10 +134,10 @@ def _read(path: str, folder: int) -> bytes:
         return file.read()
 
 
-def _last_words(stderr: IO[bytes]) -> str:
+def _tail(stderr: IO[bytes]) -> str:
     end = stderr.seek(0, os.SEEK_END)
-    stderr.seek(max(0, end - WORDS))
-    return stderr.read(WORDS).decode(errors="replace").strip()
+    stderr.seek(max(0, end - STDERR_BYTES))
+    return stderr.read(STDERR_BYTES).decode(errors="replace").strip()
 
 
 def _become_confined(
@@ -145,17 +145,17 @@ def _become_confined(
     wire: socket.socket,
     answer: int,
     stderr: IO[bytes],
-    confinement: Confinement,
+    how: Confinement,
     home: str,
 ) -> NoReturn:
-    """Become the confined process: be confined, then run the entry. Never returns."""
+    """Confine this process, then run the entry in it. Never returns."""
     code = 1
     try:
         try:
-            if confinement.sandboxed:
-                walls.furnish(confinement)
-            wire, answer = walls.keep_only(wire, answer, stderr)
-            walls.confine(confinement, home)
+            if how.sandboxed:
+                mounts.mount_all(how)
+            wire, answer = confinement.close_other_descriptors(wire, answer, stderr)
+            confinement.confine(how, home)
             os.write(answer, b"ready")
         except Exception as error:
             os.write(answer, str(error).encode())
@@ -170,7 +170,7 @@ def _become_confined(
     except BaseException:
         traceback.print_exc()
     finally:
-        # Not sys.exit: destructors of C++ libraries wait for threads that are not in a forked process.
+        # Not sys.exit: destructors of C++ libraries wait for threads that a forked process does not have.
         for stream in (sys.stdout, sys.stderr):
             with contextlib.suppress(Exception):
                 stream.flush()
@@ -178,9 +178,9 @@ def _become_confined(
 
 
 def describe(
-    status: int, used: resource.struct_rusage, limits: Limits, reason: str, reserved_mb: float
-) -> Ending:
-    """Tell how a confined process ended, from what wait4 says and the limit that was the `reason`, if any."""
+    status: int, used: resource.struct_rusage, limits: ResourceLimits, reason: str, reserved_mb: float
+) -> ProcessEnd:
+    """Describe how a confined process ended, from wait4's result and the exceeded limit, `reason`, if any."""
     code = os.waitstatus_to_exitcode(status)
     cpu_s = used.ru_utime + used.ru_stime
     peak_mb = used.ru_maxrss * 1024 / MB
@@ -194,15 +194,15 @@ def describe(
         "time": f"The process ran for more than the {limits.wall_s:g} s that are allowed.",
         "threads": f"The process had more than the {limits.threads} threads that are allowed.",
     }
-    return Ending(kind, details[kind], code, round(cpu_s, 3), round(peak_mb, 1))
+    return ProcessEnd(kind, details[kind], code, round(cpu_s, 3), round(peak_mb, 1))
 
 
-def _kind(code: int, space_mb: float, limits: Limits) -> str:
+def _kind(code: int, space_mb: float, limits: ResourceLimits) -> str:
     if code == OUT_OF_MEMORY:
         return "memory"
     if code >= 0:
         return "exited"
     if code == -signal.SIGKILL:
         return "killed"
-    # C++ code that gets no memory aborts.
+    # C++ code aborts when it gets no memory.
     return "memory" if space_mb > 0.9 * limits.memory_mb else "crashed"

@@ -1,4 +1,4 @@
-"""The warm process in the sandbox, as seen from outside."""
+"""A handle on the warm process in the sandbox."""
 
 import contextlib
 import json
@@ -17,11 +17,11 @@ from grader.marking.sandbox import bubblewrap, linux
 from grader.marking.sandbox.confined_process import ConfinedProcess
 
 START_S = 120.0  # for the imports, on a busy machine
-WORDS = 2000  # bytes of its stderr that an error shows
+STDERR_BYTES = 2000  # of its stderr that an error shows
 
 
 class WarmProcess:
-    """Starts the fork server and asks it for confined processes. Thread-safe."""
+    """Starts the fork server and requests confined processes from it. Thread-safe."""
 
     def __init__(self, order: dict[str, Any]) -> None:
         """Start it and wait until it is warm. Raises SandboxMissing or SandboxFailed."""
@@ -29,7 +29,7 @@ class WarmProcess:
         self._pidfd = -1
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
-        # Of confined processes that have no sandbox.
+        # The home of confined processes without a sandbox.
         self._folder = tempfile.TemporaryDirectory(prefix="confined-", ignore_cleanup_errors=True)
         self._control, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
         with tempfile.TemporaryFile() as errors:
@@ -55,16 +55,16 @@ class WarmProcess:
         if not answer:
             self._process.wait()
             errors.seek(0)
-            words = errors.read()[-WORDS:].decode(errors="replace").strip()
-            raise bubblewrap.forbidden(words) if words.startswith("bwrap: ") else SandboxFailed(
-                f"The sandbox ended before it was ready. It said last: {words or 'nothing'}"
+            tail = errors.read()[-STDERR_BYTES:].decode(errors="replace").strip()
+            raise bubblewrap.forbidden(tail) if tail.startswith("bwrap: ") else SandboxFailed(
+                f"The sandbox ended before it was ready. It said last: {tail or 'nothing'}"
             )
         [self._pidfd] = descriptors
-        said = json.loads(answer)
-        if "forbidden" in said:
-            raise bubblewrap.forbidden(said["forbidden"])
-        if "failed" in said:
-            raise SandboxFailed(f"The sandbox could not import what it needs: {said['failed']}")
+        report = json.loads(answer)
+        if "forbidden" in report:
+            raise bubblewrap.forbidden(report["forbidden"])
+        if "failed" in report:
+            raise SandboxFailed(f"The sandbox could not import what it needs: {report['failed']}")
 
     def start(self, wire: socket.socket) -> ConfinedProcess:
         """Return a new confined process that has `wire`. Raises SandboxFailed."""
@@ -83,7 +83,7 @@ class WarmProcess:
         raise SandboxFailed(f"The sandbox could not start a process: {reason}")
 
     def alive(self, wait_s: float = 0.0) -> bool:
-        """Say whether it still runs after `wait_s` seconds."""
+        """Return whether it still runs after `wait_s` seconds."""
         with self._lock:
             if self._ended:
                 return False
@@ -92,7 +92,7 @@ class WarmProcess:
             return not poll.poll(1000 * wait_s)
 
     def end(self) -> None:
-        """End it, and with it every confined process. Safe to call again."""
+        """Kill it, and with it every confined process. Safe to call again."""
         with self._lock:
             if self._ended:
                 return
@@ -114,7 +114,7 @@ def _spawn(
 ) -> subprocess.Popen[bytes]:
     program = [sys.executable, "-P", "-s", "-m", "grader.marking.sandbox.fork_server", str(theirs.fileno())]
     sandboxed = order["sandboxed"]
-    # A judge and a student's process share a core: the branches that it learnt in one hold in the other.
+    # A judge and a student's process share a core: with equal addresses its branch predictions hold in both.
     with linux.same_addresses():
         return subprocess.Popen(
             bubblewrap.command(order["visible"], order["imports"], program) if sandboxed else program,
@@ -123,5 +123,5 @@ def _spawn(
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=errors,
-            start_new_session=True,  # Ctrl-C is for the marker alone
+            start_new_session=True,  # Ctrl-C goes to the marker alone
         )

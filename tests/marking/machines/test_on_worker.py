@@ -6,11 +6,11 @@ import pytest
 
 from grader.marking.machines.on_worker import RunSettings, WorkerPool
 from grader.marking.result import Result
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 from grader.marking.task import Task, TimeLimits
 from tests.marking.assignment import hand_in, release
 
-FIRST = RunSettings("first", True, "a secret of this test", TimeLimits(), Limits())
+FIRST = RunSettings("first", True, "a secret of this test", TimeLimits(), ResourceLimits())
 
 
 @pytest.fixture

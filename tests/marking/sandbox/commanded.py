@@ -5,7 +5,7 @@ import socket
 from pathlib import Path
 from typing import Any
 
-from grader.marking.sandbox import Ending, Sandbox
+from grader.marking.sandbox import ProcessEnd, Sandbox
 
 FEW = ("numpy",)  # what most tests preload: they are about walls, not about ROS
 PATIENCE = 60.0  # wall seconds, for a busy machine; nothing is measured by it
@@ -35,7 +35,7 @@ class Commanded:
         self.tell(code)
         return self.answer()
 
-    def ending(self) -> Ending:
+    def ending(self) -> ProcessEnd:
         """How it ended."""
         return self.process.wait(PATIENCE)
 

@@ -29,7 +29,7 @@ def test_an_end_of_its_own_is_told(commanded, act, kind, detail):
 
 def test_an_error_that_leaves_the_entry_is_kept(commanded):
     commanded.tell("raise KeyboardInterrupt('stop it')")
-    assert commanded.ending().words.endswith("KeyboardInterrupt: stop it")
+    assert commanded.ending().stderr.endswith("KeyboardInterrupt: stop it")
 
 
 def test_it_cannot_stop_itself(commanded):

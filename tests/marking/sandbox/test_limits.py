@@ -3,7 +3,7 @@ import os
 
 import pytest
 
-from grader.marking.sandbox import Limits
+from grader.marking.sandbox import ResourceLimits
 from tests.marking.sandbox.commanded import Commanded, sandbox
 
 
@@ -13,7 +13,7 @@ def tight(make_commanded):
     boxes = []
 
     def make(entry: str = "entries:obey", **limits: float) -> Commanded:
-        boxes.append(sandbox(limits=Limits(**limits), entry=entry))
+        boxes.append(sandbox(limits=ResourceLimits(**limits), entry=entry))
         return make_commanded(boxes[-1])
 
     yield make
@@ -92,7 +92,7 @@ def test_a_flood_of_stderr_ends_at_the_largest_file(tight):
     said = commanded.ask("import os\nfor _ in range(100): os.write(2, b'x' * 100_000)")
     assert said == "OSError: [Errno 27] File too large"
     commanded.process.kill()
-    assert commanded.ending().words == "x" * 4000
+    assert commanded.ending().stderr == "x" * 4000
 
 
 FORKS = """

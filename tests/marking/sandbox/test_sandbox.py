@@ -34,7 +34,7 @@ def test_its_memory_is_known_while_it_runs_and_afterwards(commanded):
 def test_what_it_writes_to_stderr_last_is_kept(commanded):
     commanded.tell("import sys; print('careful', file=sys.stderr); sys.exit(3)")
     ending = commanded.ending()
-    assert (ending.kind, ending.code, ending.words) == ("exited", 3, "careful")
+    assert (ending.kind, ending.code, ending.stderr) == ("exited", 3, "careful")
     assert ending.detail == "The process ended by itself, with exit status 3."
 
 

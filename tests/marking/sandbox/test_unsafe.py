@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import pytest
 
-from grader.marking.sandbox import Limits, Sandbox
+from grader.marking.sandbox import ResourceLimits, Sandbox
 from tests.marking.sandbox.commanded import Commanded, sandbox
 
 
 @pytest.fixture(scope="module")
 def open_box() -> Iterator[Sandbox]:
-    with sandbox(unsafe=True, limits=Limits(memory_mb=500, file_mb=1)) as box:
+    with sandbox(unsafe=True, limits=ResourceLimits(memory_mb=500, file_mb=1)) as box:
         yield box
 
 

@@ -96,7 +96,7 @@ def test_python_may_be_called_by_links_from_anywhere(tmp_path):
     (farther / "python3").symlink_to("../farther/other")
     (farther / "other").symlink_to(python)
     program = [str(environment / "python"), "-c", "import json, sys; print(sys.executable)"]
-    command = bubblewrap.command([*bubblewrap.visible([]), str(environment)], [], program)
+    command = bubblewrap.command([*bubblewrap.visible_paths([]), str(environment)], [], program)
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.stdout == f"{environment}/python\n", done.stderr
 

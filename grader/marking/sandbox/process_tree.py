@@ -1,4 +1,4 @@
-"""What a confined process and all that it started use together, where it may start programs."""
+"""Measures what a confined process and all its descendants use together."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ MB = 1024 * 1024
 
 
 @dataclass
-class Used:
-    """Seconds of computing, also of children that ended; threads, and MB of memory, of those that live."""
+class TreeUsage:
+    """CPU seconds, including those of children that ended; threads and MB of memory of running processes."""
 
     cpu_s: float = 0.0
     threads: int = 0
     memory_mb: float = 0.0
 
 
-def used_by(process: int, processes: int) -> Used:
-    """What a process and all below it use. processes: an open /proc. See proc(5) for the fields of `stat`."""
+def tree_usage(process: int, processes: int) -> TreeUsage:
+    """Measure a process and its descendants. processes: an open /proc. See proc(5) for `stat`."""
     fields, children = {}, {}
     for name in os.listdir(processes):
         with contextlib.suppress(OSError, ValueError):  # it may have ended
             stat = _read(f"{int(name)}/stat", processes).rpartition(b")")[2].split()
             fields[int(name)] = stat
             children.setdefault(int(stat[1]), []).append(int(name))
-    whole, left = Used(), [process]
+    whole, left = TreeUsage(), [process]
     while left:
         one = left.pop()
         left += children.get(one, [])

@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-from grader.marking.sandbox.family import used_by
+from grader.marking.sandbox.process_tree import tree_usage
 
 CHILD = (
     "import threading; threading.Thread(target=input).start(); held = bytearray(50_000_000); "
@@ -15,12 +15,12 @@ CHILD = (
 def test_children_count_and_strangers_do_not():
     processes = os.open("/proc", os.O_RDONLY)
     try:
-        alone = used_by(os.getpid(), processes)
+        alone = tree_usage(os.getpid(), processes)
         with subprocess.Popen(
             [sys.executable, "-c", CHILD], stdin=subprocess.PIPE, stdout=subprocess.PIPE
         ) as child:
             child.stdout.readline()
-            together, own = used_by(os.getpid(), processes), used_by(child.pid, processes)
+            together, own = tree_usage(os.getpid(), processes), tree_usage(child.pid, processes)
             child.kill()
     finally:
         os.close(processes)
@@ -35,5 +35,5 @@ def test_who_is_gone_uses_nothing():
     processes = os.open("/proc", os.O_RDONLY)
     with subprocess.Popen([sys.executable, "-c", ""]) as child:
         child.wait()
-    assert used_by(child.pid, processes).threads == 0
+    assert tree_usage(child.pid, processes).threads == 0
     os.close(processes)

@@ -1,23 +1,23 @@
-"""What a confined process may use, and how one came to its end."""
+"""What a confined process may use, and how one ended."""
 
 import resource
 from dataclasses import dataclass
 
 MB = 1024 * 1024
 
-# exited: by itself. killed: from outside. crashed: by a signal. memory, cpu, time, threads: a limit was met.
+# exited: by itself. killed: from outside. crashed: by a signal. memory, cpu, time, threads: it met a limit.
 KINDS = ("exited", "killed", "crashed", "memory", "cpu", "time", "threads")
 
 
 @dataclass(frozen=True)
-class Limits:
+class ResourceLimits:
     """The most that one confined process may use. MB are 1024 * 1024 bytes.
 
-    programs: it may start programs, and computing, threads and memory are those of all of them together.
+    programs: it may start programs; CPU time, threads and memory are then limited for all of them together.
     """
 
     memory_mb: int = 2000  # of address space, of which an idle confined process has about 500
-    cpu_s: int = 600  # seconds of computing, all threads together
+    cpu_s: int = 600  # CPU time of all threads together
     wall_s: float = 900  # seconds from start to end
     file_mb: int = 64  # in one file
     scratch_mb: int = 128  # in all files: /tmp, /dev/shm and HOME together
@@ -27,16 +27,16 @@ class Limits:
     programs: bool = False
 
 
-USUAL = Limits()
+USUAL = ResourceLimits()
 
 
 @dataclass(frozen=True)
-class Ending:
+class ProcessEnd:
     """How a confined process ended.
 
-    kind: one of KINDS. detail: a sentence that says it. code: its exit status, negative for a signal.
-    cpu_s: seconds it computed. peak_mb: most memory it had, None if nobody could tell.
-    words: the last it wrote to its stderr. Like the exit status, that is what it says of itself.
+    kind: one of KINDS. detail: the same as a sentence. code: its exit status, negative for a signal.
+    cpu_s: its CPU time. peak_mb: its peak memory, None if that is unknown.
+    stderr: the end of what it wrote there. Like the exit status, it is under the control of the process.
     """
 
     kind: str
@@ -44,13 +44,13 @@ class Ending:
     code: int | None = None
     cpu_s: float = 0.0
     peak_mb: float | None = None
-    words: str = ""
+    stderr: str = ""
 
 
-def apply(limits: Limits, own_users: bool) -> None:
-    """Limit this process from now on; `own_users` says that it has a user namespace of its own.
+def apply(limits: ResourceLimits, own_users: bool) -> None:
+    """Limit this process from now on. own_users: whether it has a user namespace of its own.
 
-    The supervisor watches the time, for Linux's own limit counts it too roughly to be told from other ends.
+    The supervisor watches the CPU time: with Linux's own limit, the end could not be told from other kills.
     """
     figures = {
         resource.RLIMIT_AS: limits.memory_mb * MB,
@@ -58,7 +58,7 @@ def apply(limits: Limits, own_users: bool) -> None:
         resource.RLIMIT_NOFILE: limits.open_files,
         resource.RLIMIT_MSGQUEUE: 0,
         resource.RLIMIT_STACK: 8 * MB,
-        # Not 0: programs that collect dumps through a pipe are kept away by 1 only.
+        # Not 0: the kernel still pipes a dump to a collector at 0, and at 1 it does not.
         resource.RLIMIT_CORE: 1,
     }
     if own_users:  # elsewhere it would count all processes of the user who marks
