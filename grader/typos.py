@@ -72,7 +72,7 @@ def auto_correct(program: Any, preparation: Sequence[Any], *typos: str) -> Any:
         for part in _PARTS
     ]
     remappings = [*process.remappings, *rules]
-    return replace(process, remappings=remappings, forgiving=not FORGIVEN.isdisjoint(typos))
+    return replace(process, remappings=remappings, lenient=not FORGIVEN.isdisjoint(typos))
 
 
 def only_wrong_types(typos: Sequence[str]) -> bool:

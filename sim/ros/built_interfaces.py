@@ -16,7 +16,7 @@ import tempfile
 from itertools import count
 from pathlib import Path
 
-from sim.ros.messages.cdr import forget_layouts
+from sim.ros.messages.cdr import clear_layout_cache
 from sim.ros.messages.codec import message_class
 from sim.ros.packages import BUILT_HERE, INDEX
 
@@ -107,7 +107,7 @@ def _load_copies(prefixes: dict[str, Path]) -> None:
     sys.path.insert(0, str(folder / "modules"))
     importlib.invalidate_caches()
     message_class.cache_clear()
-    forget_layouts()
+    clear_layout_cache()
 
 
 def _renamed(content: bytes, names: dict[str, str]) -> bytes:

@@ -98,7 +98,7 @@ class Evidence:
 def _slips(program: Any) -> str:
     """What tells a program without its slips from the program itself."""
     is_set = isinstance(program, sim.Process)
-    return repr([program.remappings, program.forgiving]) if is_set else ""
+    return repr([program.remappings, program.lenient]) if is_set else ""
 
 
 def _computed() -> float:

@@ -193,7 +193,7 @@ def twice(program):
 
 def test_several_programs_that_a_scenario_makes_of_one_are_mended_each():
     both = auto_correct(Warm, [f"{__name__}:twice"], "numbers")
-    assert [(one.target, one.forgiving) for one in both] == [(Warm, True)] * 2
+    assert [(one.target, one.lenient) for one in both] == [(Warm, True)] * 2
 
 
 def test_a_launch_file_has_no_slips_that_are_mended():

@@ -12,11 +12,11 @@ from pathlib import Path
 from sim.world import World, description
 description._FOLDER = Path(sys.argv[1])
 import grader.marking.preload
-from sim.ros.messages.template import _filling
+from sim.ros.messages.template import _make_fill
 from sim.ros.robots.sensor_messages import SensorMessages
-worlds, fields = World._of_the_course.cache_info().misses, _filling.cache_info().misses
+worlds, fields = World._of_the_course.cache_info().misses, _make_fill.cache_info().misses
 SensorMessages(World.load("room").lidar)
-print(World._of_the_course.cache_info().misses - worlds, _filling.cache_info().misses - fields, fields > 0)
+print(World._of_the_course.cache_info().misses - worlds, _make_fill.cache_info().misses - fields, fields > 0)
 try:
     World.load("mine")
 except description.WorldError as error:

@@ -28,7 +28,7 @@ from sim.network import LAPTOP, ROBOT
 from sim.ros.engine.keyboard import keyboard
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.messages.forgiving import forgiving
+from sim.ros.messages.lenient import lenient_fields
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -145,7 +145,7 @@ class StudentProcess:
 
     def run(self) -> None:
         """The body of the process's first fiber: what `python3 node.py` would do."""
-        with forgiving() if self.spec.forgiving else contextlib.nullcontext():
+        with lenient_fields() if self.spec.lenient else contextlib.nullcontext():
             self._run()
 
     def _run(self) -> None:

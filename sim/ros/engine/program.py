@@ -18,7 +18,7 @@ class Process:
     remappings: pairs (from, to). parameters: name to value, or a list of such, as in a launch file.
     arguments: further command-line words, which the program finds in `sys.argv`; those after `--ros-args` are
     ROS's; a launch file takes NAME:=VALUE. stdin: the lines that `input()` returns, one after the other.
-    forgiving: messages take 1 for 1.0, and 2.0 for 2, and Float32 passes for Float64 where a topic has that,
+    lenient: messages take 1 for 1.0, and 2.0 for 2, and Float32 passes for Float64 where a topic has that,
     and the other way round; others find a parameter by nearly its name, and one whose default is 0 takes 0.5.
     On a robot they don't.
     host: the computer that it runs on, where the run has a network; None for "laptop". The robot is "robot".
@@ -31,7 +31,7 @@ class Process:
     parameters: Mapping[str, Any] | Sequence[Mapping[str, Any]] = field(default_factory=dict)
     arguments: Sequence[str] = ()
     stdin: Sequence[str] | None = None
-    forgiving: bool = False
+    lenient: bool = False
     host: str | None = None
 
     def command_line(self) -> list[str]:

@@ -21,7 +21,7 @@ from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.processes import shared_context
 from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
-from sim.ros.messages.forgiving import fitting, of_a_type_that_fits
+from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
 
 LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history is full; measured with Fast DDS
 FOR_EVER = Duration(seconds=-1)
@@ -33,7 +33,7 @@ def create_publisher(original: Callable) -> Callable:
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
     ) -> Publisher:
         run = engine()
-        publisher = of_a_type_that_fits(
+        publisher = create_with_matching_type(
             lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
         )
         if run is not None:
@@ -60,7 +60,7 @@ def create_publisher(original: Callable) -> Callable:
 def create_subscription(original: Callable) -> Callable:
     def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
         run = engine()
-        subscription = of_a_type_that_fits(
+        subscription = create_with_matching_type(
             lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
         )
         if run is not None:
@@ -96,7 +96,7 @@ def publish(original: Callable) -> Callable:
         writer = self.__dict__.get("_sim")
         if run is None or writer is None:
             return original(self, msg)
-        msg = fitting(msg, self.msg_type)
+        msg = convert_float_message(msg, self.msg_type)
         if isinstance(msg, self.msg_type):
             raw = _rclpy.rclpy_serialize(msg, self.msg_type)
         elif isinstance(msg, bytes):

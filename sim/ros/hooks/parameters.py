@@ -12,7 +12,7 @@ from rclpy.parameter_service import ParameterService
 
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
-from sim.ros.messages.forgiving import meant, real
+from sim.ros.messages.lenient import convert_parameters, resolve_parameter_name
 
 
 @hook(Node, "declare_parameters", "the recording knows which names that others give or ask for are nobody's")
@@ -23,7 +23,7 @@ def declare_parameters(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self, namespace, parameters, *more, **keywords)
-        made = original(self, namespace, real(parameters), *more, **keywords)
+        made = original(self, namespace, convert_parameters(parameters), *more, **keywords)
         run.recorder.parameters(self, [parameter.name for parameter in made], declared=True)
         return made
 
@@ -35,7 +35,9 @@ def get_parameters(original: Callable) -> Callable:
     @functools.wraps(original)  # a callback is told of by its name
     def _get_parameters_callback(self: ParameterService, request: Any, response: Any) -> Any:
         if engine() is not None:
-            request.names = [meant(name, self._get_node()._parameters) for name in request.names]
+            request.names = [
+                resolve_parameter_name(name, self._get_node()._parameters) for name in request.names
+            ]
         return original(self, request, response)
 
     return _get_parameters_callback
@@ -47,7 +49,7 @@ def set_parameters(original: Callable) -> Callable:
     def _set_parameters_callback(self: ParameterService, request: Any, response: Any) -> Any:
         if engine() is not None:
             for parameter in request.parameters:
-                parameter.name = meant(parameter.name, self._get_node()._parameters)
+                parameter.name = resolve_parameter_name(parameter.name, self._get_node()._parameters)
         return original(self, request, response)
 
     return _set_parameters_callback

@@ -35,9 +35,7 @@ def create_service(original: Callable) -> Callable:
         if run is not None:
             name = self.resolve_service_name(srv_name)
             service._sim.node = run.recorder.name_of(self)
-            run.recorder.endpoint(
-                "service", self, name, srv_type, service.qos_profile, handle=service.handle
-            )
+            run.recorder.endpoint("service", self, name, srv_type, service.qos_profile, handle=service.handle)
         return service
 
     return create_service
@@ -81,9 +79,7 @@ def create_client(original: Callable) -> Callable:
             run.has_clients = run.eager = True
             run.endpoints_changed()
             name = self.resolve_service_name(srv_name)
-            run.recorder.endpoint(
-                "client", self, name, srv_type, client.qos_profile, handle=client.handle
-            )
+            run.recorder.endpoint("client", self, name, srv_type, client.qos_profile, handle=client.handle)
             run.recorder.calls.client_made(client, self, name)
         return client
 

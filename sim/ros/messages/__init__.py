@@ -1,1 +1,1 @@
-"""Messages as bytes: encoded, decoded, and brought into one canonical form."""
+"""Messages as bytes: encoding, decoding and the canonical form."""

@@ -1,8 +1,8 @@
 """Canonical message bytes: equal messages, equal bytes.
 
-CDR aligns each value to its size, and Fast CDR leaves whatever was in memory in the gaps and behind the
-end. `canonical` clears the gaps and cuts the end, so that recordings can be compared byte by byte. Layout:
-DDS-XTypes 1.3, 7.4 (plain CDR).
+CDR aligns each value to its size, and Fast CDR does not initialize the padding and the bytes after the end.
+`canonical` clears the padding and removes the trailing bytes, so that recordings can be compared as bytes.
+Layout: DDS-XTypes 1.3, 7.4 (plain CDR).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from rosidl_parser.definition import (
 
 from sim.ros.messages.codec import message_class
 
-HEADER = 4  # bytes of encapsulation; alignment counts from behind them
+HEADER = 4  # bytes of encapsulation; alignment is relative to their end
 LITTLE_ENDIAN_PLAIN, NO_OPTIONS = b"\x00\x01", b"\x00\x00"
 SIZES = {
     **dict.fromkeys(("boolean", "octet", "char", "int8", "uint8"), 1),
@@ -32,7 +32,7 @@ SIZES = {
     **dict.fromkeys(("int32", "uint32", "float"), 4),
     **dict.fromkeys(("int64", "uint64", "double"), 8),
 }
-NUMBERS = SIZES.keys() - {"boolean", "octet", "char"}  # any bytes are one of these
+NUMBERS = SIZES.keys() - {"boolean", "octet", "char"}  # types of which every bit pattern is a value
 # A layout is a tuple of steps; each step is one of these kinds with its arguments.
 VALUES, STRING, VALUE_SEQUENCE, SEQUENCE, ARRAY = range(5)
 
@@ -42,11 +42,11 @@ class Canonical(bytes):
 
 
 class _NoLayout(Exception):
-    """The type has a part whose layout isn't known here."""
+    """The type has a field whose layout is not supported."""
 
 
 def canonical(type_name: str, raw: bytes) -> bytes:
-    """The bytes of a message with all gaps zero and nothing behind its end."""
+    """The bytes of a message with all padding zero and without trailing bytes."""
     if isinstance(raw, Canonical):
         return raw
     layout = _layout_of(type_name)
@@ -63,11 +63,11 @@ def canonical(type_name: str, raw: bytes) -> bytes:
 
 
 def is_canonical(type_name: str, raw: bytes) -> bool:
-    """Whether these are canonical bytes of a message of this type, without a look at what it says.
+    """Whether these are canonical bytes of a message of this type, checked without decoding its values.
 
-    False, too, where that depends on what it says: a boolean has two values, a bounded sequence an end.
+    Also False for a type whose validity depends on its values, such as a boolean or a bounded sequence.
     """
-    layout = _layout_told_by_sizes(type_name)
+    layout = _layout_checked_by_size(type_name)
     if layout is None or raw[:HEADER] != LITTLE_ENDIAN_PLAIN + NO_OPTIONS:
         return False
     if len(layout) == 1 and layout[0][0] is VALUES:
@@ -80,10 +80,10 @@ def is_canonical(type_name: str, raw: bytes) -> bool:
     return end == len(raw) and buffer == raw
 
 
-def forget_layouts() -> None:
-    """Read all types anew: a name may mean another class by now."""
+def clear_layout_cache() -> None:
+    """Forget all layouts: a name may refer to another class by now."""
     _layout_of.cache_clear()
-    _layout_told_by_sizes.cache_clear()
+    _layout_checked_by_size.cache_clear()
 
 
 @functools.cache
@@ -137,9 +137,9 @@ def _length(buffer: bytearray, at: int) -> tuple[int, int]:
 
 
 def _walk(buffer: bytearray, at: int, layout: tuple, strict: bool = False) -> int:
-    """Clear all gaps; where the message ends. Raises ValueError for bytes that end in a sequence.
+    """Clear all padding; returns the message's end. Raises ValueError if the bytes end within a sequence.
 
-    strict: also for a text that is not as ROS writes it.
+    strict: also raises ValueError for a string that ROS would write differently.
     """
     for step in layout:
         kind = step[0]
@@ -170,19 +170,19 @@ def _check_text(text: bytes, length: int) -> None:
 
 
 @functools.cache
-def _layout_told_by_sizes(type_name: str) -> tuple | None:
-    return _layout_of(type_name) if _are_told(message_class(type_name).SLOT_TYPES) else None
+def _layout_checked_by_size(type_name: str) -> tuple | None:
+    return _layout_of(type_name) if _are_checked_by_size(message_class(type_name).SLOT_TYPES) else None
 
 
-def _are_told(slots: Sequence[Any]) -> bool:
-    """Whether any values of the right sizes are values of these; of no field there is a byte without one."""
+def _are_checked_by_size(slots: Sequence[Any]) -> bool:
+    """Whether any bytes of the right sizes are valid values of these slots. False if there are no slots."""
     for slot in slots:
         if isinstance(slot, NamespacedType):
-            told = _are_told(message_class("/".join((*slot.namespaces, slot.name))).SLOT_TYPES)
+            checked = _are_checked_by_size(message_class("/".join((*slot.namespaces, slot.name))).SLOT_TYPES)
         elif isinstance(slot, Array | UnboundedSequence):
-            told = _are_told([slot.value_type])
+            checked = _are_checked_by_size([slot.value_type])
         else:
-            told = isinstance(slot, UnboundedString) or getattr(slot, "typename", "") in NUMBERS
-        if not told:
+            checked = isinstance(slot, UnboundedString) or getattr(slot, "typename", "") in NUMBERS
+        if not checked:
             return False
     return bool(slots)

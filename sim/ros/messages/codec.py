@@ -1,4 +1,4 @@
-"""Names and classes of messages, and messages to bytes: CDR, the format that ROS sends."""
+"""Names and classes of message types, and serialization to CDR, the format that ROS sends."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ def type_name(message_class: type) -> str:
 def message_class(name: str) -> type:
     """The class of that name, e.g. "std_msgs/msg/String" or "std_srvs/srv/SetBool_Request".
 
-    Raises ImportError or AttributeError for none.
+    Raises ImportError or AttributeError if there is none.
     """
     package, kind, short = name.split("/")
     module = importlib.import_module(f"{package}.{kind}")
-    whole, _, part = short.partition("_")  # a name of ROS's own has no underscore
-    if part:  # of a service or an action; the package hides some of an action's
+    whole, _, part = short.partition("_")  # type names themselves have no underscore
+    if part:  # of a service or action; the package does not export all of an action's
         module = importlib.import_module(getattr(module, whole).__module__)
     return getattr(module, short)
 
 
 def encode(message: Any) -> bytes:
-    """The bytes of a message as they are sent."""
+    """The serialized bytes of a message."""
     return serialize_message(message)
 
 
 def expect(message: Any, wanted: type) -> None:
-    """Raise the TypeError that rclpy raises for a message of another type; but rclpy's has no words."""
+    """Raise a TypeError for a message of another type, as rclpy does, but with a text."""
     if not isinstance(message, wanted):
         raise TypeError(f"Expected {wanted}, got {type(message)}")

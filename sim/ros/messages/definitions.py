@@ -1,4 +1,4 @@
-"""What ROS installs with each message: its definition, and the description that was made of it."""
+"""The definition and type description files that ROS installs for each message."""
 
 from __future__ import annotations
 
@@ -16,31 +16,33 @@ IDL_NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "
 
 
 def definition(type_: str) -> str:
-    """A message's definition followed by those it needs, as MCAP's registry asks for encoding "ros2msg"."""
-    whole = re.sub(r"(/[^_/]+)_[^/]*$", r"\1", type_)  # a part of an action or service is described with it
-    described = json.loads(installed(whole, "json").read_text())["type_description_msg"]
+    """A message's definition followed by those it depends on, as MCAP's encoding "ros2msg" requires."""
+    # The messages of a service or an action are described together with it.
+    whole = re.sub(r"(/[^_/]+)_[^/]*$", r"\1", type_)
+    description = json.loads(installed_file(whole, "json").read_text())["type_description_msg"]
     if whole == type_:
-        needed = [other["type_name"] for other in described["referenced_type_descriptions"]]
+        dependencies = [other["type_name"] for other in description["referenced_type_descriptions"]]
     else:
-        descriptions = {other["type_name"]: other for other in described["referenced_type_descriptions"]}
-        needed = sorted(set(_needed(type_, descriptions)))
+        descriptions = {other["type_name"]: other for other in description["referenced_type_descriptions"]}
+        dependencies = sorted(set(_dependencies(type_, descriptions)))
     return _text(type_) + "".join(
-        f"\n{'=' * 80}\nMSG: {re.sub('/(msg|srv|action)/', '/', name)}\n{_text(name)}" for name in needed
+        f"\n{'=' * 80}\nMSG: {re.sub('/(msg|srv|action)/', '/', name)}\n{_text(name)}"
+        for name in dependencies
     )
 
 
-def _needed(type_: str, descriptions: dict[str, Any]) -> Iterator[str]:
+def _dependencies(type_: str, descriptions: dict[str, Any]) -> Iterator[str]:
     for field in descriptions[type_]["fields"]:
         nested = field["type"]["nested_type_name"]
         if nested:
             yield nested
-            yield from _needed(nested, descriptions)
+            yield from _dependencies(nested, descriptions)
 
 
 def _text(type_: str) -> str:
-    """A message's own definition: as it was installed, or written from its class where no file has it."""
+    """A message's own definition: the installed file or, if there is none, generated from the class."""
     if "_" not in type_.rpartition("/")[2]:
-        return installed(type_, "msg").read_text()
+        return installed_file(type_, "msg").read_text()
     fields = message_class(type_).get_fields_and_field_types()
     return "".join(f"{_field_type(kind)} {name}\n" for name, kind in fields.items())
 
@@ -53,10 +55,10 @@ def _field_type(kind: str) -> str:
     return re.sub(r"^\w+(?=\[|$)", lambda word: IDL_NAMES.get(word[0], word[0]), kind)
 
 
-def installed(type_: str, suffix: str) -> Path:
-    """A file that ROS installs for a type: "msg", "srv" or "action" defines it, "json" describes it.
+def installed_file(type_: str, suffix: str) -> Path:
+    """The file that ROS installs for a type; it need not exist. Raises LookupError if its package doesn't.
 
-    Raises LookupError for a package that there is none of. The file need not be there.
+    suffix: "msg", "srv" or "action" for the definition, "json" for the description.
     """
     package, path = type_.split("/", 1)
     return Path(get_package_share_directory(package)) / f"{path}.{suffix}"

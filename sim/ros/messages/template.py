@@ -1,7 +1,7 @@
-"""Messages that are sent often and change little: made and serialised once, then patched where they change.
+"""Messages that are sent often and change little: serialized once, then patched at the fields that change.
 
-A robot's sensors publish thousands of messages in a run. Setting checked fields and serialising costs about
-ten times as much as writing the numbers where CDR has them.
+A robot's sensors publish thousands of messages in a run. Setting checked fields and serializing costs about
+ten times as much as writing the numbers into the CDR bytes.
 """
 
 from __future__ import annotations
@@ -16,41 +16,41 @@ from sim.ros.messages.cdr import Canonical, canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.messages.decoder import decode_message
 
-_MARK = b"\x11"  # fills a field, to find where it is
+_MARK = b"\x11"  # written into a field to find its offset
 STAMP = ("header.stamp.sec", "header.stamp.nanosec")
-"""The fields of a message with a header that change each time."""
+"""The stamp fields of a message with a header."""
 
 _CODES = {"double": "d", "float": "f", "int32": "i", "uint32": "I", "uint8": "B"}  # struct's
 
 
 class Template:
-    """A message and the numbers in it that change.
+    """A message with fields that are filled in later.
 
     fields: paths such as "pose.pose.position.x" or "transforms.0.header.stamp.sec" to a number (float64,
-    float32, a 32-bit integer or uint8), or to a float32 sequence, whose length stays what it is in `message`.
-    A float64 sequence gives one number for each of its elements.
+    float32, a 32-bit integer or uint8), or to a float32 sequence, whose length is that in `message`.
+    A float64 sequence takes one number for each of its elements.
     """
 
     def __init__(self, message: Any, fields: Sequence[str]) -> None:
         raw = canonical(type_name(type(message)), encode(message))
-        self._filled = _filling(type(message), raw, tuple(fields))
+        self._filled = _make_fill(type(message), raw, tuple(fields))
 
     def fill(self, *values: Any) -> bytes:
         """The message's bytes with these values, in the order of the fields; float32 sequences as bytes."""
         return Canonical(self._filled(*values))
 
 
-_Place = tuple[int, str]  # where a value is in the bytes, and what it is for struct
+_Slot = tuple[int, str]  # a value's offset in the bytes, and its code for struct
 
 
-@functools.lru_cache(maxsize=256)  # the robots of all runs have the same few
-def _filling(cls: type, raw: bytes, fields: tuple[str, ...]) -> Callable[..., bytes]:
-    """The function that makes the bytes of the values: all in one go, with what lies between them."""
+@functools.lru_cache(maxsize=256)  # robots of all runs share a few
+def _make_fill(cls: type, raw: bytes, fields: tuple[str, ...]) -> Callable[..., bytes]:
+    """A function that packs the values and the constant bytes between them in a single call."""
     message = decode_message(cls, raw)
-    places = [place for field in fields for place in _find(message, field)]
-    values = [f"value{number}" for number in range(len(places))]
+    slots = [slot for field in fields for slot in _find(message, field)]
+    values = [f"value{number}" for number in range(len(slots))]
     format_, parts, at, known = "<", [], 0, {}
-    for (offset, code), value in sorted(zip(places, values, strict=True)):
+    for (offset, code), value in sorted(zip(slots, values, strict=True)):
         known[f"before_{value}"] = raw[at:offset]
         parts += [f"before_{value}", value]
         format_ += f"{offset - at}s{code}"
@@ -59,7 +59,7 @@ def _filling(cls: type, raw: bytes, fields: tuple[str, ...]) -> Callable[..., by
     return eval(f"lambda {', '.join(values)}: pack({', '.join(parts)}, end)", known)
 
 
-def _find(message: Any, field: str) -> list[_Place]:
+def _find(message: Any, field: str) -> list[_Slot]:
     *path, name = field.split(".")
     owner = message
     for step in path:

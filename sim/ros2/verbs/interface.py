@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from ament_index_python import get_resources
 
-from sim.ros.messages.definitions import installed
+from sim.ros.messages.definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import Voice, Wrong
 from sim.ros2.types import KINDS, interfaces, of_package
@@ -95,7 +95,7 @@ def _lines(type_: str) -> list[str]:
     if len(parts) != PARTS:
         raise Wrong(f"Invalid name '{type_}'. Expected three parts separated by '/'{_near(type_)}")
     of_package(parts[0])  # raises where there is no such package
-    path = installed(type_, parts[1])
+    path = installed_file(type_, parts[1])
     if not path.exists():
         raise Wrong(f"Could not find the interface '{type_}'{_near(type_)}")
     return path.read_text(encoding="utf-8").splitlines()

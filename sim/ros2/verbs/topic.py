@@ -6,7 +6,7 @@ import json
 from argparse import Namespace
 
 from sim.evidence import Endpoint
-from sim.ros.messages.definitions import installed
+from sim.ros.messages.definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import System, Wrong, guess
 
@@ -105,7 +105,7 @@ def _duration(seconds: float | None) -> str:
 
 def _type_hash(type_: str) -> str:
     try:
-        hashes = json.loads(installed(type_, "json").read_text())["type_hashes"]
+        hashes = json.loads(installed_file(type_, "json").read_text())["type_hashes"]
     except (LookupError, OSError):  # a type that this machine doesn't have
         return "INVALID"
     return next((one["hash_string"] for one in hashes if one["type_name"] == type_), "INVALID")

@@ -1,4 +1,4 @@
-"""A program that is forgiven 1 for 1.0, and Float32 for Float64; all others are not."""
+"""A lenient program may use 1 for 1.0, and Float32 for Float64; all others may not."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float32, Float64, Int32, String
 
 from sim import Process, run
-from sim.ros.messages.forgiving import forgiving
+from sim.ros.messages.lenient import lenient_fields
 
 
 class Sloppy(Node):
@@ -19,10 +19,10 @@ class Sloppy(Node):
         self.create_timer(0.5, lambda: self.publisher.publish(Float64(data=3)))
 
 
-def test_a_program_may_be_forgiven_whole_numbers():
-    forgiven = run(Process(Sloppy, forgiving=True), seconds=2, quiet=True)
-    assert forgiven.errors == []
-    assert [heard.message.data for heard in forgiven.messages("/number")] == [3.0] * 4
+def test_a_lenient_program_may_use_whole_numbers():
+    lenient = run(Process(Sloppy, lenient=True), seconds=2, quiet=True)
+    assert lenient.errors == []
+    assert [heard.message.data for heard in lenient.messages("/number")] == [3.0] * 4
     (error,) = run(Sloppy, seconds=2, quiet=True).errors
     assert (error.type, error.text) == ("AssertionError", "The 'data' field must be of type 'float'")
 
@@ -38,7 +38,7 @@ def test_a_program_may_be_forgiven_whole_numbers():
     ],
 )
 def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
-    with forgiving():
+    with lenient_fields():
         assert (make(), type(make())) == (value, type(value))
     with pytest.raises(AssertionError, match="must be of type"):
         make()
@@ -48,7 +48,7 @@ def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
     "make", [lambda: Float64(data=True), lambda: Float64(data="1"), lambda: Int32(data=2.5)]
 )
 def test_what_is_no_such_number_fits_never(make):
-    with forgiving(), pytest.raises(AssertionError, match="must be of type"):
+    with lenient_fields(), pytest.raises(AssertionError, match="must be of type"):
         make()
 
 
@@ -83,12 +83,12 @@ class Wants(Node):
         self.create_timer(1.0, lambda: self.publisher.publish(Float64(data=0.5)))
 
 
-def test_a_program_may_be_forgiven_the_other_float():
-    forgiven = run(Process(Single, forgiving=True), companions=[Wants], world="joint", seconds=4, quiet=True)
-    assert forgiven.errors == []
-    assert [heard.type for heard in forgiven.messages("/joint_commands")] == ["std_msgs/msg/Float64"] * 4
-    assert forgiven.messages("/joint_states")[-1].message.position[0] == pytest.approx(0.5, abs=0.01)
-    for target in (Single, Process(Text, forgiving=True)):
+def test_a_lenient_program_may_use_the_other_float():
+    lenient = run(Process(Single, lenient=True), companions=[Wants], world="joint", seconds=4, quiet=True)
+    assert lenient.errors == []
+    assert [heard.type for heard in lenient.messages("/joint_commands")] == ["std_msgs/msg/Float64"] * 4
+    assert lenient.messages("/joint_states")[-1].message.position[0] == pytest.approx(0.5, abs=0.01)
+    for target in (Single, Process(Text, lenient=True)):
         (error,) = run(target, companions=[Wants], world="joint", seconds=4, quiet=True).errors
         assert (error.type, "with incompatible type" in error.text) == ("RCLError", True)
 
@@ -118,7 +118,7 @@ class Sets(Node):
 def test_a_parameter_is_found_by_nearly_its_name_and_one_that_begins_at_0_takes_0_5():
     set_, get = asked(Process(Setting))
     assert (set_.results[0].successful, get.values) == (False, [])
-    set_, get = asked(Process(Setting, forgiving=True))
+    set_, get = asked(Process(Setting, lenient=True))
     assert set_.results[0].successful
     assert [(value.type, value.double_value, value.bool_value) for value in get.values] == [
         (3, 0.5, False), (1, 0.0, True),
