@@ -2,10 +2,14 @@
 
 import asyncio
 import os
+import subprocess
+import sys
 import tempfile
 import textwrap
 
 import pytest
+import yaml
+from ament_index_python.packages import get_package_share_directory
 from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.actions import (
     DeclareLaunchArgument,
@@ -24,7 +28,7 @@ from launch.conditions import IfCondition, UnlessCondition
 from launch.event_handlers import OnExecutionComplete, OnShutdown
 from launch.events import Shutdown as ShutdownEvent
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch.logging import elsewhere
+from launch.logging import redirect_log
 from launch.substitutions import (
     Command,
     EnvironmentVariable,
@@ -39,10 +43,10 @@ from launch.substitutions import (
     ThisLaunchFileDir,
 )
 from launch.utilities import text_of
-from launch.yaml_texts import parse_substitution
+from launch.yaml_frontend.substitutions import parse_substitution
 from launch_ros.actions import Node, PushRosNamespace, SetParameter
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
-from launch_ros.parameters import evaluated_dict, kept
+from launch_ros.parameters import evaluate_parameter_dict, write_parameter_file
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARNING", 40: "ERROR"}
@@ -51,7 +55,7 @@ LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARNING", 40: "ERROR"}
 def carried_out(*entities, status=0):
     """The lines that launch says of these entities."""
     lines = []
-    with elsewhere(lambda level, name, text: lines.append(f"[{LEVELS[level]}] [{name}]: {text}")):
+    with redirect_log(lambda level, name, text: lines.append(f"[{LEVELS[level]}] [{name}]: {text}")):
         service = LaunchService()
         service.include_launch_description(LaunchDescription(entities))
         assert asyncio.run(service.run_async()) == status
@@ -306,8 +310,8 @@ def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
         (
             lambda: TimerAction(period=1, actions=[]),
             "'TimerAction' expected 'period' to be one of [<class 'str'>, "
-            "<class 'launch.entities.Substitution'>, <class 'collections.abc.Iterable'>, <class 'float'>], "
-            "but got '1' of type '<class 'int'>'",
+            "<class 'launch.substitution.Substitution'>, <class 'collections.abc.Iterable'>, "
+            "<class 'float'>], but got '1' of type '<class 'int'>'",
         ),
         (
             lambda: Node(executable="x", parameters={"a": 1}),
@@ -345,7 +349,7 @@ def test_what_comes_when_an_action_is_done_is_checked_as_it_is_told(arguments, w
 def test_parameters_are_what_yaml_takes_their_texts_for():
     context = LaunchContext()
     context.launch_configurations |= {"speed": "0.5", "name": "12", "gains": "[1.0, 2.0]"}
-    values = evaluated_dict(
+    values = evaluate_parameter_dict(
         context,
         {
             "speed": LaunchConfiguration("speed"),
@@ -385,7 +389,7 @@ def test_parameters_are_what_yaml_takes_their_texts_for():
 )
 def test_a_value_that_no_parameter_can_have_is_refused(value, words):
     with pytest.raises(TypeError) as refused:
-        evaluated_dict(LaunchContext(), {"x": value})
+        evaluate_parameter_dict(LaunchContext(), {"x": value})
     assert str(refused.value).startswith(words)
 
 
@@ -406,6 +410,19 @@ def test_a_file_of_parameters_may_have_substitutions(tmp_path):
     assert lines == fails_with("The substituted parameter file is not a valid yaml file")
 
 
+def test_a_file_of_parameters_may_name_packages_where_no_launch_file_in_yaml_was_read(tmp_path):
+    file = tmp_path / "parameters.yaml"
+    file.write_text("/**: {ros__parameters: {folder: $(find-pkg-share rclpy)}}\n")
+    program = (
+        "from launch import LaunchContext; from launch_ros.parameter_descriptions import ParameterFile; "
+        f"print(ParameterFile({str(file)!r}, allow_substs=True).evaluate(LaunchContext()).read_text())"
+    )
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    written = subprocess.check_output([sys.executable, "-c", program], env=environment, text=True)
+    share = get_package_share_directory("rclpy")
+    assert yaml.safe_load(written) == {"/**": {"ros__parameters": {"folder": share}}}
+
+
 @pytest.fixture
 def temporary(tmp_path, monkeypatch):
     """The place for temporary files, empty; and the folder in it that files of parameters are kept in."""
@@ -414,8 +431,8 @@ def temporary(tmp_path, monkeypatch):
 
 
 def test_parameters_are_kept_where_no_other_user_reads_or_changes_them(temporary):
-    path = kept("speed: 1")
-    assert (kept("speed: 1"), path.parent, path.read_text()) == (path, temporary, "speed: 1")
+    path = write_parameter_file("speed: 1")
+    assert (write_parameter_file("speed: 1"), path.parent, path.read_text()) == (path, temporary, "speed: 1")
     assert temporary.stat().st_mode & 0o777 == 0o700
     assert [file.name for file in temporary.iterdir()] == [path.name]
 
@@ -436,10 +453,10 @@ def test_parameters_are_not_kept_in_a_folder_that_others_may_change(temporary, t
         temporary.mkdir()
         temporary.chmod(0o770)
     with pytest.raises(PermissionError) as refused:
-        kept("speed: 1")
+        write_parameter_file("speed: 1")
     assert str(refused.value) == (
-        f"{temporary} must be a folder that is yours and closed to others: remove it, or let TMPDIR name "
-        "another place."
+        f"{temporary} must be a folder that belongs to you and is closed to others: remove it, or set "
+        "TMPDIR to another folder."
     )
     assert not any(file.is_file() and file != temporary for file in tmp_path.rglob("*"))
 

@@ -20,7 +20,7 @@ from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessI
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
 from launch.logging import launch_config
-from launch.processes import RealProcesses
+from launch.processes import SystemProcessStarter
 from launch.utilities import text_of
 from launch_ros.actions import Node, SetParameter
 from launch_ros.substitutions import ExecutableInPackage
@@ -146,19 +146,19 @@ def test_a_program_that_is_not_there_is_told_of(launched):
 def test_a_program_of_a_package_may_be_elsewhere_than_in_its_folder(tmp_path):
     lines = []
     commands = {("mine", "says"): [sys.executable, "-c", SAYS, "0"]}
-    processes = RealProcesses(lambda package, name: commands.get((package, name)))
     context = LaunchContext()
-    context.processes = processes
+    context.process_starter = SystemProcessStarter(lambda *names: commands.get(names))
 
     async def started():
         found = text_of(context, ExecutableInPackage("says", "mine"))
         assert found == f"{sys.prefix}/lib/mine/says"
-        process = await processes.start(["env", found], None, {}, False, lambda *each: lines.append(each))
+        command, add = ["env", found], lambda *each: lines.append(each)
+        process = await context.process_starter.start(command, None, {}, False, add)
         return await process.wait()
 
     assert asyncio.run(started()) == 0
     assert sorted(lines) == [("stderr", "err"), ("stdout", "out")]
-    assert processes.find("mine", "other") is None
+    assert context.process_starter.find_bundled("mine", "other") is None
 
 
 def test_environment_folder_shell_prefix_and_words_are_the_programs(launched, tmp_path):

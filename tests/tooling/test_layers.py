@@ -1,5 +1,6 @@
 """Reads the imports and holds the layers of the map apart."""
 import ast
+import fnmatch
 import functools
 import json
 import re
@@ -35,6 +36,25 @@ ROOMS = (
     *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "realtime"),
 )
 
+# The folders of ros_packages/ that Python imports from, and what no module in them imports.
+ROS_PACKAGES = ("ros_packages/python", "ros_packages/interfaces")
+COURSE = re.compile(rf"sim|grader|{JUPYTER.pattern}|{PICTURES.pattern}|{NBGRADER.pattern}")
+
+# The modules of launch and launch_ros, from the bottom: each imports from its own layer and those before it.
+LAUNCH_LAYERS = (
+    ("launch.event", "launch.processes", "launch.launch_context", "launch.launch_description_entity"),
+    ("launch.events", "launch.events.*", "launch.event_handler", "launch.condition", "launch.action"),
+    ("launch.logging", "launch.unsupported", "launch.substitution", "launch.utilities"),
+    ("launch.substitutions", "launch.substitutions.*", "launch.conditions"),
+    ("launch.actions.*",),
+    ("launch.launch_description", "launch.launch_description_sources"),
+    ("launch.actions.include_launch_description", "launch.actions"),
+    ("launch.event_handlers", "launch.launch_introspector", "launch.launch_service", "launch"),
+    ("launch.yaml_frontend", "launch.yaml_frontend.*"),
+    ("launch_ros", "launch_ros.*"),
+    ("launch.yaml_frontend.launch_file",),  # launch_ros adds what it knows to the YAML of launch
+)
+
 
 @functools.cache
 def imports(source: str) -> tuple[str, ...]:
@@ -52,6 +72,15 @@ def modules() -> Iterator[tuple[str, str]]:
     for package in PACKAGES:
         for path in sorted((ROOT / package).rglob("*.py")):
             yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+
+
+def module_files(folder: str) -> dict[str, str]:
+    """The source of every module in a folder by the name that it has where the folder is on Python's path."""
+    root = ROOT / folder
+    return {
+        module_name(path.relative_to(root).as_posix()): path.read_text(encoding="utf-8")
+        for path in sorted(root.rglob("*.py"))
+    }
 
 
 def strangers(allowed: tuple[str, ...], names: re.Pattern, files: Iterator[tuple[str, str]]) -> list[str]:
@@ -126,6 +155,18 @@ def room(module: str) -> str | None:
     return parts[2] if parts[:2] == ["sim", "ros"] and len(parts) > 2 else None
 
 
+def launch_layer(module: str) -> int | None:
+    """The number of the layer that a module of launch or launch_ros is in; None for any other module.
+
+    A layer that has the module's own name comes before one with a pattern that matches it.
+    """
+    for matches in (str.__eq__, fnmatch.fnmatchcase):
+        for number, layer in enumerate(LAUNCH_LAYERS):
+            if any(matches(module, pattern) for pattern in layer):
+                return number
+    return None
+
+
 @pytest.mark.parametrize(("names", "allowed"), LAYERS)
 def test_a_layer_is_known_only_where_the_map_says(names, allowed):
     assert strangers(allowed, names, modules()) == []
@@ -182,6 +223,31 @@ def test_the_rooms_of_the_engine_import_in_one_direction():
         for other in others
         if room(module) is not None and room(other) is not None
         if ROOMS.index(room(other)) > ROOMS.index(room(module))
+    ]
+    assert back == []
+
+
+@pytest.mark.parametrize("folder", ROS_PACKAGES)
+def test_no_module_of_ros_packages_imports_itself_by_way_of_others(folder):
+    """Annotations count here, too."""
+    assert circle(arrows(module_files(folder), annotations=True)) == []
+
+
+@pytest.mark.parametrize("folder", ROS_PACKAGES)
+def test_ros_packages_do_not_know_the_course(folder):
+    files = {f"{folder}: {name}": source for name, source in module_files(folder).items()}
+    assert strangers((), COURSE, iter(files.items())) == []
+
+
+def test_the_modules_of_launch_import_in_one_direction():
+    files = module_files("ros_packages/python")
+    layers = {name: launch_layer(name) for name in files if name.startswith("launch")}
+    assert [name for name, layer in layers.items() if layer is None] == []
+    back = [
+        f"{module} imports {other}"
+        for module, others in arrows(files, annotations=True).items()
+        for other in others
+        if module in layers and other in layers and layers[other] > layers[module]
     ]
     assert back == []
 

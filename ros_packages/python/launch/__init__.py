@@ -1,6 +1,6 @@
-"""Launch files, by the names of upstream's launch, in Python alone.
+"""Launch files in pure Python, with the names of upstream's launch.
 
-A description is carried out by `LaunchService`, with real processes, or by a run in simulated time.
+`LaunchService` executes a description: with real processes, or with the programs of a run in simulated time.
 """
 
 from launch import (
@@ -13,22 +13,17 @@ from launch import (
     substitutions,
     utilities,
 )
-from launch.entities import (
-    Action,
-    BaseEventHandler,
-    Condition,
-    Event,
-    EventHandler,
-    LaunchDescriptionEntity,
-    SomeEntitiesType,
-    SomeSubstitutionsType,
-    Substitution,
-)
+from launch.action import Action
+from launch.condition import Condition
+from launch.event import Event
+from launch.event_handler import BaseEventHandler, EventHandler
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
 from launch.launch_description_sources import InvalidLaunchFileError, LaunchDescriptionSource
 from launch.launch_introspector import LaunchIntrospector
 from launch.launch_service import LaunchService
+from launch.substitution import SomeSubstitutionsType, Substitution
 
 __all__ = [
     "Action",

@@ -1,11 +1,12 @@
-"""On which conditions an action is done."""
+"""The conditions on which an action is executed."""
 
 from __future__ import annotations
 
 from typing import NoReturn
 
-from launch.entities import Condition, SomeSubstitutionsType, Substitution
+from launch.condition import Condition
 from launch.launch_context import LaunchContext
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.unsupported import refuse
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -18,7 +19,7 @@ __all__ = [
 
 
 class InvalidConditionExpressionError(ValueError):
-    """A text that is neither true nor false."""
+    """A text is neither true nor false."""
 
     def __init__(self, expression: str, unexpanded_expression: list, valid_expressions: list[str]) -> None:
         super().__init__(
@@ -37,7 +38,7 @@ def evaluate_condition_expression(context: LaunchContext, expression: list[Subst
 
 
 class IfCondition(Condition):
-    """The action is done if the text is true or 1."""
+    """The action is executed if the text is true or 1."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         expression = normalize_to_list_of_substitutions(predicate_expression)
@@ -45,7 +46,7 @@ class IfCondition(Condition):
 
 
 class UnlessCondition(Condition):
-    """The action is done if the text is false or 0."""
+    """The action is executed if the text is false or 0."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         expression = normalize_to_list_of_substitutions(predicate_expression)

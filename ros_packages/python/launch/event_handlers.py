@@ -1,14 +1,18 @@
-"""What is done when something has happened."""
+"""The event handlers that launch files use."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any, NoReturn
 
-from launch.entities import Action, BaseEventHandler, Event, EventHandler, LaunchDescriptionEntity, as_list
+from launch.action import Action
+from launch.actions.execute_process import ExecuteProcess
+from launch.event import Event
+from launch.event_handler import BaseEventHandler, EventHandler, OnActionEventBase
 from launch.events import ExecutionComplete, Shutdown
 from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
 from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity, as_list
 from launch.unsupported import refuse
 
 __all__ = [
@@ -20,57 +24,13 @@ __all__ = [
 ]
 
 
-class OnActionEventBase(BaseEventHandler):
-    """A handler of one kind of event of one action, of those that a function is true of, or of all."""
-
-    def __init__(
-        self,
-        *,
-        action_matcher: Any,
-        on_event: Any,
-        target_event_cls: type,
-        target_action_cls: type,
-        **kwargs: Any,
-    ) -> None:
-        if not isinstance(action_matcher, target_action_cls | None) and not callable(action_matcher):
-            raise TypeError(
-                f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable"
-            )
-        self.__on_event = on_event
-        if not callable(on_event):
-            for entity in on_event if isinstance(on_event, Iterable) else ():
-                if not isinstance(entity, LaunchDescriptionEntity):
-                    raise TypeError(
-                        "expected all items in 'on_event' iterable to be of type 'LaunchDescriptionEntity' "
-                        f"but got '{type(entity)}'"
-                    )
-            self.__on_event = as_list(on_event)
-
-        def matches(event: Event) -> bool:
-            if not isinstance(event, target_event_cls):
-                return False
-            if isinstance(action_matcher, target_action_cls):
-                return event.action is action_matcher
-            return action_matcher is None or bool(action_matcher(event.action))
-
-        super().__init__(matcher=matches, **kwargs)
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """As `BaseEventHandler`."""
-        return super().describe()[0], [] if callable(self.__on_event) else list(self.__on_event)
-
-    def handle(self, event: Event, context: LaunchContext) -> Any:
-        """As `BaseEventHandler`."""
-        super().handle(event, context)
-        return self.__on_event(event, context) if callable(self.__on_event) else self.__on_event
-
-
 class OnProcessStart(OnActionEventBase):
-    """Entities for when a program was started, or a function (event, context) that gives them."""
+    """Visits entities when a process was started.
+
+    on_start: the entities, or a function (event, context) -> entities.
+    """
 
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
-        from launch.actions import ExecuteProcess  # which needs event handlers
-
         super().__init__(
             action_matcher=target_action,
             on_event=on_start,
@@ -81,11 +41,12 @@ class OnProcessStart(OnActionEventBase):
 
 
 class OnProcessExit(OnActionEventBase):
-    """Entities for when a program has ended, or a function (event, context) that gives them."""
+    """Visits entities when a process has exited.
+
+    on_exit: the entities, or a function (event, context) -> entities.
+    """
 
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
-        from launch.actions import ExecuteProcess  # which needs event handlers
-
         super().__init__(
             action_matcher=target_action,
             on_event=on_exit,
@@ -96,7 +57,7 @@ class OnProcessExit(OnActionEventBase):
 
 
 class OnProcessIO(OnActionEventBase):
-    """Functions of the event for when a program has written something; they may give entities."""
+    """Calls a function with the event when a process has written a line. It may return entities."""
 
     def __init__(
         self,
@@ -107,15 +68,13 @@ class OnProcessIO(OnActionEventBase):
         on_stderr: Callable[[ProcessIO], Any] | None = None,
         **kwargs: Any,
     ) -> None:
-        from launch.actions import ExecuteProcess  # which needs event handlers
-
-        def heard(event: ProcessIO, _: LaunchContext) -> Any:
-            told = on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
-            return None if told is None else told(event)
+        def on_io(event: ProcessIO, _: LaunchContext) -> Any:
+            callback = on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
+            return None if callback is None else callback(event)
 
         super().__init__(
             action_matcher=target_action,
-            on_event=heard,
+            on_event=on_io,
             target_event_cls=ProcessIO,
             target_action_cls=ExecuteProcess,
             **kwargs,
@@ -123,7 +82,10 @@ class OnProcessIO(OnActionEventBase):
 
 
 class OnExecutionComplete(EventHandler):
-    """Entities for when an action has done all it does, or a function (event, context) that gives them."""
+    """Visits entities when an action is complete.
+
+    on_completion: the entities, or a function (event, context) -> entities.
+    """
 
     def __init__(self, *, target_action: Action | None = None, on_completion: Any, **kwargs: Any) -> None:
         if not isinstance(target_action, Action | None):
@@ -148,12 +110,15 @@ class OnExecutionComplete(EventHandler):
     def handle(self, event: Event, context: LaunchContext) -> Any:
         """As `BaseEventHandler`."""
         super().handle(event, context)
-        come = self.__on_completion
-        return come(event, context) if callable(come) else come
+        callback = self.__on_completion
+        return callback(event, context) if callable(callback) else callback
 
 
 class OnShutdown(BaseEventHandler):
-    """Entities for when all ends, or a function (event, context) that gives them."""
+    """Visits entities on shutdown.
+
+    on_shutdown: the entities, or a function (event, context) -> entities.
+    """
 
     def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
         super().__init__(matcher=lambda event: isinstance(event, Shutdown), **kwargs)

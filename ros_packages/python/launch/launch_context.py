@@ -1,4 +1,4 @@
-"""What a launch file under way knows: its configurations, its environment, its events and their handlers."""
+"""The state of a launch file that is being executed: configurations, environment, events, handlers."""
 
 from __future__ import annotations
 
@@ -8,10 +8,24 @@ from collections import deque
 from collections.abc import Iterable
 from itertools import count
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Protocol
 
-from launch.entities import BaseEventHandler, Event, Substitution
-from launch.processes import Processes, RealProcesses
+from launch.event import Event
+from launch.processes import ProcessStarter, SystemProcessStarter
+
+
+class _Substitution(Protocol):
+    """What the context uses of a `launch.Substitution`."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text that it is replaced by."""
+
+
+class _EventHandler(Protocol):
+    """What the context uses of a `launch.BaseEventHandler`."""
+
+    def matches(self, event: Event) -> bool:
+        """Whether it handles the event."""
 
 
 class _Locals(SimpleNamespace):
@@ -21,9 +35,9 @@ class _Locals(SimpleNamespace):
 
 
 class LaunchContext:
-    """The state of one launch file under way.
+    """The state of one launch file that is being executed.
 
-    `environment` is what the programs get: a copy, so that this process's own stays what it is.
+    `environment` is what its processes get. It is a copy, so this process's own environment never changes.
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
@@ -32,37 +46,37 @@ class LaunchContext:
         self.environment = dict(os.environ)
         self.is_shutdown = False
         self.asyncio_loop: asyncio.AbstractEventLoop | None = None
-        self.processes: Processes = RealProcesses()
-        self.numbers = count(1)  # of its processes, for their names
+        self.process_starter: ProcessStarter = SystemProcessStarter()
+        self.process_numbers = count(1)  # the suffixes of the processes' names
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}
         self._locals_stack: list[dict[str, Any]] = []
         self._configurations_stack: list[dict[str, Any]] = []
         self._environment_stack: list[dict[str, str]] = []
-        self._first_environment = dict(self.environment)
-        self._handlers: deque[BaseEventHandler] = deque()
+        self._initial_environment = dict(self.environment)
+        self._handlers: deque[_EventHandler] = deque()
         self._events: deque[Event] = deque()
         self._wake = asyncio.Event()
 
     # -- events --------------------------------------------------------------------------------------
 
-    def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
+    def register_event_handler(self, event_handler: _EventHandler, append: bool = False) -> None:
         """Add a handler before all others, or with `append` after them."""
         if append:
             self._handlers.append(event_handler)
         else:
             self._handlers.appendleft(event_handler)
 
-    def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
-        """Take a handler away. Raises ValueError where it isn't there."""
+    def unregister_event_handler(self, event_handler: _EventHandler) -> None:
+        """Remove a handler. Raises ValueError if it isn't registered."""
         self._handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Whether there is a handler for it."""
+        """Whether any handler is registered for the event."""
         return any(handler.matches(event) for handler in self._handlers)
 
     def emit_event_sync(self, event: Event) -> None:
-        """Tell of an event; its handlers are asked soon."""
+        """Queue an event; the launch service calls its handlers later."""
         self._events.append(event)
         self._wake.set()
 
@@ -70,34 +84,34 @@ class LaunchContext:
         """As `emit_event_sync`."""
         self.emit_event_sync(event)
 
-    # -- what is known by name -----------------------------------------------------------------------
+    # -- names and their values ----------------------------------------------------------------------
 
     def extend_globals(self, extensions: dict[str, Any]) -> None:
-        """Add names that are known everywhere."""
+        """Add names that are defined everywhere."""
         self._globals.update(extensions)
 
     def extend_locals(self, extensions: dict[str, Any]) -> None:
-        """Add names that are known until the event at hand is done with."""
+        """Add names that are defined until the current event has been handled."""
         self._locals.update(extensions)
 
     def get_locals_as_dict(self) -> dict[str, Any]:
-        """All names that are known here."""
+        """All global and local names with their values."""
         return {**self._globals, **self._locals}
 
     @property
     def locals(self) -> Any:
-        """All names that are known here, as attributes."""
+        """All global and local names, as attributes."""
         return _Locals(**self.get_locals_as_dict())
 
-    def perform_substitution(self, substitution: Substitution) -> str:
-        """What a substitution makes here."""
+    def perform_substitution(self, substitution: _Substitution) -> str:
+        """The text that a substitution is replaced by in this context."""
         return substitution.perform(self)
 
     # -- scopes --------------------------------------------------------------------------------------
 
-    def begin_with(self, environment: dict[str, str]) -> None:
-        """Let programs get this environment, and not that of this process. Call it before all else."""
-        self.environment, self._first_environment = dict(environment), dict(environment)
+    def replace_environment(self, environment: dict[str, str]) -> None:
+        """Give processes this environment instead of this process's own. Call it before the first action."""
+        self.environment, self._initial_environment = dict(environment), dict(environment)
 
     def _push_locals(self) -> None:
         self._locals_stack.append(dict(self._locals))
@@ -106,7 +120,7 @@ class LaunchContext:
         self._locals = self._locals_stack.pop()
 
     def _push_scope(self) -> None:
-        # Lists in it grow in place, as those of parameters and remappings for all nodes.
+        # Lists are copied, because the parameters for all nodes are appended in place.
         copy = {name: list(v) if isinstance(v, list) else v for name, v in self.launch_configurations.items()}
         self._configurations_stack.append(self.launch_configurations)
         self._environment_stack.append(self.environment)
@@ -116,5 +130,5 @@ class LaunchContext:
         self.launch_configurations = self._configurations_stack.pop()
         self.environment = self._environment_stack.pop()
 
-    def _reset_scope(self, kept: dict[str, Any]) -> None:
-        self.launch_configurations, self.environment = dict(kept), dict(self._first_environment)
+    def _reset_scope(self) -> None:
+        self.launch_configurations, self.environment = {}, dict(self._initial_environment)

@@ -1,17 +1,18 @@
-"""A launch description: what is to be launched, in order."""
+"""The launch description: what is to be launched, in order."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
-from launch.entities import Action, LaunchDescriptionEntity
+from launch.action import Action
+from launch.actions.declare_launch_argument import DeclareLaunchArgument
 from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.logging import get_logger
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """Entities, which are visited in this order. deprecated_reason: said as a warning, if there is one."""
+    """Entities that are visited in this order. deprecated_reason: logged as a warning, if given."""
 
     def __init__(
         self,
@@ -24,25 +25,25 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def entities(self) -> list[LaunchDescriptionEntity]:
-        """What is in it."""
+        """The entities."""
         return self.__entities
 
     @property
     def deprecated(self) -> bool:
-        """Whether another is to be used in its place."""
+        """Whether the description is deprecated."""
         return self.__deprecated_reason is not None
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why."""
+        """Why it is deprecated."""
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
-        """Add one more."""
+        """Add an entity at the end."""
         self.__entities.append(entity)
 
     def add_action(self, action: Action) -> None:
-        """Add one more."""
+        """Add an action at the end."""
         self.add_entity(action)
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -57,17 +58,18 @@ class LaunchDescription(LaunchDescriptionEntity):
             get_logger().warning(f"{what}: {self.__deprecated_reason}")
         return self.__entities
 
-    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
         """The arguments that it declares, and those of the files that it includes."""
-        return _first_of_each(_declared(self.entities, conditional_inclusion))
+        return _unique(_declared_arguments(self.entities, conditional_inclusion))
 
-    def _own_arguments(self) -> list[Any]:
-        """The arguments that it declares itself."""
-        return _first_of_each(_declared(self.entities, False, included=False))
+    def _arguments(self, *, outside: type) -> list[DeclareLaunchArgument]:
+        """The arguments that it declares, except those in entities of this type."""
+        return _unique(_declared_arguments(self.entities, False, outside))
 
 
-def _first_of_each(declared: Iterable[tuple[Any, bool]]) -> list[Any]:
-    found: dict[str, Any] = {}
+def _unique(declared: Iterable[tuple[DeclareLaunchArgument, bool]]) -> list[DeclareLaunchArgument]:
+    """The first argument of each name."""
+    found: dict[str, DeclareLaunchArgument] = {}
     for argument, conditional in declared:
         if argument.name not in found:
             argument._conditionally_included = conditional or argument.condition is not None
@@ -75,15 +77,14 @@ def _first_of_each(declared: Iterable[tuple[Any, bool]]) -> list[Any]:
     return list(found.values())
 
 
-def _declared(
-    entities: Iterable[LaunchDescriptionEntity], conditional: bool, included: bool = True
-) -> Iterator[tuple[Any, bool]]:
-    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription  # which need this module
-
+def _declared_arguments(
+    entities: Iterable[LaunchDescriptionEntity], conditional: bool, outside: type | tuple[()] = ()
+) -> Iterator[tuple[DeclareLaunchArgument, bool]]:
+    """Each declared argument, and whether it is declared on a condition only."""
     for entity in entities:
         if isinstance(entity, DeclareLaunchArgument):
             yield entity, conditional
-        if included or not isinstance(entity, IncludeLaunchDescription):
-            yield from _declared(entity.describe_sub_entities(), conditional, included)
+        if not isinstance(entity, outside):
+            yield from _declared_arguments(entity.describe_sub_entities(), conditional, outside)
             for _, inner in entity.describe_conditional_sub_entities():
-                yield from _declared(inner, True, included)
+                yield from _declared_arguments(inner, True, outside)

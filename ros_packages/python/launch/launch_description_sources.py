@@ -1,17 +1,18 @@
-"""Where launch descriptions come from: Python, and YAML."""
+"""The sources of launch descriptions: launch files in Python and YAML."""
 
 from __future__ import annotations
 
+import importlib
 import traceback
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from typing import NoReturn
 
-from launch.entities import SomeSubstitutionsType
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
 from launch.logging import get_logger
+from launch.substitution import SomeSubstitutionsType
 from launch.unsupported import refuse
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -22,20 +23,23 @@ __all__ = [
     "PythonLaunchDescriptionSource",
 ]
 
+# A plug-in, imported by name on first use: it makes actions, which may include launch descriptions.
+YAML_FRONTEND = "launch.yaml_frontend.launch_file"
+
 
 class InvalidPythonLaunchFileError(Exception):
-    """A Python file that describes nothing."""
+    """A Python file lacks the function `generate_launch_description`."""
 
 
 class InvalidLaunchFileError(Exception):
-    """A file that is no launch file."""
+    """A file is not a launch file."""
 
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
-    """What `generate_launch_description()` of a Python file gives. Raises InvalidPythonLaunchFileError."""
+    """The result of `generate_launch_description()` in a file. Raises InvalidPythonLaunchFileError."""
     loader = SourceFileLoader("python_launch_file", str(python_launch_file_path))
     module = module_from_spec(spec_from_loader(loader.name, loader))
-    exec(loader.source_to_code(Path(loader.path).read_bytes(), loader.path), vars(module))  # as it is now
+    exec(loader.source_to_code(Path(loader.path).read_bytes(), loader.path), vars(module))  # never cached
     if not hasattr(module, "generate_launch_description"):
         raise InvalidPythonLaunchFileError(
             f"launch file at '{python_launch_file_path}' does not contain the required function "
@@ -45,14 +49,12 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
 
 
 def get_launch_description_from_yaml_launch_file(path: str) -> LaunchDescription:
-    """What a YAML file describes."""
-    from launch.yaml_files import described  # which needs the actions
-
-    return described(path)
+    """The launch description in a YAML file."""
+    return importlib.import_module(YAML_FRONTEND).read(path)
 
 
 def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
-    """What a file describes, by its name. Raises InvalidLaunchFileError for one of another kind."""
+    """The launch description in a file, by its suffix. Raises InvalidLaunchFileError for an unknown one."""
     kind = Path(launch_file_path).suffix
     if kind == ".py":
         return get_launch_description_from_python_launch_file(launch_file_path)
@@ -67,7 +69,7 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
 
 
 class LaunchDescriptionSource:
-    """A launch description, or where it is."""
+    """A launch description, or the place where it is."""
 
     def __init__(
         self,
@@ -82,18 +84,18 @@ class LaunchDescriptionSource:
 
     @property
     def location(self) -> str:
-        """Where it is."""
+        """The path of the launch file."""
         if self.__expanded_location is None:
             return " + ".join(map(str, self.__location))
         return self.__expanded_location
 
     @property
     def method(self) -> str:
-        """How it is read."""
+        """How it is read, for people."""
         return self.__method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """The description, if that can be told before anything was launched."""
+        """The description, if its location is known before anything is launched."""
         if self.__launch_description is None:
             try:
                 return self._get_launch_description(perform_substitutions(LaunchContext(), self.__location))
@@ -103,7 +105,7 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
-        """The description. Raises what reading it raises."""
+        """The description. Raises the errors of reading it."""
         if self.__expanded_location is None:
             self.__expanded_location = perform_substitutions(context, self.__location)
         if self.__launch_description is None:
@@ -127,7 +129,7 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """A launch file in Python or YAML, as its name says."""
+    """A launch file in Python or YAML, by its suffix."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(None, launch_file_path, "interpreted launch file")

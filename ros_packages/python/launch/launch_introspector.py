@@ -1,4 +1,4 @@
-"""A launch description as a text: what is in it, as a tree."""
+"""Prints a launch description as a tree."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
-from launch.entities import LaunchDescriptionEntity, SomeSubstitutionsType
 from launch.launch_description import LaunchDescription
-from launch.utilities import described, normalize_to_list_of_substitutions
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.substitution import SomeSubstitutionsType
+from launch.utilities import describe_substitutions, normalize_to_list_of_substitutions
 
 
 class LaunchIntrospector:
-    """Tells what is in a launch description."""
+    """Formats launch descriptions."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        """The text."""
+        """The entities of a description, as a tree."""
         return "\n".join([str(launch_description), *_tree(launch_description.entities)])
 
 
@@ -33,12 +34,12 @@ def _tree(entities: Iterable[LaunchDescriptionEntity]) -> Iterator[str]:
 
 def _line(entity: LaunchDescriptionEntity) -> str:
     if isinstance(entity, LogInfo):
-        return f"LogInfo({described(entity.msg)})"
+        return f"LogInfo({describe_substitutions(entity.msg)})"
     if isinstance(entity, EmitEvent):
         return f"EmitEvent(event='{entity.event.name}')"
     if isinstance(entity, ExecuteProcess):
-        words = ", ".join(_described(word) for word in entity.cmd)
-        cwd = None if entity.cwd is None else f"'{_described(entity.cwd)}'"
+        words = ", ".join(_describe(word) for word in entity.cmd)
+        cwd = None if entity.cwd is None else f"'{_describe(entity.cwd)}'"
         return f"ExecuteProcess(cmd=[{words}], cwd={cwd}, env={_variables(entity.env)}, shell={entity.shell})"
     if isinstance(entity, RegisterEventHandler):
         return f"RegisterEventHandler('{entity.event_handler}'):"
@@ -48,8 +49,8 @@ def _line(entity: LaunchDescriptionEntity) -> str:
 def _variables(env: Any) -> str | None:
     if env is None:
         return None
-    return "{" + ", ".join(f"{_described(name)}: {_described(value)}" for name, value in env.items()) + "}"
+    return "{" + ", ".join(f"{_describe(name)}: {_describe(value)}" for name, value in env.items()) + "}"
 
 
-def _described(subs: SomeSubstitutionsType) -> str:
-    return described(normalize_to_list_of_substitutions(subs))
+def _describe(subs: SomeSubstitutionsType) -> str:
+    return describe_substitutions(normalize_to_list_of_substitutions(subs))

@@ -1,4 +1,4 @@
-"""What carries out a launch description: it visits what is in it, and tells handlers what has happened."""
+"""Executes launch descriptions: visits their entities and passes events to event handlers."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ import traceback
 from collections.abc import Iterable
 from typing import Any
 
-from launch.entities import BaseEventHandler, Event, LaunchDescriptionEntity, as_list
+from launch.event import Event
+from launch.event_handler import BaseEventHandler
 from launch.event_handlers import OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import LaunchDescriptionEntity, as_list
 from launch.logging import get_logger, launch_config, log_launch_config
 
 
@@ -28,7 +30,7 @@ class _OnInclude(BaseEventHandler):
 
 
 class LaunchService:
-    """Carries out launch descriptions until all that was launched has ended."""
+    """Executes launch descriptions until everything that was launched is complete."""
 
     def __init__(
         self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False
@@ -40,45 +42,45 @@ class LaunchService:
         self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
         self.__futures: set[asyncio.Future] = set()
         self.__shutting_down = self.__interrupted = False
-        self.failure: Exception | None = None  # what went wrong first
+        self.failure: Exception | None = None  # the first error
         self.__loop: asyncio.AbstractEventLoop | None = None
         self.__task: asyncio.Task | None = None
 
     @property
     def context(self) -> LaunchContext:
-        """What is known to the launch files."""
+        """The context of the launch files."""
         return self.__context
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The loop in which it runs, while it does."""
+        """The event loop, while the service is running."""
         return self.__loop
 
     @property
     def task(self) -> asyncio.Task | None:
-        """The task in which it runs, while it does."""
+        """The task, while the service is running."""
         return self.__task
 
     def emit_event(self, event: Event) -> None:
-        """Tell of an event; from any thread."""
+        """Queue an event. May be called from any thread."""
         if self.__loop is None:
             self.__context.emit_event_sync(event)
         else:
             self.__loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Carry out a description, too."""
+        """Execute another description."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, force_sync: bool = False) -> None:
-        """End all that was launched; from any thread."""
+        """Shut down everything that was launched. May be called from any thread."""
         if self.__loop is not None:
             self.__loop.call_soon_threadsafe(self._shutdown, "LaunchService.shutdown() called")
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Carry out the descriptions; 0, or 1 where something in them failed.
+        """Execute the descriptions. Returns 0, or 1 after an error.
 
-        In the main thread Ctrl-C ends the programs as `ros2 launch` does.
+        In the main thread, Ctrl-C shuts the processes down as in `ros2 launch`.
         """
         with asyncio.Runner() as runner:
             loop = runner.get_loop()
@@ -89,7 +91,7 @@ class LaunchService:
             return runner.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """As `run`, in the event loop that runs; signals are left to others."""
+        """As `run`, in the running event loop and without signal handlers."""
         context, status = self.__context, 0
         self.__task, self.__loop = asyncio.current_task(), asyncio.get_running_loop()
         context.asyncio_loop = self.__loop

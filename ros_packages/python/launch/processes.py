@@ -1,4 +1,4 @@
-"""How the programs of a launch file are started: here as processes of their own."""
+"""The processes of a launch file: what launch needs of them, and those of the operating system."""
 
 from __future__ import annotations
 
@@ -8,55 +8,58 @@ import sys
 from collections.abc import Callable
 from typing import Protocol
 
-Message = Callable[[str, str], None]  # "stdout" or "stderr", and a line without its end
+OnOutput = Callable[[str, str], None]  # called with "stdout" or "stderr", and a line without its newline
 
 
-class Started(Protocol):
-    """One program that was started."""
+class Process(Protocol):
+    """A process that was started."""
 
     pid: int
 
     def send_signal(self, number: int) -> None:
-        """Send it a signal; nothing happens where it has ended."""
+        """Send it a signal; does nothing if it has exited."""
 
     async def wait(self) -> int:
-        """Its exit status when it has ended; -N if signal N has ended it."""
+        """Wait until it has exited; returns its exit status, or -N if signal N killed it."""
 
 
-class Processes(Protocol):
-    """What starts programs."""
+class ProcessStarter(Protocol):
+    """Starts the processes of a launch file."""
 
-    def find(self, package: str, name: str) -> str | None:
-        """The word for `start` that means a package's program which is not in its folder; None for none."""
+    def find_bundled(self, package: str, executable: str) -> str | None:
+        """The path of an executable that is bundled for a package, for `start`; None if there is none.
+
+        The path need not exist.
+        """
 
     async def start(
-        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Message
-    ) -> Started:
-        """Start one. Raises OSError where that can't be."""
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: OnOutput
+    ) -> Process:
+        """Start a process. Raises OSError if it can't be started."""
 
 
-class RealProcesses:
-    """Starts programs as processes of the system.
+class SystemProcessStarter:
+    """Starts processes of the operating system.
 
-    elsewhere: gives the words that start a package's program which is not in its folder; None for none.
+    bundled: returns the command that runs an executable which is bundled for a package, or None.
     """
 
-    def __init__(self, elsewhere: Callable[[str, str], list[str] | None] | None = None) -> None:
-        self._elsewhere, self._commands = elsewhere, {}
+    def __init__(self, bundled: Callable[[str, str], list[str] | None] | None = None) -> None:
+        self._bundled, self._commands = bundled, {}
 
-    def find(self, package: str, name: str) -> str | None:
-        """As `Processes`. Raises what `elsewhere` raises."""
-        words = None if self._elsewhere is None else self._elsewhere(package, name)
-        if words is None:
+    def find_bundled(self, package: str, executable: str) -> str | None:
+        """As `ProcessStarter`. Raises what `bundled` raises."""
+        command = None if self._bundled is None else self._bundled(package, executable)
+        if command is None:
             return None
-        path = f"{sys.prefix}/lib/{package}/{name}"
-        self._commands[path] = words
+        path = f"{sys.prefix}/lib/{package}/{executable}"
+        self._commands[path] = command
         return path
 
     async def start(
-        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Message
-    ) -> Started:
-        """As `Processes`."""
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: OnOutput
+    ) -> Process:
+        """As `ProcessStarter`."""
         cmd = [word for each in cmd for word in self._commands.get(each, [each])]
         pipes = {"stdin": asyncio.subprocess.PIPE, "stdout": asyncio.subprocess.PIPE}
         pipes |= {"stderr": asyncio.subprocess.PIPE}
@@ -64,22 +67,22 @@ class RealProcesses:
             process = await asyncio.create_subprocess_shell(" ".join(cmd), cwd=cwd, env=env, **pipes)
         else:
             process = await asyncio.create_subprocess_exec(*cmd, cwd=cwd, env=env, **pipes)
-        return RealProcess(process, heard)
+        return SystemProcess(process, on_output)
 
 
-class RealProcess:
-    """A process of the system."""
+class SystemProcess:
+    """A process of the operating system."""
 
-    def __init__(self, process: asyncio.subprocess.Process, heard: Message) -> None:
-        self.pid, self._process, self._heard = process.pid, process, heard
+    def __init__(self, process: asyncio.subprocess.Process, on_output: OnOutput) -> None:
+        self.pid, self._process, self._on_output = process.pid, process, on_output
 
     def send_signal(self, number: int) -> None:
-        """As `Started`."""
+        """As `Process`."""
         with contextlib.suppress(ProcessLookupError):
             self._process.send_signal(number)
 
     async def wait(self) -> int:
-        """As `Started`; all that it has written was heard by then, but for what its children keep open."""
+        """As `Process`. First passes on all of its output; its children's, for at most 1 s."""
         readers = [
             asyncio.ensure_future(self._read(self._process.stdout, "stdout")),
             asyncio.ensure_future(self._read(self._process.stderr, "stderr")),
@@ -95,6 +98,6 @@ class RealProcess:
         while block := await stream.read(2**16):
             *lines, rest = (rest + block).split(b"\n")
             for line in lines:
-                self._heard(name, line.decode(errors="replace"))
+                self._on_output(name, line.decode(errors="replace"))
         if rest:
-            self._heard(name, rest.decode(errors="replace"))
+            self._on_output(name, rest.decode(errors="replace"))

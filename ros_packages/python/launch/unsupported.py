@@ -1,4 +1,4 @@
-"""What is refused in one sentence: names of upstream's that are not here."""
+"""The names of upstream's that are not supported; each is refused in one sentence."""
 
 from collections.abc import Iterable
 from typing import NoReturn
@@ -29,7 +29,7 @@ LEFT_OUT = {
 
 
 def refuse(module: str, name: str, known: Iterable[str]) -> NoReturn:
-    """Raise ImportError for a name of upstream's, AttributeError for one that nobody has."""
+    """Raise ImportError for a name that upstream has, AttributeError for any other."""
     if name in LEFT_OUT.get(module, "").split():
         there = ", ".join(sorted(known))
         raise ImportError(f"{module}.{name} is not supported by this course's launch, which has {there}.")

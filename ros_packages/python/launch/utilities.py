@@ -1,4 +1,4 @@
-"""Texts with substitutions in them, as lists of substitutions and as what comes of these."""
+"""Converts the arguments of actions: to lists of substitutions, to texts and to values."""
 
 from __future__ import annotations
 
@@ -7,14 +7,12 @@ from typing import Any
 
 import yaml
 
-from launch.entities import SomeSubstitutionsType, Substitution
 from launch.launch_context import LaunchContext
+from launch.substitution import SomeSubstitutionsType, Substitution, TextSubstitution
 
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
-    """Whatever stands for a text, as a list of substitutions. Raises TypeError."""
-    from launch.substitutions import TextSubstitution  # which needs this module
-
+    """A text, a substitution or several of both, as a list of substitutions. Raises TypeError."""
     if isinstance(subs, str | Substitution):
         subs = [subs]
     found = []
@@ -29,22 +27,22 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Subs
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """The text that a list of substitutions makes."""
+    """The text that a list of substitutions is replaced by."""
     return "".join(context.perform_substitution(sub) for sub in subs)
 
 
-def described(subs: Iterable[Substitution]) -> str:
-    """A text for people on a list of substitutions."""
+def describe_substitutions(subs: Iterable[Substitution]) -> str:
+    """A description of a list of substitutions, for people."""
     return " + ".join(sub.describe() for sub in subs)
 
 
 def text_of(context: LaunchContext, subs: SomeSubstitutionsType) -> str:
-    """The text that anything makes that may stand for one."""
+    """The text of an argument that may have substitutions."""
     return perform_substitutions(context, normalize_to_list_of_substitutions(subs))
 
 
 def value_of(context: LaunchContext, value: Any, kind: type) -> Any:
-    """A value of this type, given as such or as a text of YAML. Raises ValueError for a text of another."""
+    """A value of this type, given as such or as text in YAML. Raises ValueError for text of another type."""
     if isinstance(value, bool | int | float):
         return kind(value)
     text = text_of(context, value)
@@ -57,7 +55,7 @@ def value_of(context: LaunchContext, value: Any, kind: type) -> Any:
 
 
 def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: str | None = None) -> None:
-    """Raise TypeError if an argument is of none of these types."""
+    """Raise TypeError if an argument has none of these types."""
     kinds = tuple(types) if isinstance(types, Iterable) else (types,)
     if not isinstance(argument, kinds):
         begin = "E" if caller is None else f"'{caller}' e"

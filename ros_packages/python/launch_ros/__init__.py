@@ -1,4 +1,4 @@
-"""Nodes in launch files, by the names of upstream's launch_ros, in Python alone."""
+"""Nodes in launch files, in pure Python, with the names of upstream's launch_ros."""
 
 from launch_ros import actions, descriptions, parameter_descriptions, substitutions
 

@@ -1,4 +1,4 @@
-"""What a launch file does with nodes."""
+"""The actions for nodes."""
 
 from __future__ import annotations
 
@@ -6,28 +6,34 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NoReturn
 
 import yaml
-from launch import Action, LaunchContext, SomeSubstitutionsType
+from launch.action import Action
 from launch.actions import ExecuteProcess
+from launch.launch_context import LaunchContext
 from launch.logging import get_logger
-from launch.substitutions import SubstitutionFailure
+from launch.substitution import SomeSubstitutionsType, SubstitutionFailure
 from launch.unsupported import refuse
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, text_of
 
-from launch_ros.parameters import ParameterFile, evaluated, evaluated_dict, kept
+from launch_ros.parameters import (
+    ParameterFile,
+    evaluate_parameter,
+    evaluate_parameter_dict,
+    write_parameter_file,
+)
 from launch_ros.substitutions import ExecutableInPackage
 
 __all__ = ["Node", "PushROSNamespace", "PushRosNamespace", "SetParameter"]
 
-NAMESPACE, PARAMETERS = "ros_namespace", "global_params"  # the configurations that all nodes look at
+NAMESPACE, PARAMETERS = "ros_namespace", "global_params"  # the launch configurations that all nodes read
 
 
 class Node(ExecuteProcess):
-    """Starts a program with a node in it.
+    """Starts a node.
 
-    executable: its name, of this package; without a package, a path or a command. name and namespace:
-    those of the node, instead of its own. exec_name: what launch calls it. parameters: dictionaries, and
-    paths of YAML files. remappings: pairs (from, to). ros_arguments: words after --ros-args. arguments: words
-    before. All else is as for ExecuteProcess.
+    executable: its name in the package; without a package, a path or a command. name and namespace: replace
+    the node's own. exec_name: the name in the log. parameters: dictionaries and paths of YAML files.
+    remappings: pairs (from, to). arguments: command-line arguments before --ros-args; ros_arguments: after
+    it. The other arguments are those of ExecuteProcess.
     """
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
@@ -47,9 +53,9 @@ class Node(ExecuteProcess):
         arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
-        first = executable if package is None else ExecutableInPackage(executable, package)
-        words = [first, *(arguments or ()), *(["--ros-args", *ros_arguments] if ros_arguments else [])]
-        super().__init__(cmd=[*words, "--ros-args"], name=exec_name, **kwargs)
+        path = executable if package is None else ExecutableInPackage(executable, package)
+        cmd = [path, *(arguments or ()), *(["--ros-args", *ros_arguments] if ros_arguments else [])]
+        super().__init__(cmd=[*cmd, "--ros-args"], name=exec_name, **kwargs)
         if parameters is not None:
             ensure_argument_type(parameters, list, "parameters", "Node")
         self.__package, self.__executable = package, executable
@@ -70,32 +76,32 @@ class Node(ExecuteProcess):
 
     @property
     def node_name(self) -> str:
-        """The node's full name, as far as it was given. Raises RuntimeError before the node is executed."""
+        """The full name, as far as it is specified. Raises RuntimeError before the action is executed."""
         if self.__final_name is None:
             raise RuntimeError("cannot access 'node_name' before executing action")
         return self.__final_name
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether both name and namespace were given."""
+        """Whether both name and namespace are specified."""
         parts = self.UNSPECIFIED_NODE_NAME, self.UNSPECIFIED_NODE_NAMESPACE
         return not any(part in self.node_name for part in parts)
 
     def execute(self, context: LaunchContext) -> None:
         """As `Action`."""
         if self.__final_name is None:
-            words = [*self.__name_words(context), *self.__parameter_words(context)]
+            arguments = [*self.__name_arguments(context), *self.__parameter_arguments(context)]
             for source, target in self.__remappings:
-                words += ["-r", f"{text_of(context, source)}:={text_of(context, target)}"]
-            self.cmd.extend(normalize_to_list_of_substitutions(word) for word in words)
+                arguments += ["-r", f"{text_of(context, source)}:={text_of(context, target)}"]
+            self.cmd.extend(normalize_to_list_of_substitutions(argument) for argument in arguments)
         super().execute(context)
         if self.is_node_name_fully_specified():
-            self.__warn_of_others(context)
+            self.__warn_if_not_unique(context)
 
-    def __name_words(self, context: LaunchContext) -> list[str]:
+    def __name_arguments(self, context: LaunchContext) -> list[str]:
         name = None if self.__name is None else text_of(context, self.__name)
         namespace = None if self.__namespace is None else text_of(context, self.__namespace)
         try:
-            namespace = _joined(context.launch_configurations.get(NAMESPACE), namespace)
+            namespace = _join_namespaces(context.launch_configurations.get(NAMESPACE), namespace)
             if name is not None:
                 _validate_name(name)
             if namespace is not None:
@@ -109,27 +115,28 @@ class Node(ExecuteProcess):
             raise
         shown = self.UNSPECIFIED_NODE_NAMESPACE if namespace is None else namespace.rstrip("/")
         self.__final_name = f"{shown}/{name or self.UNSPECIFIED_NODE_NAME}"
-        words = [] if name is None else ["-r", f"__node:={name}"]
-        return words if namespace is None else [*words, "-r", f"__ns:={namespace}"]
+        arguments = [] if name is None else ["-r", f"__node:={name}"]
+        return arguments if namespace is None else [*arguments, "-r", f"__ns:={namespace}"]
 
-    def __parameter_words(self, context: LaunchContext) -> list[str]:
-        words = []
+    def __parameter_arguments(self, context: LaunchContext) -> list[str]:
+        arguments = []
         for name, value in context.launch_configurations.get(PARAMETERS, ()):
-            words += ["-p", f"{name}:={yaml.safe_dump(value, default_flow_style=True).removesuffix(chr(10))}"]
-            words[-1] = words[-1].removesuffix("\n...")
+            text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
+            arguments += ["-p", f"{name}:={text}"]
         for given in self.__parameters:
             if isinstance(given, Mapping):
                 node = self.node_name if self.is_node_name_fully_specified() else "/**"
-                path = kept(yaml.safe_dump({node: {"ros__parameters": evaluated_dict(context, given)}}))
+                values = evaluate_parameter_dict(context, given)
+                path = write_parameter_file(yaml.safe_dump({node: {"ros__parameters": values}}))
             else:
                 path = (given if isinstance(given, ParameterFile) else ParameterFile(given)).evaluate(context)
             if path.is_file():
-                words += ["--params-file", str(path)]
+                arguments += ["--params-file", str(path)]
             else:
                 get_logger("launch_ros.actions.node").warning(f"Parameter file path is not a file: {path}")
-        return words
+        return arguments
 
-    def __warn_of_others(self, context: LaunchContext) -> None:
+    def __warn_if_not_unique(self, context: LaunchContext) -> None:
         names = context.get_locals_as_dict().get("unique_ros_node_names") or {}
         context.extend_globals({"unique_ros_node_names": names})
         count = names[self.node_name] = names.get(self.node_name, 0) + 1
@@ -141,7 +148,7 @@ class Node(ExecuteProcess):
 
 
 class PushROSNamespace(Action):
-    """All nodes that come after it in its group are in this namespace, below those pushed before."""
+    """Puts all later nodes of its group into this namespace, inside those that were pushed before."""
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -155,7 +162,7 @@ class PushROSNamespace(Action):
     def execute(self, context: LaunchContext) -> None:
         """As `Action`."""
         pushed, before = text_of(context, self.__namespace), context.launch_configurations.get(NAMESPACE)
-        namespace = _joined(before, pushed)
+        namespace = _join_namespaces(before, pushed)
         try:
             _validate_namespace(namespace)
         except Exception:
@@ -170,7 +177,7 @@ PushRosNamespace = PushROSNamespace
 
 
 class SetParameter(Action):
-    """All nodes that come after it in its group have this parameter."""
+    """Sets this parameter of all later nodes of its group."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -189,12 +196,12 @@ class SetParameter(Action):
     def execute(self, context: LaunchContext) -> None:
         """As `Action`."""
         name = text_of(context, self.__name)
-        known = context.launch_configurations.setdefault(PARAMETERS, [])
-        known.append((name, evaluated(context, name, self.__value)))
+        parameters = context.launch_configurations.setdefault(PARAMETERS, [])
+        parameters.append((name, evaluate_parameter(context, name, self.__value)))
 
 
-def _joined(base: str | None, namespace: str | None) -> str | None:
-    """A namespace below another one, unless it begins with a slash; absolute. None for none at all."""
+def _join_namespaces(base: str | None, namespace: str | None) -> str | None:
+    """A namespace inside another one, unless it begins with a slash; absolute. None if both are None."""
     if namespace is None:
         found = base
     elif namespace.startswith("/") or not base:

@@ -1,4 +1,4 @@
-"""Values and files of parameters, where upstream has them, too."""
+"""Parameter values and files. Upstream has them here and in `parameter_descriptions`."""
 
 from typing import NoReturn
 

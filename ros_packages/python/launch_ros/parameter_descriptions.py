@@ -1,4 +1,4 @@
-"""Values and files of parameters, where upstream has them."""
+"""Parameter values and files."""
 
 from launch_ros.parameters import ParameterFile, ParameterValue
 

@@ -1,4 +1,4 @@
-"""Where packages are, as texts that are known only when a launch file runs."""
+"""The substitutions for packages."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ from pathlib import Path
 from typing import NoReturn
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
-from launch import LaunchContext, SomeSubstitutionsType, Substitution
-from launch.substitutions import SubstitutionFailure
+from launch.launch_context import LaunchContext
+from launch.substitution import SomeSubstitutionsType, Substitution, SubstitutionFailure
 from launch.unsupported import refuse
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities import (
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch.yaml_frontend.substitutions import SUBSTITUTIONS
 
 __all__ = [
     "ExecutableInPackage",
@@ -21,23 +26,23 @@ __all__ = [
 
 
 class FindPackage(Substitution):
-    """Where a package is."""
+    """The folder of a package."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
         self.__package = normalize_to_list_of_substitutions(package)
 
     @property
     def package(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the package."""
         return self.__package
 
     def find(self, package_name: str) -> str:
-        """The folder of the package of this name."""
+        """The folder of the package with this name."""
         raise NotImplementedError
 
     def describe(self) -> str:
         """As `Substitution`."""
-        return f"{type(self).__name__}(pkg={' + '.join(sub.describe() for sub in self.package)})"
+        return f"{type(self).__name__}(pkg={describe_substitutions(self.package)})"
 
     def perform(self, context: LaunchContext) -> str:
         """As `Substitution`. Raises PackageNotFoundError."""
@@ -45,7 +50,7 @@ class FindPackage(Substitution):
 
 
 class FindPackagePrefix(FindPackage):
-    """The folder into which a package was installed."""
+    """The folder that a package is installed in."""
 
     def find(self, package_name: str) -> str:
         """As `FindPackage`."""
@@ -53,7 +58,7 @@ class FindPackagePrefix(FindPackage):
 
 
 class FindPackageShare(FindPackage):
-    """The folder with a package's own files, such as its launch files."""
+    """The folder with a package's data, such as its launch files."""
 
     def find(self, package_name: str) -> str:
         """As `FindPackage`."""
@@ -74,30 +79,33 @@ class ExecutableInPackage(FindPackagePrefix):
 
     def describe(self) -> str:
         """As `Substitution`."""
-        package, executable = (
-            " + ".join(sub.describe() for sub in part) for part in (self.package, self.executable)
-        )
+        package, executable = map(describe_substitutions, (self.package, self.executable))
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`. Raises SubstitutionFailure for an executable that isn't there."""
+        """As `Substitution`. Raises SubstitutionFailure if there is no such executable."""
         executable = perform_substitutions(context, self.executable)
         package = perform_substitutions(context, self.package)
-        elsewhere = context.processes.find(package, executable)
-        if elsewhere is not None:
-            return elsewhere
+        bundled = context.process_starter.find_bundled(package, executable)
+        if bundled is not None:
+            return bundled
         prefix = super().perform(context)
         folder = Path(prefix, "lib", package)
         if not folder.exists():
             raise SubstitutionFailure(
                 f"package '{package}' found at '{prefix}', but libexec directory '{folder}' does not exist"
             )
-        found = shutil.which(executable, path=str(folder))
-        if found is None:
+        path = shutil.which(executable, path=str(folder))
+        if path is None:
             raise SubstitutionFailure(
                 f"executable '{executable}' not found on the libexec directory '{folder}' "
             )
-        return found
+        return path
+
+
+SUBSTITUTIONS["find-pkg-share"] = (1, 1, FindPackageShare)
+SUBSTITUTIONS["find-pkg-prefix"] = (1, 1, FindPackagePrefix)
+SUBSTITUTIONS["exec-in-pkg"] = (2, 2, ExecutableInPackage)
 
 
 def __getattr__(name: str) -> NoReturn:

@@ -62,23 +62,25 @@ def _check_whose() -> None:
     """Raise RuntimeError where the installed launch can't be led through a run."""
     import launch  # here, for it takes a while, and most runs do without
 
-    if not hasattr(getattr(launch, "logging", None), "elsewhere"):
+    try:
+        from launch.processes import ProcessStarter  # noqa: F401  (only the course's launch has it)
+    except ImportError:
         raise RuntimeError(
             f"`launch` is that of a ROS installation ({launch.__file__}), which starts real processes: "
             "use `ros2 launch`, or run this where no installation is sourced."
-        )
+        ) from None
 
 
 def _carry_out(description: Any) -> None:
     """Carry it out until all its programs have ended. Raises what it fails with."""
     from launch import LaunchService
-    from launch.logging import elsewhere
+    from launch.logging import redirect_log
 
     run = engine()
     path = list(sys.path)
-    with elsewhere(run.logged):
+    with redirect_log(run.logged):
         service = LaunchService(noninteractive=True)
-        programs = service.context.processes = RunProcesses(run)
+        programs = service.context.process_starter = RunProcesses(run)
         service.include_launch_description(description)
         try:
             asyncio.run(service.run_async())

@@ -40,8 +40,8 @@ class RunProcesses:
         self.run, self.refused, self._numbers = run, None, count(1)
         self._brought: dict[str, Callable[[], None]] = {}
 
-    def find(self, package: str, name: str) -> str | None:
-        """As launch's `Processes`. Raises ExecutableNotFound."""
+    def find_bundled(self, package: str, name: str) -> str | None:
+        """As launch's `ProcessStarter`. Raises ExecutableNotFound."""
         if brought_command(package, name) is None:
             return None
         path = f"{sys.prefix}/lib/{package}/{name}"
@@ -51,7 +51,7 @@ class RunProcesses:
     async def start(
         self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Callable
     ) -> RunProcess:
-        """As launch's `Processes`."""
+        """As launch's `ProcessStarter`."""
         try:
             words = shlex.split(" ".join(cmd)) if shell else cmd
             brought = self._brought.get(words[0]) if words else None
@@ -90,11 +90,11 @@ class RunProcess:
         self._process.reader, self._heard, self._rest = self._read, heard, {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
-        """As launch's `Started`."""
+        """As launch's `Process`."""
         return await self._status
 
     def send_signal(self, number: int) -> None:
-        """As launch's `Started`: SIGINT is Ctrl-C, and every other signal ends it at once."""
+        """As launch's `Process`: SIGINT is Ctrl-C, and every other signal ends it at once."""
         if number == signal.SIGINT:
             self._process.main.thrown = KeyboardInterrupt()
             return

@@ -50,14 +50,14 @@ def launch_(voice: Voice, asked: Namespace) -> None:
     except files.NoLaunchFile as error:
         raise Wrong(str(error)) from None
     from launch import LaunchService  # here, for it takes a while, and other words do without
-    from launch.processes import RealProcesses
+    from launch.processes import SystemProcessStarter
 
     if asked.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     noninteractive = asked.noninteractive or not sys.stdin.isatty()
     service = LaunchService(argv=rest, noninteractive=noninteractive, debug=asked.debug)
-    service.context.processes = RealProcesses(brought_command)
-    service.context.begin_with(environment_before())
+    service.context.process_starter = SystemProcessStarter(brought_command)
+    service.context.replace_environment(environment_before())
     service.include_launch_description(description)
     raise SystemExit(service.run())
 

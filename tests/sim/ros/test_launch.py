@@ -274,6 +274,7 @@ def test_launch_of_a_ros_installation_is_for_real_processes(monkeypatch):
     theirs = type(sys)("launch")
     theirs.__file__ = "/opt/ros/jazzy/launch/__init__.py"
     monkeypatch.setitem(sys.modules, "launch", theirs)
+    monkeypatch.delitem(sys.modules, "launch.processes", raising=False)
     (error,) = run("x.launch.py", seconds=1, quiet=True).errors
     assert error.text == (
         "`launch` is that of a ROS installation (/opt/ros/jazzy/launch/__init__.py), which starts real "

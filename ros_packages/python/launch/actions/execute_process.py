@@ -1,4 +1,4 @@
-"""The action that starts a program, looks after it, and ends it."""
+"""The action `ExecuteProcess`."""
 
 from __future__ import annotations
 
@@ -9,15 +9,18 @@ import traceback
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from launch.actions.flow import OpaqueFunction
-from launch.actions.preparing import Texts, prepared
-from launch.entities import Action, EventHandler, LaunchDescriptionEntity, SomeSubstitutionsType, as_list
-from launch.event_handlers import OnProcessExit
+from launch.action import Action
+from launch.actions.opaque_function import OpaqueFunction
+from launch.actions.process_details import EnvironmentVariables, expand_process_details
+from launch.actions.signal_escalation import escalate_signals
+from launch.event_handler import EventHandler, OnActionEventBase
 from launch.events import Shutdown
 from launch.events.process import ProcessExited, ProcessIO, ProcessStarted, ShutdownProcess, SignalProcess
 from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity, as_list
 from launch.logging import get_logger, output_destinations
-from launch.processes import Started
+from launch.processes import Process
+from launch.substitution import SomeSubstitutionsType
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, text_of, value_of
 
@@ -26,12 +29,12 @@ _SIGKILL = LaunchConfiguration("sigkill_timeout", default=5)
 
 
 class ExecuteProcess(Action):
-    """Starts a program.
+    """Starts a process.
 
-    cmd: its words. prefix: words before these. name: what launch calls it. cwd: its folder. env: its whole
-    environment; additional_env: more of it. output: "screen", "log" or "both"; "log" shows stderr only.
-    on_exit: entities for when it has ended. respawn: it is started again whenever it ends, `respawn_delay`
-    seconds later, `respawn_max_retries` times at most. When all is to end it gets SIGINT, SIGTERM
+    cmd: the command. prefix: put before it. name: its name in the log. cwd: its working directory. env: its
+    whole environment; additional_env: variables added to it. output: "screen", "log" or "both"; "log" shows
+    stderr only. on_exit: entities to visit when it has exited. respawn: it is restarted whenever it exits,
+    `respawn_delay` seconds later, at most `respawn_max_retries` times. On shutdown it gets SIGINT, SIGTERM
     `sigterm_timeout` seconds later, and SIGKILL `sigkill_timeout` seconds after that.
     """
 
@@ -42,8 +45,8 @@ class ExecuteProcess(Action):
         prefix: SomeSubstitutionsType | None = None,
         name: SomeSubstitutionsType | None = None,
         cwd: SomeSubstitutionsType | None = None,
-        env: Texts | None = None,
-        additional_env: Texts | None = None,
+        env: EnvironmentVariables | None = None,
+        additional_env: EnvironmentVariables | None = None,
         shell: bool = False,
         sigterm_timeout: SomeSubstitutionsType = _SIGTERM,
         sigkill_timeout: SomeSubstitutionsType = _SIGKILL,
@@ -64,48 +67,48 @@ class ExecuteProcess(Action):
         self.__cmd = [normalize_to_list_of_substitutions(word) for word in cmd]
         self.__prefix, self.__name, self.cwd = prefix, name, cwd
         self.env, self.additional_env = env, additional_env
-        self.shell, self.__log_cmd, self.__emulate_tty = shell, log_cmd, emulate_tty
-        self.__patience = {"sigterm": sigterm_timeout, "sigkill": sigkill_timeout}
+        self.shell, self.__log_cmd = shell, log_cmd  # emulate_tty is ignored
+        self.__timeouts = sigterm_timeout, sigkill_timeout
         self.output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output)
         self.__format = output_format
         self.__on_exit, self.__respawn = on_exit, respawn
         self.__respawn_delay, self.__respawn_max_retries = respawn_delay, respawn_max_retries
         self.__details: dict[str, Any] | None = None
-        self.__process: Started | None = None
-        self.__done: asyncio.Future | None = None
-        self.__ending: asyncio.Future | None = None
+        self.__process: Process | None = None
+        self.__completed: asyncio.Future | None = None
+        self.__shutdown: asyncio.Future | None = None
         self.__escalation: asyncio.Task | None = None
 
-    # -- what it is ----------------------------------------------------------------------------------
+    # -- properties ----------------------------------------------------------------------------------
 
     @property
     def process_description(self) -> ExecuteProcess:
-        """What has `final_name` and `final_cmd`."""
+        """The object that has `final_name` and `final_cmd`."""
         return self
 
     @property
     def final_name(self) -> str | None:
-        """What launch calls it, with its number; None before it is executed."""
+        """The name in the log, with its number; None before the action is executed."""
         return None if self.__details is None else self.__details["name"]
 
     @property
     def final_cmd(self) -> list[str] | None:
-        """Its words; None before it is executed."""
+        """The command with all substitutions performed; None before the action is executed."""
         return None if self.__details is None else self.__details["cmd"]
 
     @property
     def name(self) -> Any:
-        """What launch calls it."""
+        """The name in the log."""
         return self.final_name or self.__name
 
     @property
     def cmd(self) -> list:
-        """Its words."""
+        """The command."""
         return self.final_cmd or self.__cmd
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """Name, words, folder, environment and process id; None before it is executed."""
+        """Name, command, working directory, environment and process id; None before it is executed."""
         return self.__details
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -114,73 +117,76 @@ class ExecuteProcess(Action):
 
     def get_asyncio_future(self) -> asyncio.Future | None:
         """As `LaunchDescriptionEntity`."""
-        return self.__done
+        return self.__completed
 
-    # -- what it does --------------------------------------------------------------------------------
+    # -- execution -----------------------------------------------------------------------------------
 
     def execute(self, context: LaunchContext) -> None:
         """As `Action`. Raises RuntimeError the second time."""
-        if self.__done is not None:
+        if self.__completed is not None:
             raise RuntimeError(
                 f"ExecuteLocal action '{self.final_name}': executed more than once: {self.describe()}"
             )
         self.__prepare(context)
         if context.is_shutdown:
             return
-        self.__done = context.asyncio_loop.create_future()
-        self.__ending = context.asyncio_loop.create_future()
-        for kind, handle in (
-            (ShutdownProcess, self.__on_shutdown_process),
-            (SignalProcess, self.__on_signal_process),
-            (Shutdown, self.__on_shutdown),
-        ):
-            matcher = lambda event, kind=kind: isinstance(event, kind)  # noqa: E731
-            context.register_event_handler(
-                EventHandler(matcher=matcher, entities=OpaqueFunction(function=_of_event(handle)))
-            )
+        self.__completed = context.asyncio_loop.create_future()
+        self.__shutdown = context.asyncio_loop.create_future()
+        _register(context, ShutdownProcess, self.__on_shutdown_process)
+        _register(context, SignalProcess, self.__on_signal_process)
+        _register(context, Shutdown, self.__on_shutdown)
         if self.__on_exit is not None:
-            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+            context.register_event_handler(
+                OnActionEventBase(
+                    action_matcher=self,
+                    on_event=self.__on_exit,
+                    target_event_cls=ProcessExited,
+                    target_action_cls=ExecuteProcess,
+                )
+            )
         self.__task = context.asyncio_loop.create_task(self.__run(context))
 
     def __prepare(self, context: LaunchContext) -> None:
-        self.__details = {"action": self} | prepared(
+        self.__details = {"action": self} | expand_process_details(
             context, self.__cmd, self.__prefix, self.__name, self.cwd, self.env, self.additional_env
         )
         self.__respawn = value_of(context, self.__respawn, bool)
         output = self.output if isinstance(self.output, dict) else text_of(context, self.output)
-        self.__to = output_destinations(output)
+        self.__destinations = output_destinations(output)
         self.__logger = get_logger(self.final_name)
 
     async def __run(self, context: LaunchContext) -> None:
         try:
             retries = 0
             while await self.__run_once(context):
-                spent = 0 <= self.__respawn_max_retries <= retries
-                if context.is_shutdown or self.__ending.done() or not self.__respawn or spent:
+                exhausted = 0 <= self.__respawn_max_retries <= retries
+                if context.is_shutdown or self.__shutdown.done() or not self.__respawn or exhausted:
                     break
                 retries += 1
                 if self.__respawn_delay:
-                    await asyncio.wait((self.__ending,), timeout=self.__respawn_delay)
-                if self.__ending.done():
+                    await asyncio.wait((self.__shutdown,), timeout=self.__respawn_delay)
+                if self.__shutdown.done():
                     break
         finally:
             if self.__escalation is not None:
                 self.__escalation.cancel()
-            if not self.__done.done():
-                self.__done.set_result(None)
+            if not self.__completed.done():
+                self.__completed.set_result(None)
 
     async def __run_once(self, context: LaunchContext) -> bool:
-        """Start the program, and wait for its end; whether it could be started."""
+        """Start the process and wait until it has exited. Returns False if it could not be started."""
         details = self.__details
         cmd = " ".join(word for word in details["cmd"] if word.strip())
         if self.__log_cmd:
             self.__logger.info(f"process details: cmd='{cmd}', cwd='{details['cwd']}', custom_env?=True")
         try:
-            how = (details["cmd"], details["cwd"], details["env"], self.shell)
-            process = await context.processes.start(*how, lambda *said: self.__heard(context, *said))
+            process = await context.process_starter.start(
+                *(details["cmd"], details["cwd"], details["env"], self.shell),
+                lambda stream, line: self.__on_output(context, stream, line),
+            )
         except Exception as error:
             self.__logger.error(f"exception occurred while executing process: {error}")
-            self.__logger.debug(traceback.format_exc())  # upstream shows it always
+            self.__logger.debug(traceback.format_exc())  # upstream logs it at any level
             return False
         self.__process, details["pid"] = process, process.pid
         self.__logger.info(f"process started with pid [{process.pid}]")
@@ -194,13 +200,13 @@ class ExecuteProcess(Action):
         context.emit_event_sync(ProcessExited(returncode=status, **details))
         return True
 
-    def __heard(self, context: LaunchContext, stream: str, line: str) -> None:
+    def __on_output(self, context: LaunchContext, stream: str, line: str) -> None:
         fd = ("stdin", "stdout", "stderr").index(stream)
         context.emit_event_sync(ProcessIO(text=f"{line}\n".encode(), fd=fd, **self.__details))
-        for destination in self.__to[stream]:
-            destination(self.__format.format(line=line, this=self))
+        for write in self.__destinations[stream]:
+            write(self.__format.format(line=line, this=self))
 
-    # -- how it ends ---------------------------------------------------------------------------------
+    # -- shutdown ------------------------------------------------------------------------------------
 
     def __on_shutdown_process(self, event: ShutdownProcess, context: LaunchContext) -> None:
         if event.process_matcher(self):
@@ -211,39 +217,33 @@ class ExecuteProcess(Action):
 
     def __on_signal_process(self, event: SignalProcess, context: LaunchContext) -> None:
         if event.process_matcher(self):
-            self.__send(event.signal)
+            self.__send_signal(event.signal)
 
     def __shut_down(self, context: LaunchContext, *, send_sigint: bool) -> None:
-        if self.__ending.done():
+        if self.__shutdown.done():
             return
-        self.__ending.set_result(None)
-        if not self.__done.done():
-            patience = {name: float(text_of(context, value)) for name, value in self.__patience.items()}
-            texts = [text_of(context, self.__patience["sigterm"]), str(sum(patience.values()))]
-            self.__escalation = context.asyncio_loop.create_task(
-                self.__escalate(send_sigint, *patience.values(), texts)
-            )
+        self.__shutdown.set_result(None)
+        if not self.__completed.done():
+            texts = [text_of(context, timeout) for timeout in self.__timeouts]
+            delays = [float(text) for text in texts]
+            termination = self.__terminate(send_sigint, delays, elapsed=[texts[0], str(sum(delays))])
+            self.__escalation = context.asyncio_loop.create_task(termination)
 
-    async def __escalate(self, send_sigint: bool, sigterm: float, sigkill: float, told: list[str]) -> None:
-        while self.__process is None:  # it is just being started
+    async def __terminate(self, send_sigint: bool, delays: list[float], elapsed: list[str]) -> None:
+        while self.__process is None:  # it is being started
             await asyncio.sleep(0)
         if send_sigint:
-            self.__send(signal.SIGINT)
-        text = f"process[{self.final_name}] failed to terminate '{{}}' seconds after receiving '{{}}', "
-        text += "escalating to '{}'"
-        await asyncio.sleep(sigterm)
-        self.__logger.error(text.format(told[0], "SIGINT", "SIGTERM"))
-        self.__send(signal.SIGTERM)
-        await asyncio.sleep(sigkill)
-        self.__logger.error(text.format(told[1], "SIGTERM", "SIGKILL"))
-        self.__send(signal.SIGKILL)
+            self.__send_signal(signal.SIGINT)
+        await escalate_signals(self.__send_signal, self.__logger, self.final_name, delays, elapsed)
 
-    def __send(self, number: signal.Signals) -> None:
+    def __send_signal(self, number: signal.Signals) -> None:
         if self.__process is None:
             return
         self.__logger.info(f"sending signal '{number.name}' to process[{self.final_name}]")
         self.__process.send_signal(number)
 
 
-def _of_event(handle: Callable[[Any, LaunchContext], None]) -> Callable[[LaunchContext], None]:
-    return lambda context: handle(context.locals.event, context)
+def _register(context: LaunchContext, kind: type, handle: Callable[[Any, LaunchContext], None]) -> None:
+    function = OpaqueFunction(function=lambda context: handle(context.locals.event, context))
+    matches = lambda event: isinstance(event, kind)  # noqa: E731
+    context.register_event_handler(EventHandler(matcher=matches, entities=function))

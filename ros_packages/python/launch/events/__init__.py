@@ -1,15 +1,26 @@
-"""What may happen while a launch file is carried out."""
+"""The events of a launch file that is being executed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
-from launch.entities import Action, Event, LaunchDescriptionEntity
+from launch.event import Event
+from launch.events import process
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+__all__ = [
+    "ExecutionComplete",
+    "IncludeLaunchDescription",
+    "Shutdown",
+    "TimerEvent",
+    "matches_action",
+    "process",
+]
 
 
 class Shutdown(Event):
-    """All that was launched is to end."""
+    """Everything that was launched is to shut down."""
 
     name = "launch.events.Shutdown"
 
@@ -23,12 +34,12 @@ class Shutdown(Event):
 
     @property
     def due_to_sigint(self) -> bool:
-        """Whether the terminal has told the programs, too."""
+        """Whether Ctrl-C was pressed, so that the terminal has sent SIGINT to the processes as well."""
         return self.__due_to_sigint
 
 
 class IncludeLaunchDescription(Event):
-    """A launch description is to be carried out."""
+    """A launch description is to be executed."""
 
     name = "launch.events.IncludeLaunchDescription"
 
@@ -42,7 +53,7 @@ class IncludeLaunchDescription(Event):
 
 
 class TimerEvent(Event):
-    """The time of a timer is over."""
+    """The period of a `TimerAction` has passed."""
 
     name = "launch.events.TimerEvent"
 
@@ -56,31 +67,21 @@ class TimerEvent(Event):
 
 
 class ExecutionComplete(Event):
-    """An action has done all that it does; of a program, it has ended."""
+    """An action is complete. An action that starts a process is complete when the process has exited."""
 
     name = "launch.events.ExecutionComplete"
 
-    def __init__(self, *, action: Action) -> None:
+    def __init__(self, *, action: LaunchDescriptionEntity) -> None:
         self.__action = action
 
     @property
-    def action(self) -> Action:
+    def action(self) -> LaunchDescriptionEntity:
         """The action."""
         return self.__action
 
 
-def matches_action(target_action: Action) -> Callable[[Action], bool]:
-    """A matcher that is true of this action alone."""
+def matches_action(
+    target_action: LaunchDescriptionEntity,
+) -> Callable[[LaunchDescriptionEntity], bool]:
+    """A matcher that returns True for this action only."""
     return lambda action: action is target_action
-
-
-from launch.events import process  # noqa: E402  (which needs what is above)
-
-__all__ = [
-    "ExecutionComplete",
-    "IncludeLaunchDescription",
-    "Shutdown",
-    "TimerEvent",
-    "matches_action",
-    "process",
-]

@@ -1,4 +1,4 @@
-"""What may happen to a program that was launched, and what it may be told."""
+"""The events of processes: what happened to one, and what is requested of some."""
 
 from __future__ import annotations
 
@@ -6,29 +6,37 @@ import signal
 from collections.abc import Callable
 from typing import Any
 
-from launch.entities import Action, Event
+from launch.event import Event
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class RunningProcessEvent(Event):
-    """Something happened to a program."""
+    """Something happened to a process."""
 
     name = "launch.events.process.RunningProcessEvent"
 
     def __init__(
-        self, *, action: Action, name: str, cmd: list[str], cwd: str | None, env: dict[str, str], pid: int
+        self,
+        *,
+        action: LaunchDescriptionEntity,
+        name: str,
+        cmd: list[str],
+        cwd: str | None,
+        env: dict[str, str],
+        pid: int,
     ) -> None:
         self.action: Any = action
         self.process_name, self.cmd, self.cwd, self.env, self.pid = name, cmd, cwd, env, pid
 
 
 class ProcessStarted(RunningProcessEvent):
-    """A program was started."""
+    """A process was started."""
 
     name = "launch.events.process.ProcessStarted"
 
 
 class ProcessExited(RunningProcessEvent):
-    """A program has ended. returncode: its exit status, -N if signal N has ended it."""
+    """A process has exited. returncode: its exit status, or -N if signal N killed it."""
 
     name = "launch.events.process.ProcessExited"
 
@@ -38,7 +46,7 @@ class ProcessExited(RunningProcessEvent):
 
 
 class ProcessIO(RunningProcessEvent):
-    """A program has written something. text: a line, with its end. fd: 1 for stdout, 2 for stderr."""
+    """A process has written a line. text: the line with its newline. fd: 1 for stdout, 2 for stderr."""
 
     name = "launch.events.process.ProcessIO"
 
@@ -49,7 +57,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ProcessTargetedEvent(Event):
-    """Programs are told something: those whose action `process_matcher` is true of."""
+    """A request to the processes whose action `process_matcher` returns True for."""
 
     name = "launch.events.process.ProcessTargetedEvent"
 
@@ -58,13 +66,13 @@ class ProcessTargetedEvent(Event):
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """Programs are to end."""
+    """Processes are to shut down."""
 
     name = "launch.events.process.ShutdownProcess"
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """Programs get a signal."""
+    """Processes are to be sent a signal."""
 
     name = "launch.events.process.SignalProcess"
 
@@ -77,5 +85,5 @@ class SignalProcess(ProcessTargetedEvent):
 
     @property
     def signal_name(self) -> str:
-        """Such as SIGINT."""
+        """The signal's name, for example SIGINT."""
         return self.signal.name

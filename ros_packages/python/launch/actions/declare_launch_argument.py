@@ -1,17 +1,18 @@
-"""Actions that set what others look up, or say something."""
+"""The action `DeclareLaunchArgument`."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from launch.entities import Action, SomeSubstitutionsType, Substitution
+from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
+from launch.substitution import SomeSubstitutionsType, Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 class DeclareLaunchArgument(Action):
-    """An argument that the launch file takes, as `NAME:=VALUE`. Without a default it must be given."""
+    """Declares an argument of the launch file, given as NAME:=VALUE. Without a default it is required."""
 
     def __init__(
         self,
@@ -44,22 +45,22 @@ class DeclareLaunchArgument(Action):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the argument."""
         return self.__name
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """Its value where none is given."""
+        """The value that is used if none is given."""
         return self.__default
 
     @property
     def description(self) -> str:
-        """What it is for."""
+        """What the argument is for."""
         return self.__description
 
     @property
     def choices(self) -> list[str] | None:
-        """The values that it may have."""
+        """The values that are allowed; None allows any."""
         return self.__choices
 
     def execute(self, context: LaunchContext) -> None:
@@ -78,58 +79,3 @@ class DeclareLaunchArgument(Action):
             text += f" Valid options are: {self.__choices}"
             get_logger("launch.actions.declare_launch_argument").error(text)
             raise RuntimeError(text)
-
-
-class _Setting(Action):
-    """A name gets a value."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """The value."""
-        return self.__value
-
-    def _set(self, context: LaunchContext, known: dict[str, Any]) -> None:
-        known[perform_substitutions(context, self.name)] = perform_substitutions(context, self.value)
-
-
-class SetLaunchConfiguration(_Setting):
-    """A launch configuration gets a value."""
-
-    def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
-        self._set(context, context.launch_configurations)
-
-
-class SetEnvironmentVariable(_Setting):
-    """An environment variable gets a value, for the programs that are started from here on."""
-
-    def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
-        self._set(context, context.environment)
-
-
-class LogInfo(Action):
-    """Says something."""
-
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__msg = normalize_to_list_of_substitutions(msg)
-
-    @property
-    def msg(self) -> list[Substitution]:
-        """What it says."""
-        return self.__msg
-
-    def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
-        get_logger("launch.user").info(perform_substitutions(context, self.msg))

@@ -1,27 +1,27 @@
-"""Whether two texts are equal, as a text."""
+"""The substitutions `EqualsSubstitution` and `NotEqualsSubstitution`."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from launch.entities import Substitution
 from launch.launch_context import LaunchContext
+from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
-def _truth(text: str) -> bool | None:
+def _parse_bool(text: str) -> bool | None:
     return {"true": True, "1": True, "false": False, "0": False}.get(text.lower())
 
 
-def _number(text: str) -> float | None:
+def _parse_float(text: str) -> float | None:
     try:
         return float(text)
     except ValueError:
         return None
 
 
-def _side(value: Any) -> list[Substitution]:
+def _operand(value: Any) -> list[Substitution]:
     if isinstance(value, bool):
         value = str(value).lower()
     elif not isinstance(value, Substitution | list | tuple):
@@ -30,19 +30,19 @@ def _side(value: Any) -> list[Substitution]:
 
 
 class EqualsSubstitution(Substitution):
-    """ "true" where both sides are the same text, number or truth, else "false"."""
+    """ "true" if both sides are the same text, number or boolean, else "false"."""
 
     def __init__(self, left: Any, right: Any) -> None:
-        self.__left, self.__right = _side(left), _side(right)
+        self.__left, self.__right = _operand(left), _operand(right)
 
     @property
     def left(self) -> list[Substitution]:
-        """One side."""
+        """The left side."""
         return self.__left
 
     @property
     def right(self) -> list[Substitution]:
-        """The other side."""
+        """The right side."""
         return self.__right
 
     def describe(self) -> str:
@@ -52,15 +52,15 @@ class EqualsSubstitution(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """As `Substitution`."""
         left, right = (perform_substitutions(context, side) for side in (self.left, self.right))
-        if _truth(left) is not None and _truth(right) is not None:
-            return str(_truth(left) == _truth(right)).lower()
-        if _number(left) is not None and _number(right) is not None:
-            return str(math.isclose(_number(left), _number(right))).lower()
+        if _parse_bool(left) is not None and _parse_bool(right) is not None:
+            return str(_parse_bool(left) == _parse_bool(right)).lower()
+        if _parse_float(left) is not None and _parse_float(right) is not None:
+            return str(math.isclose(_parse_float(left), _parse_float(right))).lower()
         return str(left == right).lower()
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
-    """ "false" where `EqualsSubstitution` is "true", and the other way round."""
+    """ "false" if `EqualsSubstitution` is "true", else "true"."""
 
     def perform(self, context: LaunchContext) -> str:
         """As `Substitution`."""

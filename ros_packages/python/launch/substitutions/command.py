@@ -1,20 +1,22 @@
-"""Texts that commands give, and where commands are."""
+"""The substitution `Command`."""
 
 from __future__ import annotations
 
 import shlex
-import shutil
 import subprocess
-import sys
 
-from launch.entities import SomeSubstitutionsType, Substitution, SubstitutionFailure
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
-from launch.utilities import described, normalize_to_list_of_substitutions, perform_substitutions
+from launch.substitution import SomeSubstitutionsType, Substitution, SubstitutionFailure
+from launch.utilities import (
+    describe_substitutions,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 
 
 class Command(Substitution):
-    """What a command writes to stdout. on_stderr: "fail", "ignore", "warn" or "capture"."""
+    """The output of a command on stdout. on_stderr: "fail", "ignore", "warn" or "capture"."""
 
     def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
         self.__command = normalize_to_list_of_substitutions(command)
@@ -27,12 +29,12 @@ class Command(Substitution):
 
     @property
     def on_stderr(self) -> list[Substitution]:
-        """What is done about words on stderr."""
+        """What happens if the command writes to stderr."""
         return self.__on_stderr
 
     def describe(self) -> str:
         """As `Substitution`."""
-        return f"Command({described(self.command)})"
+        return f"Command({describe_substitutions(self.command)})"
 
     def perform(self, context: LaunchContext) -> str:
         """As `Substitution`."""
@@ -50,8 +52,8 @@ class Command(Substitution):
         except FileNotFoundError as error:
             raise SubstitutionFailure(f"file not found: {error}") from None
         if done.returncode:
-            heard = f"\nCaptured stderr output: {done.stderr}" if done.stderr else ""
-            raise SubstitutionFailure(f"executed command failed. Command: {command}{heard}")
+            captured = f"\nCaptured stderr output: {done.stderr}" if done.stderr else ""
+            raise SubstitutionFailure(f"executed command failed. Command: {command}{captured}")
         if done.stderr and on_stderr in ("fail", "warn"):
             text = "executed command showed stderr output."
             text += f" Command: {command}\nCaptured stderr output:\n{done.stderr}"
@@ -59,27 +61,3 @@ class Command(Substitution):
                 raise SubstitutionFailure(text)
             get_logger().warning(text)
         return done.stdout
-
-
-class FindExecutable(Substitution):
-    """Where a command is, as a shell would find it; and this Python's own where no shell was told of it."""
-
-    def __init__(self, *, name: SomeSubstitutionsType) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self.__name
-
-    def describe(self) -> str:
-        """As `Substitution`."""
-        return f"FindExec({described(self.name)})"
-
-    def perform(self, context: LaunchContext) -> str:
-        """As `Substitution`."""
-        name = perform_substitutions(context, self.name)
-        found = shutil.which(name) or shutil.which(name, path=f"{sys.prefix}/bin")
-        if found is None:
-            raise SubstitutionFailure(f"executable '{name}' not found on the PATH")
-        return found

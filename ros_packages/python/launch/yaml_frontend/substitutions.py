@@ -1,11 +1,11 @@
-"""Texts in launch files in YAML, with substitutions such as $(var NAME) in them."""
+"""Parses the substitutions of launch files in YAML, such as $(var NAME)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 
-from launch.entities import Substitution
+from launch.substitution import Substitution
 from launch.substitutions import (
     Command,
     EnvironmentVariable,
@@ -17,7 +17,7 @@ from launch.substitutions import (
     ThisLaunchFileDir,
 )
 
-# How many arguments a substitution takes, at least and at most, and what makes it.
+# By name: the least and the greatest number of arguments, and the function that makes the substitution.
 SUBSTITUTIONS: dict[str, tuple[int, int, Callable[..., Substitution]]] = {
     "var": (1, 2, lambda name, default=None: LaunchConfiguration(name, default=default)),
     "env": (1, 2, lambda name, default=None: EnvironmentVariable(name, default_value=default)),
@@ -31,15 +31,15 @@ NAME = re.compile(r"\$\(([A-Za-z][\w-]*)")
 
 
 def parse_substitution(text: str) -> list[Substitution]:
-    """A text such as "$(var name)/scan", as its parts. Raises ValueError where it can't be read."""
-    parts, end = _parts(text, 0, "")
+    """The parts of a text such as "$(var name)/scan". Raises ValueError if it can't be parsed."""
+    parts, end = _parse_until(text, 0, "")
     if end < len(text):
         raise ValueError(f"{text!r} can't be read from {text[end:]!r} on.")
     return parts or [TextSubstitution(text=text)]
 
 
-def _parts(text: str, at: int, stop: str) -> tuple[list[Substitution], int]:
-    """The parts up to one of the characters of `stop`, and where they end."""
+def _parse_until(text: str, at: int, stop: str) -> tuple[list[Substitution], int]:
+    """The parts before the first character in `stop`, and where that is."""
     parts: list[Substitution] = []
     plain = ""
     while at < len(text) and text[at] not in stop:
@@ -47,7 +47,7 @@ def _parts(text: str, at: int, stop: str) -> tuple[list[Substitution], int]:
             plain, at = plain + text[at + 1], at + 2
         elif text.startswith("$(", at):
             parts += [TextSubstitution(text=plain)] if plain else []
-            part, at = _substitution(text, at)
+            part, at = _parse_one(text, at)
             parts.append(part)
             plain = ""
         else:
@@ -55,7 +55,7 @@ def _parts(text: str, at: int, stop: str) -> tuple[list[Substitution], int]:
     return [*parts, *([TextSubstitution(text=plain)] if plain else [])], at
 
 
-def _substitution(text: str, at: int) -> tuple[Substitution, int]:
+def _parse_one(text: str, at: int) -> tuple[Substitution, int]:
     match = NAME.match(text, at)
     if match is None:
         raise ValueError(f"{text!r} can't be read from {text[at:]!r} on.")
@@ -66,10 +66,10 @@ def _substitution(text: str, at: int) -> tuple[Substitution, int]:
     while text.startswith(" ", at):
         at += 1
         if text[at : at + 1] in ("'", '"'):
-            value, at = _parts(text, at + 1, text[at])
+            value, at = _parse_until(text, at + 1, text[at])
             at += 1
         else:
-            value, at = _parts(text, at, " )")
+            value, at = _parse_until(text, at, " )")
         arguments.append(value)
     if not text.startswith(")", at):
         raise ValueError(f"{text!r} can't be read: there is no ) at the end of $({name} ...")

@@ -1,0 +1,96 @@
+"""The entities of launch files in YAML, and the actions that are made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from launch.action import Action
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitution import Substitution
+from launch.yaml_frontend.substitutions import parse_substitution
+
+ACTIONS: dict[str, Callable[[Entity], Action]] = {}
+
+
+class Entity:
+    """An action of a file, or a part of one. Records which keys are read, so that others can be refused."""
+
+    def __init__(self, type_name: str, content: Any) -> None:
+        self.type_name, self.content, self.keys_read = type_name, content, set()
+
+    def get(self, key: str, kind: Any = str, optional: bool = False) -> Any:
+        """The value of a key; None if an optional key is missing. Raises AttributeError and TypeError."""
+        if not isinstance(self.content, dict) or key not in self.content:
+            if optional:
+                return None
+            raise AttributeError(f"Can not find attribute '{key}' in Entity '{self.type_name}'")
+        self.keys_read.add(key)
+        found = self.content[key]
+        if not isinstance(found, kind if kind is not float else (int, float)) and not isinstance(found, str):
+            raise TypeError(
+                f"Attribute '{key}' of Entity '{self.type_name}' expected to be of type '{kind}', "
+                f"got '{type(found)}'"
+            )
+        return found
+
+    def get_text(self, key: str, optional: bool = True) -> list[Substitution] | None:
+        """The value of a key as text with substitutions; None if an optional key is missing."""
+        found = self.get(key, object, optional)
+        if found is None:
+            return None
+        return parse_substitution(str(found).lower() if isinstance(found, bool) else str(found))
+
+    def get_entities(self, key: str) -> list[Entity]:
+        """The dictionaries in the list at a key."""
+        found = self.get(key, list, optional=True) or []
+        if not all(isinstance(part, dict) for part in found):
+            raise TypeError(
+                f"Attribute '{key}' of Entity '{self.type_name}' expected to be a list of dictionaries."
+            )
+        return [Entity(key, part) for part in found]
+
+    def children(self) -> list[Action]:
+        """The actions in it."""
+        if isinstance(self.content, dict):
+            return [create_action(child) for child in self.get("children", list)]
+        return [create_action(child) for child in self.content]
+
+    def check_all_keys_read(self) -> None:
+        """Raise ValueError for keys that were not read."""
+        left = set(self.content) - self.keys_read if isinstance(self.content, dict) else set()
+        if left:
+            raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {left}")
+
+    def condition(self) -> dict[str, Any]:
+        """The argument `condition` of an action, from `if` or `unless`; empty without a condition."""
+        if_, unless = self.get_text("if"), self.get_text("unless")
+        if if_ is not None and unless is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if if_ is not None:
+            return {"condition": IfCondition(if_)}
+        return {} if unless is None else {"condition": UnlessCondition(unless)}
+
+
+def create_action(child: Any) -> Action:
+    """The action of a dictionary with one key, which is the entity's type."""
+    if not isinstance(child, dict) or len(child) != 1:
+        raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
+    ((type_name, content),) = child.items()
+    if type_name not in ACTIONS:
+        known = ", ".join(sorted(ACTIONS))
+        raise RuntimeError(f"Unrecognized entity of the type: {type_name}. There are {known}.")
+    entity = Entity(type_name, {} if content is None else content)
+    action = ACTIONS[type_name](entity)
+    entity.check_all_keys_read()
+    return action
+
+
+def expose_action(*type_names: str) -> Callable[[Callable[[Entity], Action]], Callable[[Entity], Action]]:
+    """Register a function that makes an action of entities of these types."""
+
+    def register(make: Callable[[Entity], Action]) -> Callable[[Entity], Action]:
+        ACTIONS.update(dict.fromkeys(type_names, make))
+        return make
+
+    return register

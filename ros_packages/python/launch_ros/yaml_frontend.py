@@ -1,0 +1,82 @@
+"""The actions for nodes in launch files in YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.yaml_frontend.actions import parse_command, process_options
+from launch.yaml_frontend.entity import Entity, expose_action
+
+from launch_ros.actions import Node, PushRosNamespace, SetParameter
+from launch_ros.parameters import ParameterFile, ParameterValue
+
+TYPES = {"str": str, "int": int, "float": float, "bool": bool}
+
+
+@expose_action("node")
+def _node(entity: Entity) -> Action:
+    remappings = [
+        (remap.get_text("from", False), remap.get_text("to", False)) for remap in entity.get_entities("remap")
+    ]
+    given = {
+        "package": entity.get_text("pkg"),
+        "name": entity.get_text("name"),
+        "namespace": entity.get_text("namespace"),
+        "exec_name": entity.get_text("exec_name"),
+        "parameters": [_parameter(part) for part in entity.get_entities("param")],
+        "remappings": remappings,
+        "arguments": parse_command(entity, "args"),
+        "ros_arguments": parse_command(entity, "ros_args"),
+    }
+    executable = entity.get_text("exec", optional=False)
+    return Node(executable=executable, **given, **process_options(entity))
+
+
+def _parameter(entity: Entity) -> Any:
+    file, name = entity.get_text("from"), entity.get_text("name")
+    if file is not None and name is not None:
+        raise RuntimeError("name and from attributes are mutually exclusive")
+    if file is not None:
+        found: Any = ParameterFile(file, allow_substs=bool(entity.get("allow_substs", bool, optional=True)))
+    elif name is not None:
+        found = {tuple(name): _value(entity)}
+    else:
+        raise ValueError("param Entity should have name or from attribute")
+    entity.check_all_keys_read()
+    return found
+
+
+def _value(entity: Entity) -> Any:
+    """The value of a parameter, or the values of the nested ones."""
+    nested, value = entity.get_entities("param"), entity.get("value", object, optional=True)
+    kind = entity.get("type", str, optional=True)
+    if value is not None and nested:
+        raise RuntimeError("nested parameters and value attributes are mutually exclusive")
+    if nested:
+        found = {}
+        for part in nested:
+            found[tuple(part.get_text("name", False))] = _value(part)
+            part.check_all_keys_read()
+        return found
+    if value is None:
+        raise RuntimeError("either a value attribute or nested params are needed")
+    if kind is not None and kind not in TYPES:
+        raise ValueError(f"'{kind}' is no type of a parameter here: there are {', '.join(TYPES)}.")
+    if not isinstance(value, str):
+        return value if kind is None else ParameterValue(value, value_type=TYPES[kind])
+    text = entity.get_text("value")
+    if kind is not None:
+        return ParameterValue(text, value_type=TYPES[kind])
+    return value if "$(" not in value else text
+
+
+@expose_action("push_ros_namespace", "push-ros-namespace")
+def _push(entity: Entity) -> Action:
+    return PushRosNamespace(entity.get_text("namespace", optional=False), **entity.condition())
+
+
+@expose_action("set_parameter")
+def _set_parameter(entity: Entity) -> Action:
+    name, value = entity.get_text("name", optional=False), entity.get_text("value", optional=False)
+    return SetParameter(name, value[0] if len(value) == 1 else value, **entity.condition())
