@@ -1,14 +1,18 @@
 """Confined processes that a test commands."""
+import contextlib
 import json
+import os
 import re
+import signal
 import socket
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from grader.marking.sandbox import ProcessEnd, Sandbox
+from tests.patience import PATIENCE, until
 
 FEW = ("numpy",)  # what most tests preload: they are about walls, not about ROS
-PATIENCE = 60.0  # wall seconds, for a busy machine; nothing is measured by it
 
 
 class Commanded:
@@ -56,3 +60,19 @@ def fork_server(box: Sandbox) -> int:
     """The pid of the warm process of a sandbox."""
     about = Path(f"/proc/self/fdinfo/{box._warm._pidfd}").read_text()
     return int(re.search(r"^Pid:\s*(\d+)", about, re.M)[1])
+
+
+def state(pid: int) -> str:
+    """The state of a process, see proc(5): R for running, T for stopped."""
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+
+
+@contextlib.contextmanager
+def stopped(pid: int) -> Iterator[None]:
+    """Keep a process from doing anything for a while."""
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        until(lambda: state(pid) == "T", "a process to stop")
+        yield
+    finally:
+        os.kill(pid, signal.SIGCONT)

@@ -8,7 +8,8 @@ import textwrap
 
 import pytest
 
-from tests.marking.sandbox.commanded import PATIENCE, fork_server, sandbox
+from tests.marking.sandbox.commanded import fork_server, sandbox
+from tests.patience import PATIENCE
 
 
 @pytest.mark.parametrize(
@@ -52,7 +53,8 @@ IGNORANT = "import signal; [signal.signal(s, signal.SIG_IGN) for s in signal.val
 )
 def test_killing_ends_it_whatever_it_does(commanded, act):
     pidfd = os.pidfd_open(commanded.process.pid)
-    commanded.tell(act)
+    commanded.tell(f"wire.sendall(b'.')\n{act}")
+    assert commanded.wire.recv(1) == b"."
     commanded.process.kill()
     ending = commanded.ending()
     assert (ending.kind, ending.detail) == ("killed", "The process was killed from outside.")

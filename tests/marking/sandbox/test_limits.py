@@ -1,10 +1,18 @@
 """Bombs: what a confined process does to use everything up, and what it gets."""
 import os
+import signal
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
 
-from grader.marking.sandbox import ResourceLimits
-from tests.marking.sandbox.commanded import Commanded, sandbox
+from grader.marking.sandbox import ResourceLimits, supervisor
+from tests.marking.sandbox.commanded import Commanded, sandbox, state
+from tests.patience import until
+
+TICK = 1 / os.sysconf("SC_CLK_TCK")  # s, to which Linux tells how long a process has computed
 
 
 @pytest.fixture
@@ -45,19 +53,69 @@ def test_a_crash_for_want_of_memory_is_told_as_such(tight):
     assert commanded.ending().kind == "memory"
 
 
-def test_many_threads_get_no_more_of_the_machine_than_one(commanded):
-    flood = """
-import hashlib, os, threading, time
-data, began, before = bytes(1_000_000), time.perf_counter(), time.process_time()
-def work():
-    while time.process_time() < before + 2 * os.cpu_count():
-        hashlib.sha256(data)
-threads = [threading.Thread(target=work) for _ in range(50)]
-for thread in threads: thread.start()
-for thread in threads: thread.join()
-answer = (time.process_time() - before) / (time.perf_counter() - began)
-"""
-    assert commanded.ask(flood) < 1.5  # cores; a busy machine gives it less
+class SimulatedMachine:
+    """Runs one process on so many cores, for so many seconds of computing, in a time of its own.
+
+    It takes the place of what the supervisor asks the system for. late: how much later each look comes (s).
+    """
+
+    def __init__(self, monkeypatch, cores: int, computes: float, late: float):
+        self.now, self.used, self.cores, self.computes, self.late = 0.0, 0.0, cores, computes, late
+        self.runs = True
+        self.continued: list[tuple[float, float]] = []  # computed by then, and when
+        monkeypatch.setattr(supervisor, "time", SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(supervisor, "select", SimpleNamespace(poll=lambda: self, POLLIN=0))
+        monkeypatch.setattr(supervisor, "os", SimpleNamespace(kill=self.kill, sysconf=os.sysconf))
+        monkeypatch.setattr(supervisor, "_read", self.read)
+
+    def register(self, descriptor: int, events: int) -> None:
+        """As a poll object."""
+
+    def poll(self, milliseconds: float) -> bool:
+        passed = milliseconds / 1000 + self.late
+        self.now, self.used = self.now + passed, self.used + self.runs * self.cores * passed
+        return self.used > self.computes
+
+    def kill(self, process: int, number: int) -> None:
+        self.runs = number == signal.SIGCONT
+        if self.runs:
+            self.continued.append((self.used, self.now))
+
+    def read(self, path: str, folder: int) -> bytes:
+        fields = ["0"] * 11 + [str(int(self.used / TICK))] + ["0"] * 5 + ["50"]
+        return f"7 (python) {' '.join(fields)}".encode()
+
+
+@pytest.mark.parametrize("cores", [2, 4, 64])
+@pytest.mark.parametrize("late", [0.0, 0.3])
+def test_many_threads_get_no_more_of_the_machine_than_one(monkeypatch, cores, late):
+    machine = SimulatedMachine(monkeypatch, cores, 500.0, late)
+    assert supervisor._watch(7, 8, 9, ResourceLimits()) == ""
+    assert len(machine.continued) > 3
+    assert all(used <= supervisor.CORES * now + TICK for used, now in machine.continued)
+    if not late:
+        assert machine.continued[-1][0] == pytest.approx(supervisor.CORES * machine.now, abs=1 + TICK)
+
+
+def test_one_thread_is_never_held_up(monkeypatch):
+    machine = SimulatedMachine(monkeypatch, cores=1, computes=500.0, late=0.0)
+    assert supervisor._watch(7, 8, 9, ResourceLimits()) == ""
+    assert machine.continued == []
+
+
+def test_a_process_that_has_had_more_than_its_share_is_stopped(monkeypatch):
+    """A real one; here any share is too much, so that it stays stopped until it is killed."""
+    monkeypatch.setattr(supervisor, "CORES", 1e-5)
+    processes = os.open("/proc", os.O_RDONLY)
+    busy = [sys.executable, "-c", "while True: pass"]
+    with subprocess.Popen(busy) as process, ThreadPoolExecutor() as pool:
+        pidfd = os.pidfd_open(process.pid)
+        watch = pool.submit(supervisor._watch, process.pid, pidfd, processes, ResourceLimits())
+        until(lambda: state(process.pid) == "T", "a process to be stopped")
+        process.kill()
+        assert watch.result() == ""
+    os.close(pidfd)
+    os.close(processes)
 
 
 def test_a_huge_file_is_too_large(tight):
@@ -140,11 +198,9 @@ def test_computing_without_end_is_stopped(tight):
 
 
 def test_waiting_without_end_is_stopped(tight):
-    commanded = tight(wall_s=0.5)
-    commanded.tell("import threading; threading.Event().wait()")
-    ending = commanded.ending()
+    ending = tight(wall_s=0.1).ending()  # it waits for the first command
     assert ending.kind == "time"
-    assert ending.detail == "The process ran for more than the 0.5 s that are allowed."
+    assert ending.detail == "The process ran for more than the 0.1 s that are allowed."
 
 
 def test_limits_cannot_be_raised(commanded):

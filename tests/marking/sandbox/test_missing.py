@@ -92,8 +92,9 @@ def test_a_file_to_read_that_is_not_there_is_named(tmp_path):
     assert str(caught.value) == f"[Errno 2] No such file or directory: '{tmp_path}/data.csv'"
 
 
-def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch):
+def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch, tmp_path):
+    (tmp_path / "silent.py").write_text("import signal; signal.pause()")
     monkeypatch.setattr(warm_process, "START_S", 0.01)
     with pytest.raises(SandboxFailed) as caught:
-        sandbox()
+        Sandbox("silent:main", preload=(), imports=[tmp_path])
     assert str(caught.value) == "The sandbox was not ready after 0.01 s: is this machine too busy?"

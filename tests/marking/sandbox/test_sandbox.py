@@ -8,6 +8,7 @@ import pytest
 from grader.marking.errors import SandboxFailed
 from grader.marking.sandbox import Sandbox, linux
 from tests.marking.sandbox.commanded import sandbox
+from tests.patience import PATIENCE
 
 
 def test_a_process_starts_in_a_home_of_its_own_as_a_student(commanded):
@@ -48,7 +49,7 @@ def test_the_socket_is_handed_over(usual_sandbox, make_commanded):
     process = usual_sandbox.start(theirs)
     assert theirs.fileno() == -1
     ours.close()
-    assert process.wait(60).kind == "exited"
+    assert process.wait(PATIENCE).kind == "exited"
 
 
 def test_a_closed_sandbox_starts_nobody():

@@ -3,7 +3,7 @@ import pytest
 
 from grader.marking.errors import SandboxFailed
 from grader.marking.sandbox import warm_process
-from tests.marking.sandbox.commanded import sandbox
+from tests.marking.sandbox.commanded import fork_server, sandbox, stopped
 from tests.marking.sandbox.machines import as_an_ordinary_user, in_a_system_with
 
 
@@ -70,9 +70,13 @@ def test_a_namespace_too_many_is_a_process_that_does_not_start():
 def test_a_process_that_starts_too_late_is_given_up(make_commanded, monkeypatch):
     with sandbox() as box:
         before = make_commanded(box)
-        monkeypatch.setattr(warm_process, "START_S", 1e-6)
-        with pytest.raises(SandboxFailed) as caught:
-            make_commanded(box)
-        assert str(caught.value) == "The sandbox could not start a process: it gave no answer"
-        assert before.ask("answer = 'alive'") == "alive"
+        with stopped(fork_server(box)), monkeypatch.context() as patched:
+            patched.setattr(warm_process, "START_S", 0.01)
+            with pytest.raises(SandboxFailed) as caught:
+                make_commanded(box)
+            assert str(caught.value) == "The sandbox could not start a process: it gave no answer"
+            assert before.ask("answer = 'alive'") == "alive"
+        after = make_commanded(box)
+        assert [commanded.ask("answer = 'alive'") for commanded in (before, after)] == ["alive", "alive"]
         before.leave()
+        after.leave()
