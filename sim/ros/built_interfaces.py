@@ -1,7 +1,7 @@
-"""Messages, services and actions that colcon built, in a Python that runs already.
+"""Loads messages, services and actions that colcon built into the running Python.
 
-A library is loaded once, under one name. So the second version of an interface is loaded from copies, in
-which the names of its libraries are others of the same length.
+A shared library is loaded only once under its name. A newer version of an interface is therefore loaded from
+copies whose libraries have other names of the same length.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from pathlib import Path
 
 from sim.ros.messages.cdr import clear_layout_cache
 from sim.ros.messages.codec import message_class
-from sim.ros.packages import BUILT_HERE, INDEX
+from sim.ros.packages import BUILT_HERE, INDEX, install_prefixes
 
-DISPATCHER = "__rosidl_typesupport_c.so"  # makes names of libraries of the package's own
+DISPATCHER = "__rosidl_typesupport_c.so"  # builds library names from the package's name
 
 _versions: dict[str, str] = {}  # package -> digest of what was loaded
 _numbers = count(2)
-_copies: list[tempfile.TemporaryDirectory] = []  # removed when Python ends
+_copies: list[tempfile.TemporaryDirectory] = []  # removed when Python exits
 
 
 def load() -> None:
-    """Load the interfaces of all packages that were sourced, in the version that is built now.
+    """Load the interfaces of all sourced packages in the version that is built now.
 
-    What was imported before stays the old version: its import has to be said again.
+    Modules that were imported before keep the old version until they are imported again.
     """
     prefixes = dict(_built())
     versions = {package: _digest(package, prefix) for package, prefix in prefixes.items()}
@@ -45,11 +45,10 @@ def load() -> None:
 
 
 def _built() -> list[tuple[str, Path]]:
-    """Package and prefix of all interfaces that colcon built."""
-    prefixes = [Path(word) for word in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if word]
+    """Package and install prefix of all interfaces that colcon built."""
     return [
         (package, prefix)
-        for prefix in prefixes
+        for prefix in install_prefixes()
         if (prefix / BUILT_HERE).is_dir() and (prefix / INDEX / "rosidl_interfaces").is_dir()
         for package in sorted(os.listdir(prefix / INDEX / "rosidl_interfaces"))
     ]
@@ -71,12 +70,12 @@ def _digest(package: str, prefix: Path) -> str:
 
 
 def _load_all(libraries: list[Path]) -> None:
-    """Load what interfaces need: the folders in which the linker looks were settled as Python began."""
-    while libraries:  # each needs others, which come first
-        left = [library for library in libraries if not _loads(library)]
-        if len(left) == len(libraries):
-            return  # whoever imports them is told what is missing
-        libraries = left
+    """Load libraries after those they depend on: the linker's search path is fixed at Python's start."""
+    while libraries:
+        remaining = [library for library in libraries if not _loads(library)]
+        if len(remaining) == len(libraries):
+            return  # importing them raises an error that names what is missing
+        libraries = remaining
 
 
 def _loads(library: Path) -> bool:
@@ -88,7 +87,7 @@ def _loads(library: Path) -> bool:
 
 
 def _load_copies(prefixes: dict[str, Path]) -> None:
-    """Load all of them anew, for those that did not change may use those that did."""
+    """Load all interfaces again: unchanged ones may use those that have changed."""
     mark = f"~{next(_numbers)}"
     names = {package: f"{package[: -len(mark)]}{mark}" for package in prefixes if len(package) > len(mark)}
     _copies.append(tempfile.TemporaryDirectory(prefix="interfaces-"))

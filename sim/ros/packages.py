@@ -1,4 +1,4 @@
-"""Programs of packages that colcon built: which file `ros2 run` starts, and why there is none."""
+"""Finds packages and their programs: the file that `ros2 run` starts, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -9,34 +9,34 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-from sim.ros import brought
+from sim.ros.bundled_programs import PROGRAMS, alternative, command, module_in_a_run
 from sim.suggestions import closest_match
 
 INDEX = "share/ament_index/resource_index"
-BUILT_HERE = "share/colcon-core/packages"  # in a prefix that colcon filled
+BUILT_HERE = "share/colcon-core/packages"  # in an install prefix that colcon has written
 LAYOUT = ".colcon_install_layout"  # in install/
 
 
 class PackageNotFound(LookupError):
-    """No package of that name is known; the words say what was left out."""
+    """There is no package of that name; the message says why."""
 
 
 class ExecutableNotFound(LookupError):
-    """The package has no program of that name; the words say what was left out."""
+    """The package has no program of that name; the message says why."""
 
 
 def executable(package: str, name: str) -> Callable[[], None]:
     """The program that `ros2 run package name` starts, as a main() function for `run`, `play` and `Process`.
 
-    Each start reads the package's files anew, as a process of its own does: the newest build is what runs.
+    Each start reads the package's files again, as a new process does, so that the newest build runs.
     Raises PackageNotFound or ExecutableNotFound, with the likely reason.
     """
-    own = None if _is_installed_program(package, name) else brought.module(package, name)
-    file = path_of(package, name) if own is None else None
+    bundled = None if _is_installed_program(package, name) else module_in_a_run(package, name)
+    file = path_of(package, name) if bundled is None else None
 
     def main() -> None:
-        if own is not None:
-            status = importlib.import_module(own).main()
+        if bundled is not None:
+            status = importlib.import_module(bundled).main()
             if status:
                 raise SystemExit(status)
             return
@@ -49,7 +49,7 @@ def executable(package: str, name: str) -> Callable[[], None]:
 
 def path_of(package: str, name: str) -> Path:
     """The file of a package's program. Raises as `executable`."""
-    _check_brought(package, name)
+    _check_bundled(package, name)
     prefix = prefix_of(package)
     programs = executables(package)
     file = prefix / "lib" / package / name
@@ -60,83 +60,86 @@ def path_of(package: str, name: str) -> Path:
 
 def command_of(package: str, name: str) -> list[str]:
     """What `ros2 run package name` starts. Raises as `executable`."""
-    own = brought_command(package, name)
-    if own is not None:
-        return own
+    bundled = bundled_command(package, name)
+    if bundled is not None:
+        return bundled
     if not _is_installed_program(package, name):
-        path_of(package, name)  # says why
+        path_of(package, name)  # raises with the reason
     return [str(prefix_of(package) / "lib" / package / name)]
 
 
-def brought_command(package: str, name: str) -> list[str] | None:
-    """What starts a program that the course brings and nobody has installed; None for any other.
+def bundled_command(package: str, name: str) -> list[str] | None:
+    """The command for a program that the course includes and that is not installed; None for any other.
 
-    Raises ExecutableNotFound for what such a package lacks.
+    Raises ExecutableNotFound for a program that such a package does not have here.
     """
     if _is_installed_program(package, name):
         return None
-    _check_brought(package, name)
-    return brought.command(package, name)
+    _check_bundled(package, name)
+    return command(package, name)
 
 
-def _check_brought(package: str, name: str) -> None:
-    """Raise ExecutableNotFound for a program that a package of ROS's own has elsewhere, and not here."""
+def _check_bundled(package: str, name: str) -> None:
+    """Raise ExecutableNotFound for a program that a bundled package has in ROS, but not here."""
     if _is_installed_program(package, name):
         return
-    instead = brought.instead(package, name)
-    if instead is None and package in brought.PROGRAMS and name not in (known := executables(package)):
-        instead = _no_such(package, name, known)
-    if instead is not None:
-        raise ExecutableNotFound(f"No executable found: {instead}")
+    reason = alternative(package, name)
+    if reason is None and package in PROGRAMS and name not in (known := executables(package)):
+        reason = _no_such(package, name, known)
+    if reason is not None:
+        raise ExecutableNotFound(f"No executable found: {reason}")
 
 
 def executables(package: str) -> list[str]:
     """The names of a package's programs, sorted. Raises PackageNotFound."""
-    own = brought.PROGRAMS.get(package, {})
-    folder = None if own and not _is_known(package) else prefix_of(package) / "lib" / package
+    bundled = PROGRAMS.get(package, {})
+    folder = None if bundled and not _is_known(package) else prefix_of(package) / "lib" / package
     files = folder.iterdir() if folder is not None and folder.is_dir() else ()
-    return sorted({file.name for file in files if file.is_file() and os.access(file, os.X_OK)} | own.keys())
+    installed = {file.name for file in files if file.is_file() and os.access(file, os.X_OK)}
+    return sorted(installed | bundled.keys())
 
 
 def _is_known(package: str) -> bool:
-    return any((prefix / INDEX / "packages" / package).is_file() for prefix in _prefixes())
+    return any((prefix / INDEX / "packages" / package).is_file() for prefix in install_prefixes())
 
 
 def _is_installed_program(package: str, name: str) -> bool:
-    files = (prefix / "lib" / package / name for prefix in _prefixes())
+    files = (prefix / "lib" / package / name for prefix in install_prefixes())
     return _is_known(package) and any(file.is_file() and os.access(file, os.X_OK) for file in files)
 
 
 def prefix_of(package: str) -> Path:
-    """The folder that a package was installed into. Raises PackageNotFound."""
-    for prefix in _prefixes():
+    """The install prefix of a package. Raises PackageNotFound."""
+    for prefix in install_prefixes():
         if package and (prefix / INDEX / "packages" / package).is_file():
             return prefix
     raise PackageNotFound(f"Package '{package}' not found: {_why_no_package(package)}")
 
 
 def packages() -> list[str]:
-    """The names of all packages that are known, sorted."""
-    folders = [prefix / INDEX / "packages" for prefix in _prefixes()]
+    """The names of all packages, sorted."""
+    folders = [prefix / INDEX / "packages" for prefix in install_prefixes()]
     return sorted({file.name for folder in folders if folder.is_dir() for file in folder.iterdir()})
 
 
 def forget_modules() -> None:
-    """Let packages that colcon built be imported anew.
+    """Let the modules of packages that colcon built be imported again.
 
-    Interfaces stay: what one program sends and another hears must be one type.
+    Interfaces stay imported: a publisher and its subscribers must use the same type.
     """
     importlib.invalidate_caches()
-    places = tuple(f"{place}{os.sep}" for place in _built_places())
-    own = {name for name, module in list(sys.modules.items()) if _lies_in(module, places)}
-    interfaces = {name for prefix in _prefixes() for name in _listed(prefix / INDEX / "rosidl_interfaces")}
-    for name in own:
+    folders = tuple(f"{folder}{os.sep}" for folder in _built_folders())
+    built = {name for name, module in list(sys.modules.items()) if _is_in(module, folders)}
+    interfaces = {
+        name for prefix in install_prefixes() for name in _listed(prefix / INDEX / "rosidl_interfaces")
+    }
+    for name in built:
         if name.split(".")[0] not in interfaces:
             del sys.modules[name]
 
 
 def _start(file: Path) -> None:
-    """Do what Python does with a program; `sys.modules["__main__"]` stays the notebook's."""
+    """Run a file as a program; `sys.modules["__main__"]` stays the notebook's."""
     code = compile(file.read_bytes(), str(file), "exec")
     folder = str(file.resolve().parent)
     if folder not in sys.path:
@@ -144,25 +147,26 @@ def _start(file: Path) -> None:
     exec(code, {"__name__": "__main__", "__file__": str(file)})
 
 
-def _prefixes() -> list[Path]:
-    return [Path(word) for word in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if word]
+def install_prefixes() -> list[Path]:
+    """The install prefixes in AMENT_PREFIX_PATH."""
+    return [Path(path) for path in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if path]
 
 
 def _listed(folder: Path) -> list[str]:
     return os.listdir(folder) if folder.is_dir() else []
 
 
-def _built_places() -> Iterator[Path]:
-    """install/ and build/ of each workspace: with --symlink-install, modules are imported from the latter."""
-    for prefix in _prefixes():
+def _built_folders() -> Iterator[Path]:
+    """install/ and build/ of each workspace; with --symlink-install, modules are imported from build/."""
+    for prefix in install_prefixes():
         if (prefix / BUILT_HERE).is_dir():
             install = prefix if (prefix / LAYOUT).exists() else prefix.parent
             yield from (install, install.parent / "build")
 
 
-def _lies_in(module: object, places: tuple[str, ...]) -> bool:
+def _is_in(module: object, folders: tuple[str, ...]) -> bool:
     file = getattr(module, "__file__", None)
-    return isinstance(file, str) and file.startswith(places)
+    return isinstance(file, str) and file.startswith(folders)
 
 
 def _first_line(file: Path) -> bytes:
@@ -183,8 +187,8 @@ def _why_no_package(package: str) -> str:
 
 
 def _is_installed(install: Path, package: str) -> bool:
-    places = (install / package, install)
-    return any((place / INDEX / "packages" / package).is_file() for place in places)
+    prefixes = (install / package, install)
+    return any((prefix / INDEX / "packages" / package).is_file() for prefix in prefixes)
 
 
 def _descriptions(sources: Path) -> Iterator[Path]:

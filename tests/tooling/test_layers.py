@@ -31,7 +31,7 @@ DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
 
 # What is in sim/ros, in one direction: each imports only from itself and from those before it.
 ROOMS = (
-    *("brought", "packages", "messages", "built_interfaces", "sourcing"),
+    *("bundled_programs", "packages", "messages", "built_interfaces", "sourcing"),
     *("fibers", "recorder", "engine", "hooks", "robots"),
     *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "realtime"),
 )

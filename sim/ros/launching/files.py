@@ -9,7 +9,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-BROUGHT = Path(__file__).parent / "brought"  # of ROS's own packages; an installation's files win
+BUNDLED_FILES = Path(__file__).parent / "bundled"  # launch files of ROS packages, unless installed
 KINDS = (".py", ".yaml", ".yml", ".xml", ".launch")
 
 
@@ -37,7 +37,7 @@ def _in_package(package: str, file: str) -> str:
         share = get_package_share_directory(package)
     except (PackageNotFoundError, ValueError) as error:
         raise NoLaunchFile(f"Package '{package}' not found: {error}") from None
-    paths = _files(Path(share), file) or _files(BROUGHT / package, file)
+    paths = _files(Path(share), file) or _files(BUNDLED_FILES / package, file)
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"

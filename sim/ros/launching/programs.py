@@ -17,7 +17,7 @@ from typing import Any
 from sim.ros.engine.program import Process
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.launching.respawned import kill
-from sim.ros.packages import brought_command, executable, forget_modules
+from sim.ros.packages import bundled_command, executable, forget_modules
 
 PYTHON = re.compile(r"python(3(\.\d+)?)?")
 
@@ -42,7 +42,7 @@ class RunProcesses:
 
     def find_bundled(self, package: str, name: str) -> str | None:
         """As launch's `ProcessStarter`. Raises ExecutableNotFound."""
-        if brought_command(package, name) is None:
+        if bundled_command(package, name) is None:
             return None
         path = f"{sys.prefix}/lib/{package}/{name}"
         self._brought[path] = executable(package, name)

@@ -7,7 +7,7 @@ import sys
 from argparse import Namespace
 
 from sim.ros.launching import files
-from sim.ros.packages import brought_command, packages
+from sim.ros.packages import bundled_command, packages
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.surroundings import environment_before, need_terminal
 from sim.ros2.system import Voice, Wrong
@@ -56,7 +56,7 @@ def launch_(voice: Voice, asked: Namespace) -> None:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     noninteractive = asked.noninteractive or not sys.stdin.isatty()
     service = LaunchService(argv=rest, noninteractive=noninteractive, debug=asked.debug)
-    service.context.process_starter = SystemProcessStarter(brought_command)
+    service.context.process_starter = SystemProcessStarter(bundled_command)
     service.context.replace_environment(environment_before())
     service.include_launch_description(description)
     raise SystemExit(service.run())
