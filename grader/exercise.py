@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from grader import seeds
-from grader.checks.check import Check, new_check
+from grader.checks.check import Check, Hints, new_check
 from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
@@ -145,6 +145,7 @@ class Exercise:
         only: str | tuple[str, ...] = (),
         guess: str = "",
         lasts: bool = False,
+        hints: Hints | None = None,
     ) -> Callable[[Callable[..., Any]], Check]:
         """Make the next check of this exercise of a function whose docstring the student reads.
 
@@ -152,10 +153,11 @@ class Exercise:
         function is handed what these checks have returned, if it takes more than a recording. only: the
         names of the scenarios in which it holds.
         guess: what is most likely missing, where a miss has no hint and no diagnosis fits.
+        hints: sentences with their causes, for a miss without a hint of its own; see `Hints`.
         lasts: it speaks of all the time, though it builds on no other: time not run is not earned.
         Raises ValueError for a check that can't work, as `new_check` does.
         """
-        return lambda function: self._add(new_check(function, points, after, only, guess, lasts))
+        return lambda function: self._add(new_check(function, points, after, only, guess, lasts, hints))
 
     def _add(self, item: Check) -> Check:
         known, where = {before.name for before in self.checks}, f"exercise {self.name}: {item.name}"

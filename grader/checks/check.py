@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from sim.evidence import Recording
 
 Picture = Literal["", "path", "topics"]
+
+Hints = Mapping[str, Callable[..., Any]]
+"""A check's table of hints: each sentence with a function that tells whether its cause explains a miss.
+
+The function is given the recording and what `Missed.about` holds. It returns something false where the cause
+does not apply; or True, or a mapping with the values for the sentence's {placeholders}.
+"""
 
 
 class Missed(Exception):
@@ -20,6 +27,7 @@ class Missed(Exception):
     expected, saw: two short phrases that can be compared.
     hint: what to do next, where the cause is known. Left out, the first diagnosis that fits the recording
         takes its place, and after that the `guess`: what is most likely missing.
+    about: what the check's table of hints is given to find the cause, such as a stimulus.
     credit: the fraction 0..1 of the check's points that is earned all the same.
     picture: "path" or "topics" where a figure of the recording says more than words.
     measured: with a credit, what checks that come after this one are handed.
@@ -40,11 +48,12 @@ class Missed(Exception):
         measured: Any = None,
         typo: tuple[str, str] | None = None,
         unsafe: bool = False,
+        about: tuple[Any, ...] = (),
     ) -> None:
         super().__init__(f"expected {expected}; saw {saw}")
         self.expected, self.saw, self.hint, self.guess = expected, saw, hint, guess
         self.credit, self.picture, self.measured = fraction(credit), picture, measured
-        self.typo, self.unsafe = typo, unsafe
+        self.typo, self.unsafe, self.about = typo, unsafe, about
 
 
 @contextmanager
@@ -63,7 +72,8 @@ class Check:
 
     sentence: what the student reads. after: the checks that it builds on: it is skipped when one of them
     earned nothing. only: names of the scenarios in which it holds; empty for all. guess: as in `Missed`, for
-    any miss of this check. lasts: it speaks of all the time, as those do that build on others.
+    any miss of this check. lasts: it speaks of all the time, as those do that build on others. hints: a table
+    for a miss that has no hint of its own.
     """
 
     name: str
@@ -74,10 +84,23 @@ class Check:
     only: tuple[str, ...] = ()
     guess: str = ""
     lasts: bool = False
+    hints: Hints = field(default_factory=dict, compare=False)
 
     def __call__(self, recording: Recording, *measured: Any) -> Any:
         """What the function measured. Raises Missed, or whatever a faulty check raises."""
-        return self.function(recording, *measured)
+        try:
+            return self.function(recording, *measured)
+        except Missed as missed:
+            missed.hint = missed.hint or self._hint(recording, missed)
+            raise
+
+    def _hint(self, recording: Recording, missed: Missed) -> str:
+        """The first row of the table whose cause explains the miss; "" if none does."""
+        for sentence, cause in self.hints.items():
+            found = cause(recording, *missed.about)
+            if found:
+                return sentence.format(**found) if isinstance(found, Mapping) else sentence
+        return ""
 
     @property
     def takes_measured(self) -> int:
@@ -96,6 +119,7 @@ def new_check(
     only: str | tuple[str, ...] = (),
     guess: str = "",
     lasts: bool = False,
+    hints: Hints | None = None,
 ) -> Check:
     """A check of this function, whose docstring is the sentence that the student reads.
 
@@ -112,7 +136,8 @@ def new_check(
         raise ValueError(f"{name} needs a docstring: it is the sentence that the student reads")
     before = (after,) if isinstance(after, Check) else tuple(after)
     places = (only,) if isinstance(only, str) else only
-    made = Check(name, sentence, float(points), before, function, places, guess, lasts or bool(before))
+    whole = lasts or bool(before)
+    made = Check(name, sentence, float(points), before, function, places, guess, whole, hints or {})
     if made.takes_measured not in (0, len(before)):
         raise ValueError(
             f"{name} takes a recording and nothing else, or also what each of its {len(before)} checks in "

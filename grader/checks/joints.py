@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -12,6 +13,17 @@ from grader.checks.check import Missed
 from grader.checks.motion import Point, distances_to_line
 from grader.checks.topics import series
 from sim.evidence import Pose, Recording, Seconds
+
+
+def described_limits(recording: Recording) -> dict[str, tuple[float, float]]:
+    """The limits (rad) of each joint that has some, by the description that the course publishes."""
+    text = next(row for row in recording.messages("/robot_description") if row.from_course).message.data
+    found = {}
+    for joint in ElementTree.fromstring(text).iter("joint"):
+        limit = joint.find("limit")
+        if limit is not None:
+            found[joint.get("name", "")] = float(limit.get("lower", "")), float(limit.get("upper", ""))
+    return found
 
 
 def tip_path(recording: Recording) -> list[Pose]:

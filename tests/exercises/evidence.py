@@ -25,6 +25,7 @@ KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make
 LEAST = 0.2  # s of computing: a run that takes less is not worth a file
 ENGINE = ("sim", "ros_packages", "requirements.lock")
 OURS = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/seeds.py", "grader/workspace")
+OURS += "grader/companions", "grader/worlds", "grader/geometry"
 
 
 @functools.cache

@@ -21,7 +21,7 @@ GRADER = re.compile(r"grader")
 
 # What may be imported by which modules and nobody else. A path that ends with / is a whole folder.
 LAYERS = [
-    pytest.param(ROS, ("sim/ros/", "sim/ros2/", "grader/exercises/"), id="ROS"),
+    pytest.param(ROS, ("sim/ros/", "sim/ros2/", "grader/companions/", "grader/exercises/"), id="ROS"),
     pytest.param(JUPYTER, ("sim/view/", "grader/score.py", "grader/marking/"), id="Jupyter"),
     pytest.param(PICTURES, ("sim/view/", "grader/pictures.py", "grader/marking/preload.py"), id="matplotlib"),
     pytest.param(NBGRADER, ("grader/marking/",), id="nbgrader"),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from typing import NamedTuple
-from xml.etree import ElementTree as XML
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.joints import described_limits
 from grader.checks.no_data import no_data
 from grader.exercise import Exercise
 from grader.exercises.joints.crew import gymnast
@@ -77,20 +77,9 @@ def once_for_each(run: Recording, visits: list[Visit]) -> None:
             )
 
 
-def limits_of(run: Recording) -> dict[str, tuple[float, float]]:
-    """The limits (rad) of each joint in our description that has some."""
-    told = next(one for one in run.messages("/robot_description") if one.from_course).message.data
-    found = {}
-    for joint in XML.fromstring(told).iter("joint"):
-        limit = joint.find("limit")
-        if limit is not None:
-            found[joint.get("name")] = float(limit.get("lower")), float(limit.get("upper"))
-    return found
-
-
 def visits_of(run: Recording) -> list[Visit]:
     """When each joint was near a limit, by what our drivers said. Raises as `no_data` where none was."""
-    known, open_, found = limits_of(run), {}, []
+    known, open_, found = described_limits(run), {}, []
     for heard in run.messages("/joint_states"):
         if not heard.from_course:
             continue
@@ -117,7 +106,7 @@ def _instead(said: list[tuple[Seconds, str]], visit: Visit) -> str:
 
 def _why_wrong(run: Recording, stamp: Seconds, name: str) -> str:
     """The usual reasons for another name."""
-    known = limits_of(run)
+    known = described_limits(run)
     if name not in known:
         return f"The description has no limits for it: it names {', '.join(known)}. Leave others alone."
     told = [one for one in run.messages("/joint_states") if one.from_course and one.stamp <= stamp][

@@ -1,4 +1,4 @@
-"""Nodes of ours for 08_joints: a lift that gets stuck, and somebody who wants it at places it can't go to."""
+"""A lift that gets stuck, and a caller who requests positions, some of them beyond its limits."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, String
 
-from grader.exercises.joints.crew import LATCHED
+from grader.companions.qos import LATCHED
 from sim.world.machines import JointModel, urdf
 from sim.world.machines.urdf import EFFORT
 
 JOINT, OTHER = "lift_joint", "fan_joint"
 PERIOD, SPEED = 0.05, 0.6  # s, rad/s
-START = 4  # periods in which a lift that stood pulls with all its might before it moves
+START = 4  # periods in which a lift at rest pulls with full effort before it moves
 MOVING, HOLDING = 0.3 * EFFORT, 0.05 * EFFORT  # N m
-FREED = 0.05  # rad; told to stay so near to where it is stuck, it comes free
-BEGIN, PAUSE = 1.0, 2.8  # s: the first wish, and between two
+FREED = 0.05  # rad; a command this close to where it is stuck frees it
+BEGIN, PAUSE = 1.0, 2.8  # s: until the first request, and between two
 
 
 class Plan(NamedTuple):
-    """The lift of a seed, and what is wanted of it."""
+    """The lift of a seed, and the positions that are requested."""
 
     lower: float  # rad
     upper: float
     fan_first: bool  # in /joint_states
-    wishes: list[float]  # rad; some beyond the limits, one no number
+    requests: list[float]  # rad; some beyond the limits, one NaN
     jams: list[float]  # where the lift gets stuck, once each
 
 
 def plan(seed: int) -> Plan:
-    """The plan of a seed: five places that the lift can go to, on the way to two of which it gets stuck."""
+    """Return the plan of a seed: five positions within the limits; on its way to two it gets stuck."""
     draw = random.Random(f"lift {seed}")
     middle, half = draw.uniform(-0.45, 0.45), draw.uniform(0.66, 0.76)  # no limits hold for two lifts
     lower, upper, places = round(middle - half, 2), round(middle + half, 2), []
@@ -44,13 +44,13 @@ def plan(seed: int) -> Plan:
         places.append(round(middle + ahead * draw.uniform(0.3, 0.6), 2))
     if draw.random() < 0.5:
         places = [round(2 * middle - place, 2) for place in places]
-    first = draw.choice((1, 2))  # not one after the other, for the next way then begins elsewhere
+    first = draw.choice((1, 2))  # not two in a row, because the second would then start from elsewhere
     jams = [_halfway(places, index) for index in (first, first + draw.choice((1, 2)))]
-    wishes = list(places)
+    requests = list(places)
     bad = [upper + draw.uniform(0.05, 0.3), lower - draw.uniform(0.05, 0.3), math.nan]
     for wrong in draw.sample(bad, 3):
-        wishes.insert(draw.randrange(1, len(wishes)), round(wrong, 2))
-    return Plan(lower, upper, draw.random() < 0.7 or seed == 1, wishes, jams)
+        requests.insert(draw.randrange(1, len(requests)), round(wrong, 2))
+    return Plan(lower, upper, draw.random() < 0.7 or seed == 1, requests, jams)
 
 
 def _halfway(places: list[float], index: int) -> float:
@@ -60,7 +60,7 @@ def _halfway(places: list[float], index: int) -> float:
 class Lift(Node):
     """A lift: takes /joint_commands (Float64), gives /joint_states with effort, and /robot_description.
 
-    Where it is stuck it pulls with all its might until it is told to stay there.
+    Where it is stuck it pulls with full effort until it is commanded to stay there.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -77,7 +77,7 @@ class Lift(Node):
         self.create_timer(PERIOD, self.step)
 
     def obey(self, msg: Float64) -> None:
-        """Go there from now on, as far as the limits let the lift; what is not a number is left alone."""
+        """Take a new target, cut to the limits; NaN is ignored."""
         if math.isnan(msg.data):
             return
         self.target = min(max(msg.data, self.plan.lower), self.plan.upper)
@@ -86,7 +86,7 @@ class Lift(Node):
         self.starting = 0 if self.velocity else START
 
     def step(self) -> None:
-        """Move for one period, and say where the lift is."""
+        """Move for one period, and publish the joint states."""
         gap = self.target - self.position
         ahead = math.copysign(1.0, gap)
         self.velocity, self.effort = 0.0, HOLDING
@@ -123,27 +123,27 @@ class Lift(Node):
 
 
 class Caller(Node):
-    """Wants the lift somewhere: /wanted (Float64), one place after another."""
+    """Requests one position after another on /wanted (Float64)."""
 
-    def __init__(self, wishes: list[float]) -> None:
+    def __init__(self, requests: list[float]) -> None:
         super().__init__("caller")
-        self.wishes = wishes[::-1]
+        self.requests = requests[::-1]
         self.publisher = self.create_publisher(Float64, "/wanted", 10)
         self.begin = self.create_timer(BEGIN, self.start)
 
     def start(self) -> None:
-        """Call for the first time."""
+        """Request the first position."""
         self.begin.cancel()
         self.call()
         self.create_timer(PAUSE, self.call)
 
     def call(self) -> None:
-        """Want the next place, if there is one."""
-        if self.wishes:
-            self.publisher.publish(Float64(data=self.wishes.pop()))
+        """Request the next position, if there is one."""
+        if self.requests:
+            self.publisher.publish(Float64(data=self.requests.pop()))
 
 
 def lift(seed: int) -> list[Callable[[], Node]]:
-    """The lift of a seed and who calls it, as companions of a run."""
+    """Return the lift of a seed and its caller, as companions of a run."""
     made = plan(seed)
-    return [functools.partial(Lift, made), functools.partial(Caller, made.wishes)]
+    return [functools.partial(Lift, made), functools.partial(Caller, made.requests)]

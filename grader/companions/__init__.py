@@ -1,0 +1,1 @@
+"""Programs of the course that run beside the student's, one module for each part that they play."""

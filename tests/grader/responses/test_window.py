@@ -1,0 +1,26 @@
+"""Both edges of a window belong to it, and nothing outside does."""
+
+import pytest
+
+from grader.responses import EDGE, Window
+from sim.evidence import Pose
+
+
+@pytest.mark.parametrize(
+    ("stamp", "inside"),
+    [
+        (1.0, True),
+        (1.5, True),
+        (1.0 - EDGE / 2, True),
+        (1.5 + EDGE / 2, True),
+        (1.0 - 2 * EDGE, False),
+        (1.5 + 2 * EDGE, False),
+    ],
+)
+def test_both_edges_are_inside(stamp, inside):
+    assert Window.after(1.0, 0.5).contains(stamp) is inside
+
+
+def test_rows_inside_keep_their_order():
+    path = [Pose(stamp, 0.0, 0.0, 0.0) for stamp in (0.9, 1.5, 1.0, 1.6)]
+    assert [pose.stamp for pose in Window(1.0, 1.5).rows(path)] == [1.5, 1.0]
