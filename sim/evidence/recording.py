@@ -30,7 +30,7 @@ from sim.evidence.rows import (
     UndeliveredMessage,
 )
 from sim.network import Network
-from sim.world import Body, Contact, Drawing, World
+from sim.world import Body, Contact, PenDrawing, World
 
 
 @dataclass
@@ -53,7 +53,7 @@ class Recording:
     contacts: list[Contact] = field(default_factory=list)
     # the same of the robots beside the first, by name
     other_contacts: dict[str, list[Contact]] = field(default_factory=dict)
-    drawing: Drawing | None = None  # what pens drew; None without a pen
+    drawing: PenDrawing | None = None  # what pens drew; None without a pen
     logs: list[LogLine] = field(default_factory=list)
     errors: list[CallbackError] = field(default_factory=list)
     callbacks: list[CallbackRun] = field(default_factory=list)

@@ -31,7 +31,7 @@ class GroundTruth:
     def _track(self, stamp: float) -> None:
         """Write down where everything is at `stamp`, in simulated seconds: path, tracks and contacts."""
         scene, recording = self.scene, self._recording
-        first = scene.world.first
+        first = scene.world.driven_body
         for body, pose in zip(scene.bodies, scene.poses, strict=True):
             poses = recording.path if body.name == first else recording.tracks.setdefault(body.name, [])
             poses.append(Pose(stamp, *pose))

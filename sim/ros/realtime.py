@@ -93,7 +93,7 @@ class RealTimeRun:
         self._time += min(now - self._seen, MAX_GAP)
         self._seen = now
         self.scene.advance(self._time)
-        self.scene.forget()
+        self.scene.discard_history()
 
     def add(self, node: Node) -> None:
         """Run one more node. In a run nobody asks robots for their parameters; here `ros2 param` may."""

@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
-from sim.world import Drawing, Stroke, World
-from sim.world.drawing import Colour
+from sim.world import PenDrawing, Stroke, World
+from sim.world.pen_drawing import Colour
 
 Item = TypeVar("Item")
 
@@ -17,7 +17,7 @@ STROKES, POINTS = 500, 6_000  # of all strokes together, on a page
 _POINTS_PER_INCH = 72
 
 
-def live(drawing: Drawing) -> dict[str, Any]:
+def live(drawing: PenDrawing) -> dict[str, Any]:
     """What can be seen now, for JSON: `Drawn` in web/drawing.js reads it."""
     strokes = thinned([stroke for stroke in drawing.strokes if stroke.erased is None], STROKES)
     return {
@@ -29,7 +29,7 @@ def live(drawing: Drawing) -> dict[str, Any]:
     }
 
 
-def packed(drawing: Drawing) -> dict[str, Any]:
+def packed(drawing: PenDrawing) -> dict[str, Any]:
     """All that was ever drawn, for JSON, with times in whole milliseconds."""
     return {
         "grounds": [
@@ -80,7 +80,7 @@ def draw_ground(axes: Axes, world: World, colour: Colour) -> None:
     axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, **look))
 
 
-def draw_strokes(axes: Axes, drawing: Drawing, stamp: float) -> None:
+def draw_strokes(axes: Axes, drawing: PenDrawing, stamp: float) -> None:
     """Draw the lines that can be seen at `stamp` (s); the axes' limits must be set."""
     axes.apply_aspect()
     inches = axes.get_position().width * axes.figure.get_figwidth()

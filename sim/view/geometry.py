@@ -39,7 +39,7 @@ def world_data(world: World, bodies: Sequence[Body] | None = None) -> dict[str, 
 def body_tracks(recording: Recording) -> list[list[Pose]]:
     """The poses of each body that moved in a run, in the order of `recording.bodies`."""
     bodies = recording.bodies
-    first = recording.world.first if bodies else None
+    first = recording.world.driven_body if bodies else None
     return [recording.path if body.name == first else recording.tracks.get(body.name, []) for body in bodies]
 
 

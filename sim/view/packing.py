@@ -99,7 +99,7 @@ def _scans(recording: Recording) -> Iterator[dict[str, Any]]:
         pose = pose_at(recording.path, item.stamp)
         yield {
             "stamp": round(item.stamp * 1000),
-            "pose": [round(value, 3) for value in recording.world.lidar.place(pose[1:])],
+            "pose": [round(value, 3) for value in recording.world.lidar.mounted_at(pose[1:])],
             "start": scan.angle_min,
             "step": scan.angle_increment * stride,
             "far": scan.range_max,

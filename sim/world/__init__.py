@@ -1,21 +1,21 @@
-"""A small robot in a flat world, with its sensors: plain Python, pymunk and numpy; knows nothing of ROS."""
+"""A simulated robot with its sensors in a flat world: plain Python, pymunk and numpy, independent of ROS."""
 
 from sim.world.battery import Battery, BatteryModel
 from sim.world.bodies import Body
 from sim.world.contacts import Contact
-from sim.world.description import World
-from sim.world.drawing import Drawing, Stroke
 from sim.world.imu import ImuModel, ImuReading
 from sim.world.lidar import LidarModel, Scan
 from sim.world.mobile_robot import MobileRobot
-from sim.world.model import ModelError, WorldError
 from sim.world.obstacles import Box, Circle, MovableBox
+from sim.world.pen_drawing import PenDrawing, Stroke
 from sim.world.people import Person
-from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, Wheels
+from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, WheelJoints
 from sim.world.route import Route
 from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
+from sim.world.validation import ModelError, WorldError
 from sim.world.warehouse import WarehouseModel
+from sim.world.world import World
 
 __all__ = [
     "DT",
@@ -26,7 +26,6 @@ __all__ = [
     "Circle",
     "CommandError",
     "Contact",
-    "Drawing",
     "ImuModel",
     "ImuReading",
     "LidarModel",
@@ -35,6 +34,7 @@ __all__ = [
     "MovableBox",
     "Odometry",
     "OtherRobot",
+    "PenDrawing",
     "Person",
     "RobotModel",
     "Route",
@@ -43,7 +43,7 @@ __all__ = [
     "Simulation",
     "Stroke",
     "WarehouseModel",
-    "Wheels",
+    "WheelJoints",
     "World",
     "WorldError",
     "simulate",

@@ -1,4 +1,4 @@
-"""A robot's battery: driving drains it, and a charger fills it."""
+"""A robot's battery: driving discharges it, a charger charges it."""
 
 from __future__ import annotations
 
@@ -6,26 +6,27 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.model import Model, positive, within
 from sim.world.obstacles import Point
 from sim.world.robot import Odometry
+from sim.world.validation import Model, positive, within
 
 NEAR = 0.15
-"""How near to a place's point (m) a robot's middle is when the robot is there."""
+"""A robot is at a location if its centre is within this distance (m)."""
 
 _HOUR = 3600.0  # s
 
 
 @dataclass(frozen=True)
 class BatteryModel(Model):
-    """The battery of each robot of a world (A h, A, V), and the point (m) of the first one's charger.
+    """Parameters of the robots' batteries (A h, A, V), and the position (m) of the first robot's charger.
 
-    `start` is the share of the capacity that is there at time 0. What is taken from it is `idle_current`, and
-    `drive_current` for each m/s of the wheels. The voltage falls evenly from `full` to `empty`.
+    `start` is the charge at time 0 as a fraction of the capacity. The discharge current is `idle_current`
+    plus `drive_current` per m/s of the wheels. The voltage falls linearly with the charge from `full` to
+    `empty`.
     """
 
     charger: Point
-    capacity: Annotated[float, positive("A h")] = 0.05  # a small one, or a lesson would take hours
+    capacity: Annotated[float, positive("A h")] = 0.05  # small, so that a lesson doesn't take hours
     start: Annotated[float, within(0, 1)] = 1.0
     idle_current: Annotated[float, within(0, 1000, "A")] = 0.1
     drive_current: Annotated[float, within(0, 1000, "A for each m/s")] = 0.8
@@ -36,15 +37,15 @@ class BatteryModel(Model):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.empty >= self.full:
-            self.refuse("empty", f"a number below full, {self.full:g} (V)")
+            self.reject("empty", f"a number below full, {self.full:g} (V)")
 
 
 class Battery:
-    """The battery of one robot, which is filled at a charger (m).
+    """The battery of one robot, charged at the position `charger` (m).
 
     Attributes:
-        charge: what is left in it, A h.
-        current: what flows into it, A; below 0 while it is drained.
+        charge: the remaining charge, A h.
+        current: the charge current, A; negative while discharging.
     """
 
     def __init__(self, model: BatteryModel, charger: Point) -> None:
@@ -53,24 +54,27 @@ class Battery:
         self.current = -model.idle_current
 
     @property
-    def share(self) -> float:
-        """What is left in it, from 0 to 1."""
+    def percentage(self) -> float:
+        """The charge as a fraction of the capacity, 0 to 1, as in sensor_msgs/BatteryState."""
         return self.charge / self.model.capacity
 
     @property
     def voltage(self) -> float:
-        """Between its poles, V."""
-        return self.model.empty + self.share * (self.model.full - self.model.empty)
+        """The voltage, V."""
+        return self.model.empty + self.percentage * (self.model.full - self.model.empty)
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing is left: the motors are off."""
+        """Whether the charge is 0, which turns the motors off."""
         return self.charge <= 0.0
 
-    def work(self, seconds: float, place: Point, motion: Odometry, lever: float) -> None:
-        """So long in a robot that is there, whose wheels, `lever` (m) from its middle, turn so."""
+    def update(self, seconds: float, position: Point, motion: Odometry, lever: float) -> None:
+        """Charge or discharge for a time step in a robot at this position with this motion.
+
+        lever: the distance of the wheels from the robot's centre, m.
+        """
         model = self.model
-        if math.dist(place, self.charger) <= NEAR:
+        if math.dist(position, self.charger) <= NEAR:
             current = model.charge_current if self.charge < model.capacity else 0.0
         else:
             current = -model.idle_current - model.drive_current * max(abs(motion.v), abs(motion.w) * lever)

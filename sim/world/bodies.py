@@ -1,4 +1,4 @@
-"""What moves in a world, as it is drawn: each body has a shape of its own and a pose in the map frame."""
+"""`Body`: the shape of a moving body, for pictures."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from sim.world.obstacles import Point
 
 
 class Body(NamedTuple):
-    """One thing that moves. Its pose (x, y, yaw) in the map frame changes, its shape does not.
+    """One moving body. Its pose (x, y, yaw) in the map frame changes, its shape does not.
 
-    kind: robot, box, person, link, cart or turtle; pictures colour it by that. A body with a `radius` (m) is
-    a disc; any other is the polygon `outline`, whose corners (m) are given in its own frame, x forward.
+    kind: robot, box, person, link, cart or turtle; it selects the colour in pictures. A body with a `radius`
+    (m) is a disc; any other is the polygon `outline`, with corners (m) in its own frame, x forward.
     """
 
     name: str

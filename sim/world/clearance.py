@@ -1,4 +1,4 @@
-"""How far places on a floor are from everything solid that stands still."""
+"""The distance from points to the nearest static obstacle."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from sim.world.description import World
+from sim.world.world import World
 
-AT_ONCE = 512  # points: with all walls, what a processor's cache holds
+CHUNK = 512  # points; with all walls they fit into a processor's cache
 
 
 def clearance(world: World, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """For points of the map frame (m), in arrays of one shape: the distance to what is nearest, 0 in it."""
+    """The distance (m) of points to the nearest static obstacle, 0 inside; arrays of one shape, map frame."""
     gaps = _from_segments(world, x.ravel(), y.ravel()).reshape(x.shape)
     for disc_x, disc_y, radius in world.discs():
         gaps = np.minimum(gaps, np.maximum(np.hypot(x - disc_x, y - disc_y) - radius, 0.0))
@@ -27,8 +27,8 @@ def _from_segments(world: World, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
     x0, y0, x1, y1 = world.segments().T[:, :, None]
     ex, ey = x1 - x0, y1 - y0
     gaps = np.full(xs.shape, np.inf)
-    for begin in range(0, len(xs) if len(x0) else 0, AT_ONCE):
-        part = slice(begin, begin + AT_ONCE)
+    for begin in range(0, len(xs) if len(x0) else 0, CHUNK):
+        part = slice(begin, begin + CHUNK)
         x, y = xs[part], ys[part]
         along = np.clip(((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey), 0, 1)
         squares = (x0 + along * ex - x) ** 2 + (y0 + along * ey - y) ** 2

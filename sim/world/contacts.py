@@ -1,4 +1,4 @@
-"""What a robot touched, when, and with which side."""
+"""The contacts of each robot: what it touched, when, and with which side."""
 
 import math
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ _SIDES = ("front", "left", "back", "right")
 
 
 class Contact(NamedTuple):
-    """One touch: when it began and ended (s; end is None while it lasts), and where in the map frame (m).
+    """One contact: when it began and ended (s; end is None while it lasts), and where in the map frame (m).
 
     `side` is front, left, right or back of the robot; `what` is wall, box, circle, robot or person.
     """
@@ -27,7 +27,7 @@ class Contact(NamedTuple):
 
 
 class ContactLog:
-    """The touches of one robot."""
+    """The contacts of one robot."""
 
     def __init__(self, body: pymunk.Body) -> None:
         self._body = body
@@ -37,7 +37,7 @@ class ContactLog:
     def begin(self, stamp: float, shape: pymunk.Shape, what: str) -> None:
         """From `stamp` (s) on, the robot touches this shape."""
         self._touching[shape] = len(self.contacts)
-        x, y = self._touch(shape)
+        x, y = self._contact_point(shape)
         self.contacts.append(Contact(stamp, None, x, y, self._side(x, y), what))
 
     def end(self, stamp: float, shape: pymunk.Shape) -> None:
@@ -45,19 +45,19 @@ class ContactLog:
         index = self._touching.pop(shape)
         self.contacts[index] = self.contacts[index]._replace(end=stamp)
 
-    def forget(self) -> None:
-        """Drop the touches that have ended."""
-        lasting = sorted(self._touching.items(), key=lambda item: item[1])
-        self.contacts = [self.contacts[index] for _, index in lasting]
-        self._touching = {shape: index for index, (shape, _) in enumerate(lasting)}
+    def discard_history(self) -> None:
+        """Discard the contacts that have ended."""
+        ongoing = sorted(self._touching.items(), key=lambda item: item[1])
+        self.contacts = [self.contacts[index] for _, index in ongoing]
+        self._touching = {shape: index for index, (shape, _) in enumerate(ongoing)}
 
     @property
-    def pressed(self) -> frozenset[str]:
-        """The sides of the robot that touch something now."""
-        return frozenset(self._side(*self._touch(shape)) for shape in self._touching)
+    def touching_sides(self) -> frozenset[str]:
+        """The sides of the robot that are in contact now."""
+        return frozenset(self._side(*self._contact_point(shape)) for shape in self._touching)
 
-    def _touch(self, shape: pymunk.Shape) -> tuple[float, float]:
-        """The point of the shape that is nearest to the robot, in the map frame."""
+    def _contact_point(self, shape: pymunk.Shape) -> tuple[float, float]:
+        """The point of the shape nearest to the robot, in the map frame."""
         x, y = shape.point_query(self._body.position).point
         return x, y
 
@@ -67,10 +67,10 @@ class ContactLog:
         return _SIDES[round(bearing / (math.pi / 2)) % 4]
 
 
-class Touches:
-    """Follows the touches of a space and tells each robot's log about its own.
+class ContactTracker:
+    """Tracks the contacts of a space and adds them to the logs of the robots.
 
-    names: what everything solid is, the robots too.
+    names: the kind of every solid shape, robots included.
     """
 
     def __init__(
@@ -80,28 +80,28 @@ class Touches:
         names: Mapping[pymunk.Shape, str],
     ) -> None:
         self._logs, self._names = logs, names
-        self._notes: list[tuple[pymunk.Shape, pymunk.Shape, bool]] = []
+        self._events: list[tuple[pymunk.Shape, pymunk.Shape, bool]] = []
         for shape in names:
             shape.collision_type = _ROBOT if shape in logs else _OBSTACLE
-        # pymunk prints what a callback raises and goes on, so the callbacks only take notes.
+        # pymunk prints exceptions of callbacks and continues, so the callbacks only store events.
         for other in (_ROBOT, _OBSTACLE):
-            space.on_collision(_ROBOT, other, begin=self._note_begin, separate=self._note_end)
+            space.on_collision(_ROBOT, other, begin=self._on_begin, separate=self._on_end)
 
     def update(self, stamp: float) -> None:
-        """Take over what began or ended in the step that ended at `stamp` (s); call after each step."""
-        if not self._notes:
+        """Log the contacts that began or ended in the step that ends at `stamp` (s); call after each step."""
+        if not self._events:
             return
-        for first, second, began in self._notes:
+        for first, second, began in self._events:
             for shape, other in ((first, second), (second, first)):
                 log = self._logs.get(shape)
                 if log and began:
                     log.begin(stamp, other, self._names[other])
                 elif log:
                     log.end(stamp, other)
-        self._notes.clear()
+        self._events.clear()
 
-    def _note_begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
-        self._notes.append((*arbiter.shapes, True))
+    def _on_begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
+        self._events.append((*arbiter.shapes, True))
 
-    def _note_end(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
-        self._notes.append((*arbiter.shapes, False))
+    def _on_end(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: object) -> None:
+        self._events.append((*arbiter.shapes, False))

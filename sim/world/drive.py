@@ -1,20 +1,20 @@
-"""The drive that moves a robot's body through the physics."""
+"""The differential drive of a robot in the physics, and its wheel odometry."""
 
 import math
 
 import pymunk
 
-from sim.world.robot import DT, RATE, CommandError, Odometry, Pose, RobotModel, Wheels, wrap
+from sim.world.robot import DT, RATE, CommandError, Odometry, Pose, RobotModel, WheelJoints, wrap
 
-# As an assignment, for which pymunk looks at the attribute's name each time.
+# Calls to these setters are faster than assignments, for which pymunk checks the attribute's name each time.
 _set_velocity, _set_angular_velocity = pymunk.Body.velocity.fset, pymunk.Body.angular_velocity.fset
 
 class Drive:
     """Two driven wheels under the robot's body.
 
-    The wheels are a kinematic body that the robot's body is tied to by joints of finite force. So the wheels
-    always do what they are told, and the body follows as long as nothing holds it. Were the body's own
-    velocity set instead, it would sink into walls.
+    The wheels are a kinematic body, coupled to the robot's body by joints of finite force. So the wheels
+    always move at the commanded velocity, and the body follows unless an obstacle holds it. If the body's own
+    velocity were set instead, the body would penetrate walls.
 
     Attributes:
         body, shape: the robot in the physics.
@@ -34,9 +34,9 @@ class Drive:
         self._distance = 0.0
 
     def command(self, v: float, w: float) -> None:
-        """From now on, drive at v (m/s, forwards) and w (rad/s, counter-clockwise), within the limits.
+        """Set the target velocity v (m/s, forwards) and w (rad/s, counter-clockwise), clamped to the limits.
 
-        The speed ramps up to it. `command_timeout` (s) after the last command it ramps down to 0.
+        The velocity ramps towards it. `command_timeout` (s) after the last command it ramps down to 0.
 
         Raises:
             CommandError: v or w is infinite or not a number.
@@ -52,7 +52,7 @@ class Drive:
         self._steps_left = round(model.command_timeout * RATE)
 
     def roll(self) -> None:
-        """Roll the wheels through one step; call before each step of the space."""
+        """Advance the wheels by one step; call before each step of the space."""
         v, w = self._v, self._w
         stride, half_turn = self._chord
         heading = self._turn + half_turn
@@ -69,8 +69,9 @@ class Drive:
         self._v = v = _toward(v, self._target_v, model.max_acceleration * DT)
         self._w = w = _toward(w, self._target_w, model.max_angular_acceleration * DT)
 
-        # A step of pymunk first moves the body at its old velocity and then solves for the new one, which is
-        # thus used from the pose at the end of this step: that pose's heading is the one to aim from.
+        # A step of pymunk first moves the body at its old velocity and then solves for the new one. So the
+        # new velocity applies from the pose at the end of this step, and its direction is relative to that
+        # heading.
         body = self.body
         self._chord = stride, half_turn = _chord(v, w)
         heading = body.angle + body.angular_velocity * DT + half_turn
@@ -79,15 +80,15 @@ class Drive:
 
     @property
     def odometry(self) -> Odometry:
-        """Where the wheels say the robot is, from the model's `odometry` on; wrong once something held it."""
+        """Wheel odometry, starting at the model's `odometry`; it drifts once an obstacle held the robot."""
         return Odometry(self._x, self._y, wrap(self._turn), self._v, self._w)
 
     @property
-    def wheels(self) -> Wheels:
+    def wheels(self) -> WheelJoints:
         """Angles and rates of the two wheel joints."""
         radius, lever = self._model.wheel_radius, self._model.track_width / 2
         turned = lever * (self._turn - self._model.odometry[2])
-        return Wheels(
+        return WheelJoints(
             (self._distance - turned) / radius,
             (self._distance + turned) / radius,
             (self._v - lever * self._w) / radius,
@@ -102,7 +103,7 @@ def _chord(v: float, w: float) -> tuple[float, float]:
 
 
 def _toward(now: float, target: float, most: float) -> float:
-    """Step from now to target, by at most `most`."""
+    """`now` changed towards `target` by at most `most`."""
     if target > now + most:
         return now + most
     if target < now - most:
@@ -125,7 +126,7 @@ def _joints(wheels: pymunk.Body, body: pymunk.Body, model: RobotModel) -> tuple[
     gear = pymunk.GearJoint(wheels, body, 0, 1)
     gear.max_force = model.max_torque
     for joint in (pivot, gear):
-        # The joints pass on velocity only: a body that was held back is not pulled after the wheels later.
+        # The joints have no position correction: a body that was held back doesn't catch up with the wheels.
         joint.max_bias = 0
         joint.collide_bodies = False
     return pivot, gear

@@ -1,4 +1,4 @@
-"""An inertial measurement unit: what turning and pushing feel like on board."""
+"""A simulated inertial measurement unit (IMU), with noise and bias."""
 
 import math
 from dataclasses import dataclass
@@ -7,17 +7,17 @@ from typing import Annotated, NamedTuple
 import numpy as np
 import pymunk
 
-from sim.world.model import Model, at_least, within
 from sim.world.obstacles import GRAVITY
 from sim.world.robot import DT, wrap
+from sim.world.validation import Model, at_least, within
 
 
 @dataclass(frozen=True)
 class ImuModel(Model):
-    """An IMU in the middle of the robot: readings per second, noise and bias of gyro and accelerometer.
+    """An IMU at the robot's centre: rate, noise and bias of gyro and accelerometer.
 
-    Noise is a standard deviation, for each reading anew. A bias is constant: each axis has its own, drawn
-    from the run's seed: half to all of the figure given here, to either side. So there always is one.
+    Noise is the standard deviation of each reading. A bias is constant and drawn for each axis from the run's
+    seed: its absolute value is half to all of the value given here, so there is always a bias.
     """
 
     rate: Annotated[float, within(1, 100, "Hz")] = 100.0
@@ -28,11 +28,11 @@ class ImuModel(Model):
 
 
 class ImuReading(NamedTuple):
-    """One reading: when (s), and what an IMU measured in base_link.
+    """One reading: its stamp (s), and measurements in base_link.
 
-    `yaw` is the sum of all measured turns, rad in (-pi, pi], 0 where the robot started; so it drifts as real
-    ones do. `w` is the turning rate (rad/s, counter-clockwise). `ax`, `ay`, `az` is what an accelerometer
-    feels (m/s^2, x forward, y left, z up): the robot's acceleration, and the floor's push against gravity.
+    `yaw` is the integrated turning rate, rad in (-pi, pi], 0 at the start; it drifts as on a real IMU. `w` is
+    the turning rate (rad/s, counter-clockwise). `ax`, `ay`, `az` are the accelerometer's readings (m/s^2, x
+    forward, y left, z up): the robot's acceleration, and the reaction to gravity.
     """
 
     stamp: float
@@ -44,24 +44,24 @@ class ImuReading(NamedTuple):
 
 
 class Imu:
-    """Follows a body step by step and measures its motion with noise and bias.
+    """Measures the motion of a body step by step, with noise and bias.
 
-    A reading is the mean over the steps since the last one, as the filters of real IMUs make it; so no push
-    is missed at low rates.
+    A reading is the mean over the steps since the last one, like the filter of a real IMU; so low rates miss
+    no impact.
     """
 
     def __init__(self, model: ImuModel, body: pymunk.Body, rng: np.random.Generator) -> None:
         self._model, self._body, self._rng = model, body, rng
-        self._gyro_bias = _drawn(rng, model.gyro_bias)
-        self._accel_bias = [_drawn(rng, model.accel_bias) for _ in "xyz"]
+        self._gyro_bias = _random_bias(rng, model.gyro_bias)
+        self._accel_bias = [_random_bias(rng, model.accel_bias) for _ in "xyz"]
         self._velocity = body.velocity
         self._angle = body.angle
         self._forward = self._left = 0.0  # sums of velocity changes, m/s
         self._steps = 0
         self._reading: ImuReading | None = None
 
-    def feel(self) -> None:
-        """Take in the step that has just been done; call after each step of the space."""
+    def update(self) -> None:
+        """Add the last step; call after each step of the space."""
         body = self._body
         before, self._velocity = self._velocity, body.velocity
         dx, dy = self._velocity.x - before.x, self._velocity.y - before.y
@@ -71,7 +71,7 @@ class Imu:
         self._steps += 1
 
     def read(self, stamp: float) -> ImuReading:
-        """The reading at `stamp` (s); the same again as long as no step was done."""
+        """The reading at `stamp` (s); the previous reading if there was no step since."""
         if self._reading and not self._steps:
             return self._reading
         yaw = self._reading.yaw if self._reading else 0.0
@@ -91,7 +91,7 @@ class Imu:
         return self._reading
 
 
-def _drawn(rng: np.random.Generator, most: float) -> float:
-    """A bias from half to all of `most`, to either side."""
+def _random_bias(rng: np.random.Generator, most: float) -> float:
+    """A bias whose absolute value is half to all of `most`."""
     drawn = rng.uniform(-most, most)
     return math.copysign((most + abs(drawn)) / 2, drawn)

@@ -9,18 +9,18 @@ import pymunk
 
 from sim.world.battery import Battery
 from sim.world.contacts import Contact, ContactLog
-from sim.world.description import World
 from sim.world.drive import Drive
 from sim.world.imu import Imu, ImuReading
 from sim.world.lidar import Lidar, Scan
 from sim.world.robot import DT, Pose, wrap
+from sim.world.world import World
 
 Rows = list[tuple[float, ...]]
-_TIRES = 5  # steps of the physics between two looks at the battery
+_BATTERY_STEPS = 5  # physics steps between two updates of the battery
 
 
-class Surroundings(Protocol):
-    """What a robot's sensors have to know of the simulation that the robot is in."""
+class SensorContext(Protocol):
+    """The parts of a simulation that the sensors of a robot need."""
 
     world: World
     seed: int  # for the sensors' noise
@@ -29,90 +29,90 @@ class Surroundings(Protocol):
     def time(self) -> float:
         """Simulated time, s."""
 
-    def movers(self, robot: MobileRobot) -> tuple[Rows, Rows]:
-        """What moves around one robot: segments (x0, y0, x1, y1) and discs (x, y, radius); m, map frame."""
+    def moving_obstacles(self, robot: MobileRobot) -> tuple[Rows, Rows]:
+        """Obstacles that move around one robot: segments (x0, y0, x1, y1), discs (x, y, radius); m, map."""
 
 
 class MobileRobot(Drive):
-    """A drive with sensors. A `Simulation` makes and moves it; see `Simulation.robots`.
+    """A differential drive with sensors, constructed and advanced by a `Simulation`; see `Simulation.robots`.
 
     Attributes:
         name: "robot" for the first one; for any other its name in the world, which is its ROS namespace.
-        last_scan: what its lidar saw last; None before the first scan.
-        battery: its battery; None where the world's robots never tire.
+        last_scan: its latest lidar scan; None before the first one.
+        battery: its battery; None if the world's robots have none.
     """
 
-    def __init__(self, around: Surroundings, space: pymunk.Space, name: str, number: int) -> None:
-        world = around.world
+    def __init__(self, context: SensorContext, space: pymunk.Space, name: str, number: int) -> None:
+        world = context.world
         super().__init__(space, world.robot, world.starts()[name])
         self.name = name
         self.last_scan: Scan | None = None
-        self._around = around
-        self._beams = Lidar(world.lidar, world.segments(), world.discs())
-        self._lidar_rng = _chance(around.seed, (number, 0) if number else ())
-        self._imu = Imu(world.imu, self.body, _chance(around.seed, (number, 1))) if world.imu else None
+        self._context = context
+        self._lidar = Lidar(world.lidar, world.segments(), world.discs())
+        self._lidar_rng = _generator(context.seed, (number, 0) if number else ())
+        self._imu = Imu(world.imu, self.body, _generator(context.seed, (number, 1))) if world.imu else None
         self.log = ContactLog(self.body)
-        self.feel = self._imu.feel if self._imu else None
+        self.update_imu = self._imu.update if self._imu else None
         self.battery = Battery(world.battery, world.chargers[name]) if world.battery else None
         self._lever, self._steps = world.robot.track_width / 2, 0
 
     @property
     def pose(self) -> Pose:
-        """Where the robot truly is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
+        """The true pose: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
         x, y = self.body.position
         return x, y, wrap(self.body.angle)
 
     @property
     def bumper(self) -> frozenset[str]:
-        """The sides that touch something now: any of front, left, right, back."""
-        return self.log.pressed
+        """The sides in contact with something now: any of front, left, right, back."""
+        return self.log.touching_sides
 
     @property
     def contacts(self) -> list[Contact]:
-        """All touches so far, oldest first, but those that `forget` dropped."""
+        """All contacts so far, oldest first, except those that `discard_history` removed."""
         return list(self.log.contacts)
 
     def command(self, v: float, w: float) -> None:
-        """As `Drive` does it, but a robot whose battery is empty stops."""
+        """As `Drive.command`, but a robot with an empty battery stops."""
         super().command(v, w)
         if self.battery and self.battery.is_empty:
             super().command(0.0, 0.0)
 
-    def tire(self) -> None:
-        """Drain or fill the battery; call after each step of the space."""
+    def update_battery(self) -> None:
+        """Discharge or charge the battery; call after each step of the space."""
         self._steps += 1
-        if self._steps % _TIRES:
+        if self._steps % _BATTERY_STEPS:
             return
-        self.battery.work(_TIRES * DT, self.body.position, self.odometry, self._lever)
+        self.battery.update(_BATTERY_STEPS * DT, self.body.position, self.odometry, self._lever)
         if self.battery.is_empty:
             super().command(0.0, 0.0)
 
     @property
-    def sees(self) -> bool:
-        """Whether its lidar works now."""
-        return self._around.world.lidar.works(self._around.time)
+    def lidar_works(self) -> bool:
+        """Whether its lidar delivers scans now."""
+        return self._context.world.lidar.is_working(self._context.time)
 
     def scan(self) -> np.ndarray:
-        """One new lidar scan from where the lidar truly is: float32, shape (rays,), m; counter-clockwise.
+        """A new lidar scan from the lidar's true pose: float32, shape (rays,), m; counter-clockwise.
 
         inf: nothing within `range_max`; -inf: something nearer than `range_min`; nan: no measurement
         (REP-117).
         """
-        self._beams.place(*self._around.movers(self))
-        place = self._around.world.lidar.place(self.pose)
-        ranges = self._beams.measure(*place, self._lidar_rng)
-        self.last_scan = Scan(self._around.time, place, ranges)
+        self._lidar.set_moving_obstacles(*self._context.moving_obstacles(self))
+        pose = self._context.world.lidar.mounted_at(self.pose)
+        ranges = self._lidar.measure(*pose, self._lidar_rng)
+        self.last_scan = Scan(self._context.time, pose, ranges)
         return ranges
 
     def imu(self) -> ImuReading | None:
-        """What the IMU measured since the last reading; None where the world's robots have no IMU."""
-        return self._imu.read(self._around.time) if self._imu else None
+        """The IMU's measurement since the last reading; None if the world's robots have no IMU."""
+        return self._imu.read(self._context.time) if self._imu else None
 
-    def forget(self) -> None:
-        """Drop the contacts that have ended, for a simulation that never does."""
-        self.log.forget()
+    def discard_history(self) -> None:
+        """Discard the contacts that have ended."""
+        self.log.discard_history()
 
 
-def _chance(seed: int, key: tuple[int, ...]) -> np.random.Generator:
-    """A stream of random numbers of its own for each sensor, so that one more changes no other."""
+def _generator(seed: int, key: tuple[int, ...]) -> np.random.Generator:
+    """A separate random generator for each sensor, so that adding a sensor changes no other."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=key)))

@@ -1,4 +1,4 @@
-"""The solid things of a world that are not walls."""
+"""Obstacles of a world other than walls, and planar geometry."""
 
 import itertools
 import math
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.model import Angle, Coordinate, Length, Model, positive, within
+from sim.world.validation import Angle, Coordinate, Length, Model, positive, within
 
 Point = tuple[Coordinate, Coordinate]
 Segment = tuple[Point, Point]
@@ -16,19 +16,19 @@ GRAVITY = 9.80665
 
 
 def placed(points: Iterable[Point], x: float, y: float, yaw: float) -> tuple[Point, ...]:
-    """Points of a frame that lies at (x, y, yaw) in the map frame, as points of the map frame."""
+    """Points given in a frame, transformed to the map frame; (x, y, yaw) is the frame's pose there."""
     c, s = math.cos(yaw), math.sin(yaw)
     return tuple((x + c * u - s * v, y + s * u + c * v) for u, v in points)
 
 
 def ring(corners: Sequence[Point]) -> tuple[Segment, ...]:
-    """The lines from each corner to the next, and from the last to the first."""
+    """The closed polyline through the corners: segments to each next corner, and back to the first."""
     return tuple(itertools.pairwise((*corners, *corners[:1])))
 
 
 @dataclass(frozen=True)
 class Box(Model):
-    """A rectangle that does not move: centre (m) and yaw (rad) in the map frame.
+    """A static rectangle: centre (m) and yaw (rad) in the map frame.
 
     `width` and `height` (m) are its sizes along its own x and y.
     """
@@ -55,36 +55,36 @@ class Box(Model):
 
 @dataclass(frozen=True)
 class MovableBox(Box):
-    """A box that can be pushed over the floor: where it is at time 0, its mass (kg) and the floor's friction.
+    """A box that can be pushed: its pose at time 0, its mass (kg) and its coefficient of friction.
 
-    The floor holds it with up to friction * mass * gravity, and slows it down by friction * gravity once it
-    slides.
+    Friction with the floor is up to friction * mass * gravity (N) and decelerates a sliding box by friction *
+    gravity (m/s^2).
     """
 
     mass: Annotated[float, positive("kg")] = 0.5
     friction: Annotated[float, within(0.01, 10)] = 0.3
 
     @property
-    def grip(self) -> float:
-        """The greatest force with which the floor holds the box, N."""
+    def max_friction_force(self) -> float:
+        """The greatest friction force between floor and box, N."""
         return self.friction * self.mass * GRAVITY
 
     @property
-    def twist_grip(self) -> float:
-        """The greatest torque about its centre with which the floor holds the box, N m.
+    def max_friction_torque(self) -> float:
+        """The greatest friction torque about the centre, N m.
 
-        The box weighs equally on all of its floor, so the lever is the mean distance of the rectangle's
+        The load is distributed evenly over the base, so the lever is the mean distance of the rectangle's
         points from its centre.
         """
         a, b = self.width / 2, self.height / 2
         d = math.hypot(a, b)
         lever = d + a * a / (2 * b) * math.log((b + d) / a) + b * b / (2 * a) * math.log((a + d) / b)
-        return self.grip * lever / 3
+        return self.max_friction_force * lever / 3
 
 
 @dataclass(frozen=True)
 class Circle(Model):
-    """A round pillar that does not move: centre in the map frame and radius (m)."""
+    """A static round pillar: centre in the map frame and radius (m)."""
 
     x: Coordinate
     y: Coordinate

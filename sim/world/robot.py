@@ -1,17 +1,17 @@
-"""The figures of mobile robots, and what their wheels say."""
+"""Parameters of mobile robots, their odometry and their wheel joints."""
 
 import math
 import re
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
-from sim.world.model import Angle, Coordinate, Length, Model, Wanted, positive, within
 from sim.world.obstacles import Point, ring
+from sim.world.validation import Angle, Constraint, Coordinate, Length, Model, positive, within
 
 Pose = tuple[Coordinate, Coordinate, Angle]
 
 RATE = 100
-"""Physics steps in a second."""
+"""Physics steps per second."""
 DT = 1 / RATE
 """Length of a physics step, s."""
 
@@ -21,7 +21,7 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
 
 
 def is_loop(route: tuple[Point, ...]) -> bool:
-    """Whether the corners of a route can be driven round; one without corners is none to be driven."""
+    """Whether corners form a closed route; no corners, which mean no route, are valid too."""
     return not route or (len(route) >= 2 and all(a != b for a, b in ring(route)))
 
 
@@ -33,7 +33,7 @@ class CommandError(ValueError):
 class RobotModel(Model):
     """A small differential-drive robot, a disc seen from above (m, kg, s, rad, N).
 
-    With `stamped` it takes geometry_msgs/TwistStamped on /cmd_vel, otherwise geometry_msgs/Twist.
+    With `stamped` it subscribes to /cmd_vel as geometry_msgs/TwistStamped, otherwise as geometry_msgs/Twist.
     """
 
     radius: Length = 0.1
@@ -48,8 +48,8 @@ class RobotModel(Model):
     max_force: Annotated[float, positive("N")] = 5.0
     max_torque: Annotated[float, positive("N m")] = 0.25
     friction: Annotated[float, within(0, 10)] = 0.3
-    stamped: Annotated[bool, Wanted("true or false")] = False
-    odometry: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")] = (0.0, 0.0, 0.0)  # at time 0
+    stamped: Annotated[bool, Constraint("true or false")] = False
+    odometry: Annotated[Pose, Constraint("[x, y, yaw] (metres and radians)")] = (0.0, 0.0, 0.0)  # at time 0
 
     @property
     def inertia(self) -> float:
@@ -60,36 +60,37 @@ class RobotModel(Model):
         super().__post_init__()
         # A faster robot could pass through a thin wall between two steps.
         if self.max_v * DT > self.radius:
-            self.refuse(
+            self.reject(
                 "max_v", f"{self.radius / DT:g} m/s or less, one radius in a physics step of {DT:g} s"
             )
-        # Where the wheels' grip can't do what ramps and curves ask for, odometry drifts without a collision.
+        # If the wheels' traction were too weak for ramps and curves, odometry would drift without a
+        # collision.
         force = self.mass * math.hypot(self.max_acceleration, self.max_v * self.max_w)
         if self.max_force <= force:
-            self.refuse("max_force", f"more than {force:g} N, which the robot's ramps and curves need")
+            self.reject("max_force", f"more than {force:g} N, which the robot's ramps and curves need")
         torque = self.inertia * self.max_angular_acceleration
         if self.max_torque <= torque:
-            self.refuse("max_torque", f"more than {torque:g} N m, which the robot's ramps need")
+            self.reject("max_torque", f"more than {torque:g} N m, which the robot's ramps need")
 
 
 @dataclass(frozen=True)
 class OtherRobot(Model):
-    """A further robot like the first, in a namespace of its own.
+    """A further robot like the first, in its own namespace.
 
-    `start` is (x, y, yaw) in the map frame. A robot with a `route`, corners (x, y) in the map frame, drives
-    round it at `speed` (m/s); one without waits for commands on /NAME/cmd_vel. `charger` is the point (m) of
-    its own one; without, it charges where the first robot does.
+    `start` is (x, y, yaw) in the map frame. A robot with a `route`, corners (x, y) in the map frame, follows
+    it at `speed` (m/s); one without is driven by commands on /NAME/cmd_vel. `charger` is the position (m) of
+    its own charger; without one, it uses the first robot's.
     """
 
-    name: Annotated[str, Wanted(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
-    start: Annotated[Pose, Wanted("[x, y, yaw] (metres and radians)")]
-    route: Annotated[tuple[Point, ...], Wanted(ROUTE, is_loop)] = ()
+    name: Annotated[str, Constraint(_NAME, re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*").fullmatch)]
+    start: Annotated[Pose, Constraint("[x, y, yaw] (metres and radians)")]
+    route: Annotated[tuple[Point, ...], Constraint(ROUTE, is_loop)] = ()
     speed: Annotated[float, positive("m/s")] = 0.2
-    charger: Annotated[Point, Wanted("[x, y] (metres)")] | None = None
+    charger: Annotated[Point, Constraint("[x, y] (metres)")] | None = None
 
 
 class Odometry(NamedTuple):
-    """Where the wheels say the robot is: pose in odom (m, rad), velocity in base_link (m/s, rad/s)."""
+    """Wheel odometry: pose in odom (m, rad), velocity in base_link (m/s, rad/s)."""
 
     x: float
     y: float
@@ -98,7 +99,7 @@ class Odometry(NamedTuple):
     w: float
 
 
-class Wheels(NamedTuple):
+class WheelJoints(NamedTuple):
     """The two wheel joints: angles (rad, not wrapped) and rates (rad/s), positive when rolling forwards."""
 
     left: float

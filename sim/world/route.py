@@ -1,4 +1,4 @@
-"""A closed way over the floor, to be driven round and round."""
+"""`Route`: a closed path that a robot or a person follows repeatedly."""
 
 import itertools
 import math
@@ -11,7 +11,7 @@ from sim.world.obstacles import Point, ring
 class Route:
     """Straight lines from corner to corner (m) and from the last back to the first.
 
-    A place on the route is the way to it from the first corner, in metres; a full turn later it is the same.
+    A position on the route is the distance along it from the first corner, in metres, modulo its length.
     """
 
     def __init__(self, corners: Sequence[Point]) -> None:
@@ -20,27 +20,30 @@ class Route:
         self._begins = [0.0, *itertools.accumulate(lengths)]
         self.length = self._begins.pop()
 
-    def point(self, place: float) -> Point:
-        """The point (x, y) of a place."""
-        place %= self.length
-        leg = bisect_right(self._begins, place) - 1
+    def point(self, distance: float) -> Point:
+        """The point (x, y) at a distance along the route."""
+        distance %= self.length
+        leg = bisect_right(self._begins, distance) - 1
         (x0, y0), (x1, y1) = self._legs[leg]
-        share = (place - self._begins[leg]) / math.hypot(x1 - x0, y1 - y0)
+        share = (distance - self._begins[leg]) / math.hypot(x1 - x0, y1 - y0)
         return x0 + share * (x1 - x0), y0 + share * (y1 - y0)
 
     def nearest(self, x: float, y: float, begin: float = 0.0, reach: float = math.inf) -> float:
-        """The first of the places nearest to a point (m), among those from `begin` on for `reach` metres."""
+        """The position on the route that is nearest to a point (m); of several, the first.
+
+        Only the `reach` metres of the route from the position `begin` on are searched.
+        """
         reach = min(reach, self.length)
-        places = [begin, begin + reach]
+        candidates = [begin, begin + reach]
         for turn in (0.0, self.length):
             for leg, leg_begin in zip(self._legs, self._begins, strict=True):
-                place = turn + leg_begin + _foot(*leg, x, y)
-                places.append(min(max(place, begin), begin + reach))
-        return min(sorted(places), key=lambda place: _distance(self.point(place), (x, y)))
+                candidate = turn + leg_begin + _projection(*leg, x, y)
+                candidates.append(min(max(candidate, begin), begin + reach))
+        return min(sorted(candidates), key=lambda candidate: _distance(self.point(candidate), (x, y)))
 
 
-def _foot(start: Point, end: Point, x: float, y: float) -> float:
-    """How far along a leg the point nearest to (x, y) lies, m."""
+def _projection(start: Point, end: Point, x: float, y: float) -> float:
+    """How far along a leg its nearest point to (x, y) is, m."""
     ux, uy = end[0] - start[0], end[1] - start[1]
     length = math.hypot(ux, uy)
     return min(max(((x - start[0]) * ux + (y - start[1]) * uy) / length, 0.0), length)

@@ -1,4 +1,4 @@
-"""What a world's simulation is to those that run it or draw it, whatever moves in it."""
+"""`Scene`: the interface of a running simulation, of mobile robots or of a machine."""
 
 from __future__ import annotations
 
@@ -6,35 +6,35 @@ from typing import Protocol
 
 from sim.world.bodies import Body
 from sim.world.contacts import Contact
-from sim.world.description import World
-from sim.world.drawing import Drawing
 from sim.world.lidar import Scan
 from sim.world.machines import kind_of
 from sim.world.mobile_robot import MobileRobot
+from sim.world.pen_drawing import PenDrawing
 from sim.world.simulation import Simulation
+from sim.world.world import World
 
 
 class Scene(Protocol):
-    """A world on its way through time, from 0 on."""
+    """A simulated world that advances in time, from 0 on."""
 
     world: World
-    robots: dict[str, MobileRobot]  # by name, the first is "robot"; none where there is a machine
-    drawing: Drawing | None  # what pens drew; None where nobody has one
-    rate: float  # physics steps in a second
+    robots: dict[str, MobileRobot]  # by name, the first is "robot"; empty with a machine
+    drawing: PenDrawing | None  # the pens' drawing; None without pens
+    rate: float  # physics steps per second
 
     @property
     def time(self) -> float:
         """Simulated time of the last physics step, s."""
 
     def advance(self, until: float) -> None:
-        """Do the physics steps, if any are due, that end at or before `until` (s).
+        """Run the physics steps, if any are due, that end at or before `until` (s).
 
-        Where the steps lie doesn't depend on how often this is called.
+        The times of the steps don't depend on how often this is called.
         """
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """All that moves now: `world.bodies`, where nothing comes or goes."""
+        """The moving bodies now: `world.bodies`, unless bodies were added or removed."""
 
     @property
     def poses(self) -> list[tuple[float, float, float]]:
@@ -42,18 +42,18 @@ class Scene(Protocol):
 
     @property
     def contacts(self) -> list[Contact]:
-        """All touches of the robot "robot" so far, oldest first."""
+        """All contacts of the robot "robot" so far, oldest first."""
 
     @property
     def last_scan(self) -> Scan | None:
-        """What the lidar saw last; None before the first scan, and where there is no lidar."""
+        """The latest scan; None before the first one, and without a lidar."""
 
-    def forget(self) -> None:
-        """Drop the contacts that have ended, for a run without an end."""
+    def discard_history(self) -> None:
+        """Discard the contacts that have ended, to bound the memory of a run without an end."""
 
 
 def simulate(world: World, seed: int) -> Scene:
-    """The simulation that a world asks for; the seed is for all that chance decides in it."""
+    """The simulation of a world; the seed is for everything random in it."""
     if world.machine is None:
         return Simulation(world, seed)
     return kind_of(world.machine).machine(world, seed)

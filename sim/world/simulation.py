@@ -1,32 +1,32 @@
-"""The mobile robots, boxes and people of one world, moved in fixed steps of simulated time."""
+"""Simulates the mobile robots, boxes and people of a world in fixed time steps."""
 
 import functools
 import math
 
 from sim.world.bodies import Body
-from sim.world.contacts import Contact, Touches
-from sim.world.description import World
+from sim.world.contacts import Contact, ContactTracker
 from sim.world.lidar import Scan
 from sim.world.mobile_robot import MobileRobot, Rows
+from sim.world.physics import add_boxes, add_obstacles, add_people, check_start, make_space
 from sim.world.robot import DT, RATE, Pose
-from sim.world.solids import add_boxes, add_obstacles, add_people, check_start, make_space
+from sim.world.world import World
 
 
 class Simulation:
-    """The robots in a world, from time 0 on. To start again, make a new one.
+    """The physics of a world with mobile robots, from time 0 on. To restart, construct a new one.
 
     Equal worlds, seeds and commands at equal times give equal results, bit for bit. The seed is for the
     sensors' noise.
 
     Attributes:
         robots: all mobile robots by name; the first is "robot", the others are in the world's order.
-        robot: the first one.
+        robot: the first robot.
 
     Raises:
-        WorldError: a robot does not fit at its start, or a box is inside something.
+        WorldError: a robot overlaps something at its start, or a box does.
     """
 
-    drawing: None = None  # robots have no pen
+    drawing: None = None  # robots have no pens
     rate: float = RATE
 
     def __init__(self, world: World, seed: int = 0) -> None:
@@ -42,7 +42,7 @@ class Simulation:
             self.robots[name] = robot = MobileRobot(self, self._space, name, number)
             names[robot.shape] = "robot"
         self.robot = self.robots["robot"]
-        self._touches = Touches(
+        self._contacts = ContactTracker(
             self._space, {robot.shape: robot.log for robot in self.robots.values()}, names
         )
 
@@ -53,7 +53,7 @@ class Simulation:
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """All that moves."""
+        """All moving bodies."""
         return self.world.bodies
 
     @property
@@ -63,25 +63,25 @@ class Simulation:
         return [one.pose for one in moving]
 
     def advance(self, until: float) -> None:
-        """Do the physics steps, if any are due, that end at or before `until` (s)."""
+        """Run the physics steps, if any are due, that end at or before `until` (s)."""
         last = math.floor(until * RATE + 1e-6)
-        in_the_way = [*self.robots.values(), *self._boxes]
+        obstacles = [*self.robots.values(), *self._boxes]
         before = [robot.roll for robot in self.robots.values()]
-        before += [functools.partial(person.walk, in_the_way) for person in self._people]
-        after = [robot.feel for robot in self.robots.values() if robot.feel]
-        after += [robot.tire for robot in self.robots.values() if robot.battery]
-        touches, step = self._touches, self._space.step
+        before += [functools.partial(person.walk, obstacles) for person in self._people]
+        after = [robot.update_imu for robot in self.robots.values() if robot.update_imu]
+        after += [robot.update_battery for robot in self.robots.values() if robot.battery]
+        contacts, step = self._contacts, self._space.step
         while self._steps < last:
-            for roll in before:
-                roll()
+            for action in before:
+                action()
             step(DT)
             self._steps += 1
-            touches.update(self._steps / RATE)
-            for feel in after:
-                feel()
+            contacts.update(self._steps / RATE)
+            for action in after:
+                action()
 
-    def movers(self, robot: MobileRobot) -> tuple[Rows, Rows]:
-        """What moves around one robot: segments (x0, y0, x1, y1) and discs (x, y, radius); m, map frame."""
+    def moving_obstacles(self, robot: MobileRobot) -> tuple[Rows, Rows]:
+        """Obstacles that move around one robot: segments (x0, y0, x1, y1), discs (x, y, radius); m, map."""
         sides = [side for box in self._boxes for side in box.sides()]
         radius = self.world.robot.radius
         others = (other for other in self.robots.values() if other is not robot)
@@ -90,15 +90,15 @@ class Simulation:
 
     @property
     def contacts(self) -> list[Contact]:
-        """All touches of the first robot so far, oldest first."""
+        """All contacts of the first robot so far, oldest first."""
         return self.robot.contacts
 
     @property
     def last_scan(self) -> Scan | None:
-        """What the first robot's lidar saw last; None before the first scan."""
+        """The first robot's latest scan; None before the first one."""
         return self.robot.last_scan
 
-    def forget(self) -> None:
-        """Drop the contacts that have ended, for a run without an end."""
+    def discard_history(self) -> None:
+        """Discard the contacts that have ended, to bound the memory of a run without an end."""
         for robot in self.robots.values():
-            robot.forget()
+            robot.discard_history()

@@ -149,7 +149,8 @@ def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
     """
     hits = []
     for scan in [one for one in run.messages("/scan") if one.from_course and _when(one) <= end]:
-        hits.append(points_of(scan.message, run.world.lidar.place(at(run.path, _when(scan))[1:])).tolist())
+        pose = run.world.lidar.mounted_at(at(run.path, _when(scan))[1:])
+        hits.append(points_of(scan.message, pose).tolist())
 
     def is_plain(box: Point) -> bool:
         seen = [[hit for hit in row if math.dist(hit, box) < BOX] for row in hits]

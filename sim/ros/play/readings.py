@@ -46,9 +46,9 @@ class Readings:
         world, truth = session.recording.world, session.truth
         held = reins(world)
         names = [body.name for body in truth.scene.bodies] if truth is not None else []
-        if held is None or world.first not in names:
+        if held is None or world.driven_body not in names:
             return
-        x, y, yaw = truth.scene.poses[names.index(world.first)]
+        x, y, yaw = truth.scene.poses[names.index(world.driven_body)]
         yield "Pose", f"x {x:.2f} m, y {y:.2f} m, yaw {yaw:.2f} rad"
         odom = self._message("/odom", "nav_msgs/msg/Odometry")
         if odom is not None:

@@ -26,11 +26,11 @@ class Reins(NamedTuple):
 
 def reins(world: World | None) -> Reins | None:
     """How keys drive the first robot or turtle of a world; None where there is none."""
-    if world is None or world.first is None:
+    if world is None or world.driven_body is None:
         return None
     if world.machine is None:
         return Reins(stamped=world.robot.stamped)
-    return Reins(f"{world.first}/cmd_vel", speed=TURTLE_SPEED, turn=TURTLE_TURN)
+    return Reins(f"{world.driven_body}/cmd_vel", speed=TURTLE_SPEED, turn=TURTLE_TURN)
 
 
 class Teleop(Node):

@@ -25,7 +25,7 @@ class BatteryTopic:
             charge=battery.charge,
             capacity=model.capacity,
             design_capacity=model.capacity,
-            percentage=battery.share,
+            percentage=battery.percentage,
             power_supply_status=_status(battery),
             power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
             power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_LION,

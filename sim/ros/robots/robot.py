@@ -107,7 +107,7 @@ class Robot(Node):
         self.odom_pub.publish(messages.odom.fill(*stamp, *pose, v, w))
         self.tf_pub.publish(messages.tf.fill(*stamp, *pose))
         self.joint_pub.publish(messages.joints.fill(*stamp, *robot.wheels))
-        if robot.sees:
+        if robot.lidar_works:
             self.scan_pub.publish(messages.scan.fill(*stamp, robot.scan().tobytes()))
         self.bumper_pub.publish(messages.bumper[bool(robot.bumper)])
 

@@ -75,7 +75,7 @@ class RouteDriver(Node):
             return False
         steps = math.ceil((LOOKS - self.first_look) / self.width * 2)
         stretch = (LOOKS - self.first_look) / steps
-        eye_x, eye_y, turn = self.lidar.place((x, y, yaw))
+        eye_x, eye_y, turn = self.lidar.mounted_at((x, y, yaw))
         way = [self.route.point(self.place + self.first_look + step * stretch) for step in range(steps + 1)]
         for bearing, distance in self.near:
             angle = turn + bearing

@@ -49,9 +49,9 @@ class TurtleEnds:
         """Publish where the turtle is and what lies beneath it, and tell of what happened."""
         turtle, log = self._turtle, self._node.get_logger()
         self._rotations.watch()
-        for x, y in turtle.hits:
+        for x, y in turtle.wall_hits:
             log.warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])")
-        turtle.hits.clear()
+        turtle.wall_hits.clear()
         ahead, left, turn = turtle.velocity
         self._pose_pub.publish(self._pose.fill(*turtle.pose, math.hypot(ahead, left), turn))
         self._colour_pub.publish(self._colour.fill(*turtle.colour))
@@ -80,20 +80,20 @@ class TurtleEnds:
     def on_set_pen(self, request: Any, response: Any) -> Any:
         """Draw with another pen, or not at all."""
         if request.off:
-            self._turtle.lift()
+            self._turtle.lift_pen()
         else:
             colour = request.r, request.g, request.b
-            self._turtle.take(Pen(colour, request.width or 1))
+            self._turtle.set_pen(Pen(colour, request.width or 1))
         return response
 
     def on_relative(self, request: Any, response: Any) -> Any:
         """Turn and go ahead at once."""
-        self._obey(self._turtle.jump, request.linear, request.angular)
+        self._obey(self._turtle.teleport_by, request.linear, request.angular)
         return response
 
     def on_absolute(self, request: Any, response: Any) -> Any:
         """Be somewhere else at once."""
-        self._obey(self._turtle.jump_to, request.x, request.y, request.theta)
+        self._obey(self._turtle.teleport_to, request.x, request.y, request.theta)
         return response
 
     def _obey(self, act: Callable[..., None], *values: Any) -> bool:

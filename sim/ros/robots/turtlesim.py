@@ -58,7 +58,7 @@ class Turtlesim(Node):
         self.add_post_set_parameters_callback(self._paint)
 
     def _paint(self, _: list[Parameter] | None = None) -> None:
-        self.scene.paint(tuple(self.get_parameter(name).value for name in CHANNELS))
+        self.scene.set_background(tuple(self.get_parameter(name).value for name in CHANNELS))
 
     @property
     def holonomic(self) -> bool:
@@ -88,7 +88,7 @@ class Turtlesim(Node):
 
     def on_spawn(self, request: Any, response: Any) -> Any:
         """Add a turtle; the response names it, or nobody where that can't be."""
-        name = request.name or self.scene.free_name()
+        name = request.name or self.scene.unused_name()
         if name in self.scene.turtles:
             self.get_logger().error(f"A turtle named [{name}] already exists")
             return response

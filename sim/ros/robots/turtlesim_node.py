@@ -47,7 +47,7 @@ def _take_over() -> Pond | None:
                 if fiber.process is process and not fiber.done:
                     fiber.thrown = RunOver()
             own.scene.reset()
-            own.scene.paint(own.scene.world.machine.background)
+            own.scene.set_background(own.scene.world.machine.background)
             return own.scene
     if ponds:
         run.logged(LEVEL, "launch", "One more turtlesim: it has a pond of its own, which no picture shows.")

@@ -1,9 +1,10 @@
-"""Worlds from a seed: each leaves a way from start to goal, or to all places of a warehouse.
+"""Generates random worlds from a seed, each with a free path from start to goal or to all shelves.
 
-The way is for a robot of the usual size, with room to spare.
+The path is free for a robot of the default size, with a margin.
 
-Only `Random.random`, whose numbers Python promises to keep, and arithmetic that rounds alike everywhere: so
-equal seeds give equal worlds on all machines.
+Generators use only `Random.random`, whose sequence Python guarantees, and arithmetic that rounds equally on
+all
+platforms: so equal seeds give equal worlds everywhere.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from random import Random
 from typing import Any
 
 from sim.suggestions import closest_match
-from sim.world.generate.floor import Clutter, FullError, Room
 from sim.world.generate.maze import Maze
-from sim.world.generate.warehouse import Warehouse
-from sim.world.model import ModelError, WorldError, shown
+from sim.world.generate.room import Clutter, NoSpaceError, Room
+from sim.world.generate.warehouse_layout import Warehouse
+from sim.world.validation import ModelError, WorldError, format_value
 
 KINDS: dict[str, type[Maze | Room | Clutter | Warehouse]] = {
     "room": Room,
@@ -26,38 +27,38 @@ KINDS: dict[str, type[Maze | Room | Clutter | Warehouse]] = {
     "clutter": Clutter,
     "warehouse": Warehouse,
 }
-_TRIES = 20  # whole worlds drawn before one is called too full
+_ATTEMPTS = 20  # worlds drawn before the parameters are rejected
 
 
-def generate(kind: str, seed: int, figures: dict[str, Any]) -> dict[str, Any]:
+def generate(kind: str, seed: int, parameters: dict[str, Any]) -> dict[str, Any]:
     """The fields of the world of this kind and seed.
 
     Raises:
-        WorldError: there is no such kind or figure, a figure cannot be, or the obstacles do not fit.
+        WorldError: an unknown kind or parameter, an invalid value, or obstacles that do not fit.
     """
     if kind not in KINDS:
-        raise WorldError(f"There is no kind of world {kind!r} to generate. {_guess(kind, KINDS)}")
+        raise WorldError(f"There is no kind of world {kind!r} to generate. {_suggestion(kind, KINDS)}")
     if not isinstance(seed, Integral) or isinstance(seed, bool) or seed < 0:
-        raise WorldError(f"The seed of a world is {shown(seed)}; write a whole number, 0 or more.")
+        raise WorldError(f"The seed of a world is {format_value(seed)}; write a whole number, 0 or more.")
     known = [field.name for field in fields(KINDS[kind])]
-    for name in figures:
+    for name in parameters:
         if name not in known:
-            raise WorldError(f"A generated {kind} has no {name!r}. {_guess(name, known)}")
+            raise WorldError(f"A generated {kind} has no {name!r}. {_suggestion(name, known)}")
     try:
-        plan = KINDS[kind](**figures)
+        generator = KINDS[kind](**parameters)
     except ModelError as error:
-        raise WorldError(f"A generated {kind} cannot be: {error.fault}") from error
-    for attempt in range(_TRIES):
+        raise WorldError(f"A generated {kind} cannot be: {error.reason}") from error
+    for attempt in range(_ATTEMPTS):
         try:
-            return plan.draw(Random(f"{kind} {seed} {attempt}")) | {"name": f"{kind}_{seed}"}
-        except FullError:
+            return generator.draw(Random(f"{kind} {seed} {attempt}")) | {"name": f"{kind}_{seed}"}
+        except NoSpaceError:
             continue
     raise WorldError(
-        f"A {kind} of {plan.width:g} m by {plan.height:g} m is too small for all this; "
+        f"A {kind} of {generator.width:g} m by {generator.height:g} m is too small for all this; "
         "make it larger, or ask for fewer obstacles."
     )
 
 
-def _guess(name: str, known: Iterable[str]) -> str:
+def _suggestion(name: str, known: Iterable[str]) -> str:
     near = closest_match(str(name), known)
     return f"Did you mean {near!r}?" if near else f"There are {', '.join(known)}."

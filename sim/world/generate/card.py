@@ -1,4 +1,4 @@
-"""The cards of generated worlds."""
+"""The text cards of generated worlds."""
 
 from sim.world.obstacles import Point
 
@@ -10,7 +10,7 @@ _FRAMES = (
 
 
 def card(picture: str, start: str, topics: str = _TOPICS) -> str:
-    """The text of a card, from what is different in each."""
+    """The text of a card; the parameters are what differs between worlds."""
     return "\n".join(
         (
             f"Picture: {picture}",
@@ -23,11 +23,11 @@ def card(picture: str, start: str, topics: str = _TOPICS) -> str:
 
 
 def goal_at(goal: Point) -> str:
-    """Where the goal is, m."""
+    """A phrase with the goal's position (m)."""
     return f"The goal is at x {goal[0]:g}, y {goal[1]:g}"
 
 
-def furnished(*things: tuple[str, str, int]) -> str:
-    """Such as ", 3 boxes and 1 pillar" of ("box", "boxes", 3), ...; what there is none of is left out."""
-    words = [f"{count} {one if count == 1 else many}" for one, many, count in things if count]
-    return "".join(f"{' and' if word is words[-1] else ','} {word}" for word in words)
+def contents(*things: tuple[str, str, int]) -> str:
+    """A list such as ", 3 boxes and 1 pillar" from ("box", "boxes", 3), ...; without items of count 0."""
+    items = [f"{count} {one if count == 1 else many}" for one, many, count in things if count]
+    return "".join(f"{' and' if item is items[-1] else ','} {item}" for item in items)

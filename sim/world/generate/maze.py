@@ -1,4 +1,4 @@
-"""Mazes: cells of a grid, with walls between some neighbours and none between others."""
+"""Generates mazes: grid cells with walls between some of the neighbours."""
 
 from __future__ import annotations
 
@@ -10,33 +10,33 @@ from random import Random
 from typing import Annotated, Any, NamedTuple
 
 from sim.world.generate.card import card, goal_at
-from sim.world.model import Model, within
+from sim.world.validation import Model, within
 
 Cell = tuple[int, int]
 """(column, row), from the lower left."""
 
 
 class Grid(NamedTuple):
-    """A maze: its size, and all pairs of neighbours without a wall between them, left or lower one first."""
+    """A maze: its size, and all pairs of neighbours without a wall in between, left or lower cell first."""
 
     columns: int
     rows: int
     open: frozenset[tuple[Cell, Cell]]
 
     def inside(self, cell: Cell) -> bool:
-        """Whether there is such a cell."""
+        """Whether the cell is in the grid."""
         return 0 <= cell[0] < self.columns and 0 <= cell[1] < self.rows
 
     def passable(self, a: Cell, b: Cell) -> bool:
-        """Whether one can go from a cell to its neighbour, of which one may be outside."""
+        """Whether there is no wall between two neighbours, of which one may be outside the grid."""
         return ((a, b) if a < b else (b, a)) in self.open
 
 
 @dataclass(frozen=True)
 class Maze(Model):
-    """Cells of `cell` metres, of which each can be reached.
+    """A maze with cells of `cell` metres, all of them reachable.
 
-    `loops` is the share of the walls inside that are opened again: with 0 there is one way to each cell.
+    `loops` is the fraction of inner walls that are removed: with 0 there is exactly one path to each cell.
     """
 
     columns: Annotated[int, within(2, 40)] = 6
@@ -44,14 +44,15 @@ class Maze(Model):
     cell: Annotated[float, within(0.4, 5, "metres")] = 1.0
     loops: Annotated[float, within(0, 1)] = 0.0
 
-    def draw(self, chance: Random) -> dict[str, Any]:
-        """The fields of a world, but its name. The way: corridors are as wide as cells."""
-        maze = grow(self.columns, self.rows, self.loops, chance)
-        way = longest_way(maze, (0, 0))
+    def draw(self, rng: Random) -> dict[str, Any]:
+        """The fields of a world except its name. Corridors are as wide as cells."""
+        maze = generate_maze(self.columns, self.rows, self.loops, rng)
+        path = longest_path(maze, (0, 0))
         width, height, cell = self.columns * self.cell, self.rows * self.cell, self.cell
-        (x, y), goal = (((column + 0.5) * cell, (row + 0.5) * cell) for column, row in (way[0], way[-1]))
-        upwards = way[1][1] > way[0][1]
-        walls = [((x0 * cell, y0 * cell), (x1 * cell, y1 * cell)) for (x0, y0), (x1, y1) in merged(maze)]
+        (x, y), goal = (((column + 0.5) * cell, (row + 0.5) * cell) for column, row in (path[0], path[-1]))
+        upwards = path[1][1] > path[0][1]
+        lines = merged_walls(maze)
+        walls = [((x0 * cell, y0 * cell), (x1 * cell, y1 * cell)) for (x0, y0), (x1, y1) in lines]
         return {
             "bounds": (0.0, 0.0, width, height),
             "start": (x, y, math.pi / 2 if upwards else 0.0),
@@ -65,10 +66,10 @@ class Maze(Model):
         }
 
 
-def grow(columns: int, rows: int, loops: float, chance: Random) -> Grid:
-    """A maze in which one can get from each cell to each, in just one way unless there are `loops`.
+def generate_maze(columns: int, rows: int, loops: float, rng: Random) -> Grid:
+    """A maze by depth-first search: all cells are connected, by exactly one path unless `loops` > 0.
 
-    loops: the share of the remaining inner walls that are opened too, each at random.
+    loops: the probability with which each remaining inner wall is removed.
     """
     closed = Grid(columns, rows, frozenset())
     passages: set[tuple[Cell, Cell]] = set()
@@ -79,7 +80,7 @@ def grow(columns: int, rows: int, loops: float, chance: Random) -> Grid:
         if not fresh:
             trail.pop()
             continue
-        there = fresh[math.floor(chance.random() * len(fresh))]
+        there = fresh[math.floor(rng.random() * len(fresh))]
         passages.add((min(here, there), max(here, there)))
         seen.add(there)
         trail.append(there)
@@ -87,13 +88,13 @@ def grow(columns: int, rows: int, loops: float, chance: Random) -> Grid:
         for row in range(rows):
             here = column, row
             for there in ((column + 1, row), (column, row + 1)):
-                if closed.inside(there) and (here, there) not in passages and chance.random() < loops:
+                if closed.inside(there) and (here, there) not in passages and rng.random() < loops:
                     passages.add((here, there))
     return Grid(columns, rows, frozenset(passages))
 
 
-def longest_way(maze: Grid, start: Cell) -> list[Cell]:
-    """The shortest way from this cell to the one that is farthest to go to."""
+def longest_path(maze: Grid, start: Cell) -> list[Cell]:
+    """The shortest path from this cell to the cell with the greatest path distance."""
     came_from: dict[Cell, Cell | None] = {start: None}
     queue = [start]
     for here in queue:
@@ -101,14 +102,14 @@ def longest_way(maze: Grid, start: Cell) -> list[Cell]:
             if there not in came_from and maze.passable(here, there):
                 came_from[there] = here
                 queue.append(there)
-    way = [queue[-1]]
-    while (before := came_from[way[-1]]) is not None:
-        way.append(before)
-    return way[::-1]
+    path = [queue[-1]]
+    while (before := came_from[path[-1]]) is not None:
+        path.append(before)
+    return path[::-1]
 
 
-def merged(maze: Grid) -> Iterator[tuple[Cell, Cell]]:
-    """The walls as lines between corners of cells, as long as can be: a row of short ones is bumpy."""
+def merged_walls(maze: Grid) -> Iterator[tuple[Cell, Cell]]:
+    """The walls as lines between cell corners, merged: collisions with a row of short segments are bumpy."""
     for y in range(maze.rows + 1):
         for begin, end in _runs(maze.passable((x, y - 1), (x, y)) for x in range(maze.columns)):
             yield (begin, y), (end, y)
@@ -118,7 +119,7 @@ def merged(maze: Grid) -> Iterator[tuple[Cell, Cell]]:
 
 
 def _runs(passable: Iterator[bool]) -> Iterator[tuple[int, int]]:
-    """(begin, end) of each row of walls without a gap."""
+    """(begin, end) of each run of consecutive walls."""
     end = 0
     for gap, places in itertools.groupby(passable):
         begin, end = end, end + len(list(places))

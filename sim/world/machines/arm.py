@@ -1,4 +1,4 @@
-"""An arm of two joints in a plane, which moves to positions or along a trajectory."""
+"""A planar arm with two joints, which moves to joint positions or along a trajectory."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from sim.world.bodies import Body
-from sim.world.machines.machine import Machine, Pose, Site, bar
+from sim.world.machines.machine import Machine, MachineWorld, Pose, bar
 from sim.world.machines.servo import THICKNESS, JointModel, Servo
 from sim.world.machines.trajectory import Trajectory, Values, Waypoint
-from sim.world.model import Model
 from sim.world.robot import RATE, CommandError, wrap
+from sim.world.validation import Model
 
 
 class ReachError(ValueError):
-    """A place that the tip of the arm cannot reach."""
+    """A point that the tip of the arm cannot reach."""
 
 
 @dataclass(frozen=True)
 class ArmModel(Model):
-    """Two links in a row, each turned by a joint; the elbow's angle is 0 where the arm is straight.
+    """Two links in a row, each turned by a joint; the elbow's angle is 0 when the arm is straight.
 
-    Places are in the arm's own frame: metres, its shoulder at the origin, x along the arm at angles 0, 0.
+    Points are in the arm's own frame: metres, the shoulder at the origin, x along the arm at angles 0, 0.
 
     Attributes:
-        elbow_first: /joint_states names the elbow first, as many drivers have an order of their own.
+        elbow_first: /joint_states lists the elbow first; the order of joints differs between drivers.
     """
 
     shoulder: JointModel = field(default_factory=JointModel)
@@ -39,27 +39,27 @@ class ArmModel(Model):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """All that moves: the two links, each with its x from its own joint to the next one or the tip."""
+        """The two links, each with its x axis from its own joint to the next one or the tip."""
         return tuple(
             Body(name, "link", outline=bar(joint.length, THICKNESS))
             for name, joint in zip(("upper_arm", "forearm"), self.joints, strict=True)
         )
 
     def forward(self, shoulder: float, elbow: float) -> Pose:
-        """Where the tip is (x, y) and which way it points (yaw) at these angles (rad)."""
+        """Forward kinematics: the pose (x, y, yaw) of the tip at these angles (rad)."""
         x, y, yaw = self.elbow_pose(shoulder, elbow)
         return x + self.elbow.length * math.cos(yaw), y + self.elbow.length * math.sin(yaw), yaw
 
     def elbow_pose(self, shoulder: float, elbow: float) -> Pose:
-        """Where the elbow is and which way the forearm points at these angles (rad)."""
+        """The elbow's position and the forearm's direction at these angles (rad)."""
         upper = self.shoulder.length
         return upper * math.cos(shoulder), upper * math.sin(shoulder), wrap(shoulder + elbow)
 
     def inverse(self, x: float, y: float, elbow_left: bool = True) -> tuple[float, float]:
-        """The angles (rad) of shoulder and elbow that bring the tip to a place.
+        """Inverse kinematics: the angles (rad) of shoulder and elbow for a position of the tip.
 
-        elbow_left: of the two ways to bend, the one whose elbow angle is positive. The joints' limits are not
-        looked at. Raises ReachError for a place that is too far away or too near.
+        elbow_left: of the two solutions, the one with a positive elbow angle. The joints' limits are not
+        checked. Raises ReachError for a point that is too far away or too near.
         """
         upper, fore = self.shoulder.length, self.elbow.length
         distance = math.hypot(x, y)
@@ -77,9 +77,9 @@ class ArmModel(Model):
 
 
 class Arm(Machine):
-    """The arm under way; `world.machine` is its `ArmModel`. Nothing in it is left to chance."""
+    """The simulated arm; `world.machine` is its `ArmModel`. It is deterministic: the seed has no effect."""
 
-    def __init__(self, world: Site, seed: int = 0) -> None:
+    def __init__(self, world: MachineWorld, seed: int = 0) -> None:
         super().__init__(world)
         self.model: ArmModel = world.machine
         self._servos = [Servo(joint) for joint in self.model.joints]
@@ -93,21 +93,21 @@ class Arm(Machine):
 
     @property
     def positions(self) -> Values:
-        """The joints' angles (rad), shoulder first."""
+        """The joint angles (rad), shoulder first."""
         return tuple(servo.position for servo in self._servos)
 
     @property
     def velocities(self) -> Values:
-        """How fast the joints turn, rad/s."""
+        """The joint velocities, rad/s."""
         return tuple(servo.velocity for servo in self._servos)
 
     @property
     def desired(self) -> tuple[Values, Values]:
-        """The positions (rad) and velocities (rad/s) that the joints should have now."""
+        """The current reference positions (rad) and velocities (rad/s) of the joints."""
         return self._reference.at(self.time)
 
     def command(self, positions: Sequence[float]) -> None:
-        """From now on, turn each joint to its position (rad), or as far towards it as its limits let it.
+        """Set the target position (rad) of each joint, clamped to its limits.
 
         Raises:
             CommandError: not one finite number for each joint.
@@ -117,17 +117,18 @@ class Arm(Machine):
                 f"A command is one finite number (rad) for each of the {len(self._servos)} joints; "
                 f"this one was {list(positions)}: check how it was worked out."
             )
-        self._aim(servo.cut(position) for servo, position in zip(self._servos, positions, strict=True))
+        targets = zip(self._servos, positions, strict=True)
+        self._set_target(servo.clamp(position) for servo, position in targets)
 
     def hold(self) -> None:
-        """Stop as soon as the joints can, and stay there."""
-        self._aim(servo.stop for servo in self._servos)
+        """Decelerate as fast as possible and hold the position."""
+        self._set_target(servo.stop for servo in self._servos)
 
     def follow(self, waypoints: Sequence[Waypoint], delay: float = 0.0) -> Trajectory:
-        """Go through waypoints from where the arm is, and stay at the last.
+        """Follow waypoints from the current positions, and hold the last one.
 
-        Their times (s) count from `delay` (s) on, from now; one that has passed by now is left out. Returns
-        the trajectory in the arm's own time.
+        Their times (s) are relative to now plus `delay` (s); waypoints in the past are skipped. Returns the
+        trajectory, with times of the simulation.
         """
         begin = self.time + delay
         here = Waypoint(max(begin, self.time), self.positions, self.velocities)
@@ -136,11 +137,11 @@ class Arm(Machine):
         self._reference = Trajectory([here, *ahead])
         return self._reference
 
-    def _aim(self, positions: Iterable[float]) -> None:
+    def _set_target(self, positions: Iterable[float]) -> None:
         self._reference = Trajectory([Waypoint(self.time, tuple(positions))])
 
     def _step(self) -> None:
         positions, velocities = self._reference.at((self._steps + 1) / RATE)
         for servo, position, velocity in zip(self._servos, positions, velocities, strict=True):
-            within = servo.cut(position)
+            within = servo.clamp(position)
             servo.step(within, velocity if within == position else 0.0)

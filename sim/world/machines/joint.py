@@ -1,18 +1,18 @@
-"""A single joint that turns a link to the angle it is told."""
+"""A single position-controlled joint with a link."""
 
 from __future__ import annotations
 
 import math
 
-from sim.world.machines.machine import Machine, Pose, Site
+from sim.world.machines.machine import Machine, MachineWorld, Pose
 from sim.world.machines.servo import Servo
 from sim.world.robot import CommandError
 
 
 class Joint(Machine):
-    """One position-controlled joint; `world.machine` is its `JointModel`. Nothing in it is left to chance."""
+    """The simulated joint; `world.machine` is its `JointModel`. Deterministic: the seed has no effect."""
 
-    def __init__(self, world: Site, seed: int = 0) -> None:
+    def __init__(self, world: MachineWorld, seed: int = 0) -> None:
         super().__init__(world)
         self._servo = Servo(world.machine)
         self._target = self._servo.position
@@ -29,11 +29,11 @@ class Joint(Machine):
 
     @property
     def velocity(self) -> float:
-        """How fast it turns, rad/s."""
+        """The joint's velocity, rad/s."""
         return self._servo.velocity
 
     def command(self, position: float) -> None:
-        """From now on, turn to this angle (rad), or as far towards it as the limits let the joint.
+        """Set the target angle (rad), clamped to the joint's limits.
 
         Raises:
             CommandError: the position is infinite or not a number.
@@ -43,7 +43,7 @@ class Joint(Machine):
                 f"Joint commands are finite numbers (rad); this one was {position}: "
                 "check how it was worked out."
             )
-        self._target = self._servo.cut(position)
+        self._target = self._servo.clamp(position)
 
     def _step(self) -> None:
         self._servo.step(self._target)

@@ -1,4 +1,4 @@
-"""A joint with a motor that holds a position: it follows a reference as fast as its limits allow."""
+"""A joint with position control: it follows a reference as fast as its limits allow."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from typing import Annotated
 
 from sim.world.bodies import Body
 from sim.world.machines.machine import bar
-from sim.world.model import Angle, Length, Model, positive
 from sim.world.robot import DT
+from sim.world.validation import Angle, Length, Model, positive
 
-# A reference that changes speed with just the greatest acceleration can be followed.
+# Tolerance for a reference that changes velocity with exactly the greatest acceleration.
 _ROUNDING = 1 + 1e-9
 THICKNESS = 0.06
-"""Of a link in pictures, m."""
+"""Thickness of a link in pictures, m."""
 
 
 @dataclass(frozen=True)
 class JointModel(Model):
-    """One revolute joint and the link that it turns (rad, rad/s, rad/s^2, m). 0 is along x of what holds it.
+    """One revolute joint and its link (rad, rad/s, rad/s^2, m). At 0 the link is along its parent's x axis.
 
     Attributes:
-        lower, upper: the angles at which the joint ends.
+        lower, upper: the joint's limits.
         start: its angle at time 0.
-        max_velocity, max_acceleration: what its motor can do, in either direction.
-        length: of the link, from this joint to the next, or to the tip.
+        max_velocity, max_acceleration: the motor's limits in either direction.
+        length: the link's length, from this joint to the next, or to the tip.
     """
 
     lower: Angle = -math.pi / 2
@@ -38,22 +38,22 @@ class JointModel(Model):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not self.lower < self.upper:
-            self.refuse("lower", f"an angle (radians) below upper, which is {self.upper:g}")
+            self.reject("lower", f"an angle (radians) below upper, which is {self.upper:g}")
         if not self.lower <= self.start <= self.upper:
-            self.refuse("start", f"an angle (radians) from lower to upper, {self.lower:g} to {self.upper:g}")
+            self.reject("start", f"an angle (radians) from lower to upper, {self.lower:g} to {self.upper:g}")
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """All that moves: the link, whose x points from the joint to the tip."""
+        """The link, with its x axis from the joint to the tip."""
         return (Body("link", "link", outline=bar(self.length, THICKNESS)),)
 
 
 class Servo:
-    """Position control with a trapezoidal velocity profile: at once towards the reference, with the greatest
-    acceleration up to the greatest velocity, and braking in time.
+    """Position control with a trapezoidal velocity profile: it accelerates at the limit up to the greatest
+    velocity towards the reference, and decelerates in time.
 
-    The reference may move, and change at any moment: the joint's velocity never jumps, and its position never
-    leaves the limits.
+    The reference may change at any time: the joint's velocity never jumps, and its position stays within the
+    limits.
     """
 
     def __init__(self, model: JointModel) -> None:
@@ -61,24 +61,23 @@ class Servo:
         self.position = model.start
         self.velocity = 0.0
 
-    def cut(self, position: float) -> float:
-        """The position (rad) that a command for this one means: the nearest one within the limits."""
+    def clamp(self, position: float) -> float:
+        """The position (rad), clamped to the limits."""
         return min(max(position, self.model.lower), self.model.upper)
 
     @property
     def stop(self) -> float:
-        """Where (rad) the joint stands still if it brakes from now on."""
-        return self.cut(self._stop(self.position, self.velocity))
+        """The position (rad) at which the joint stops if it decelerates from now on."""
+        return self.clamp(self._stop(self.position, self.velocity))
 
     def step(self, reference: float, rate: float = 0.0) -> None:
-        """Move for one step.
+        """Advance by one step.
 
-        reference, rate: where (rad) the joint should be at the step's end, and how fast (rad/s) it should
-        turn there.
+        reference, rate: the joint's reference position (rad) and velocity (rad/s) at the end of the step.
         """
         model, q, v = self.model, self.position, self.velocity
         most = model.max_acceleration * DT
-        if self._can_be(reference, rate):
+        if self._is_reachable(reference, rate):
             self._set(reference, rate)
             return
         gap = reference - rate * DT - q
@@ -89,8 +88,8 @@ class Servo:
         wanted = max(wanted, -self._speed_within(q - model.lower, -v))
         self._set(q + (v + wanted) / 2 * DT, wanted)
 
-    def _can_be(self, reference: float, rate: float) -> bool:
-        """Whether one step can end with just this, and without a limit too near to brake before."""
+    def _is_reachable(self, reference: float, rate: float) -> bool:
+        """Whether one step can end exactly there, with enough distance to a limit to decelerate."""
         model, q, v = self.model, self.position, self.velocity
         most = model.max_acceleration * DT
         return (
@@ -104,11 +103,11 @@ class Servo:
         return position + velocity * abs(velocity) / (2 * self.model.max_acceleration)
 
     def _speed_within(self, distance: float, speed: float) -> float:
-        """The greatest speed after a step, begun with `speed`, from which it can stop within `distance`."""
+        """The greatest speed after a step, begun at `speed`, from which it can stop within `distance`."""
         limit = self.model.max_acceleration
         rest = distance - speed * DT / 2
         return limit * (math.sqrt(DT * DT / 4 + 2 * rest / limit) - DT / 2) if rest > 0 else 0.0
 
     def _set(self, position: float, velocity: float) -> None:
-        self.position = self.cut(position)
+        self.position = self.clamp(position)
         self.velocity = velocity if self.position == position else 0.0

@@ -1,4 +1,4 @@
-"""A path through joint positions in time: what the joints should do at any moment of it."""
+"""A joint trajectory: interpolates waypoints to positions and velocities at any time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Values = tuple[float, ...]
 
 
 class Waypoint(NamedTuple):
-    """Where the joints should be at a time (s), and how fast they turn then; None: where only that counts."""
+    """Joint positions at a time (s), and velocities; None if the velocities are not specified."""
 
     time: float
     positions: Values
@@ -17,9 +17,9 @@ class Waypoint(NamedTuple):
 
 
 class Trajectory:
-    """Waypoints and what lies between: cubic where both ends have velocities, straight where not.
+    """Waypoints with interpolation: cubic if both ends have velocities, linear otherwise.
 
-    Before the first waypoint and behind the last the joints stand still there.
+    Before the first waypoint and after the last the joints stay there.
     """
 
     def __init__(self, waypoints: Sequence[Waypoint]) -> None:
@@ -37,7 +37,7 @@ class Trajectory:
         if time < points[0].time or time >= self.end:
             still = points[0] if time < points[0].time else points[-1]
             return still.positions, (0.0,) * len(still.positions)
-        while points[self._next].time <= time:  # mostly asked about later and later times
+        while points[self._next].time <= time:  # usually called with increasing times
             self._next += 1
         while points[self._next - 1].time > time:
             self._next -= 1

@@ -1,4 +1,4 @@
-"""The description of a machine with joints as URDF: the XML that ROS's tools read on /robot_description."""
+"""Generates the URDF of a machine with joints, which ROS tools read from /robot_description."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from xml.etree import ElementTree as XML
 from sim.world.machines.servo import THICKNESS, JointModel
 
 EFFORT = 10.0
-"""N m. URDF asks for a limit; the simulated motors know no other than their acceleration."""
+"""N m. URDF requires an effort limit; the simulated motors only have acceleration limits."""
 
 
 def urdf(robot: str, names: Sequence[str], joints: Sequence[JointModel], links: Sequence[str]) -> str:
-    """A robot whose revolute joints, by name, turn links in a row; lengths in metres, angles in radians.
+    """A robot with revolute joints, by name, and links in a row; lengths in metres, angles in radians.
 
-    links: what stands still, what each joint turns, and a frame at the end of the last one.
+    links: the names of the base, of each joint's link, and of a frame at the end of the last one.
     """
     root = XML.Element("robot", name=robot)
     XML.SubElement(root, "link", name=links[0])

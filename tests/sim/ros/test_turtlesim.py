@@ -5,7 +5,7 @@ import math
 import pytest
 
 from sim import Recording, World, run
-from sim.world import Drawing
+from sim.world import PenDrawing
 from tests.sim.ros.evidence import said
 from tests.students.engine.pond import script
 
@@ -227,7 +227,7 @@ def test_numbers_that_are_none_are_refused():
 def test_a_recording_comes_back_from_its_file_with_what_was_drawn(tmp_path, ahead):
     again = Recording.load(ahead.save(tmp_path / "pond.mcap"))
     assert again.drawing == ahead.drawing
-    assert isinstance(again.drawing, Drawing)
+    assert isinstance(again.drawing, PenDrawing)
     assert again.digest == ahead.digest
 
 

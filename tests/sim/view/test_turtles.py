@@ -13,7 +13,7 @@ from sim import World, run
 from sim.view import animate, packing, plot_path, png
 from sim.view.drawing import POINTS, live, packed
 from sim.view.geometry import stays
-from sim.world import Drawing, Stroke, simulate
+from sim.world import PenDrawing, Stroke, simulate
 from tests.students.engine.pond import script
 
 BLUE, PINK, RED = 0x4556FF, 0xB3B8FF, (255, 0, 0)
@@ -95,7 +95,7 @@ def test_when_a_body_was_there(swim):
 
 def test_long_drawings_are_thinned_and_keep_their_ends():
     points = [(tick * 0.016, tick * 1e-4, 0.0) for tick in range(100_000)]
-    drawing = Drawing([Stroke("turtle1", RED, 0.1, points)], [(0.0, RED)])
+    drawing = PenDrawing([Stroke("turtle1", RED, 0.1, points)], [(0.0, RED)])
     (stroke,) = packed(drawing)["strokes"]
     assert len(stroke[3]) == POINTS
     assert (stroke[3][0][0], stroke[3][-1][0]) == (0, 1599984)

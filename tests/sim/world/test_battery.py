@@ -44,7 +44,7 @@ def test_a_charger_fills_it_and_no_further():
     battery = simulation.robot.battery
     assert battery.charge == pytest.approx(0.035) and battery.current == 3.0
     simulation.advance(60)
-    assert (battery.share, battery.current, battery.voltage) == (1.0, 0.0, 12.6)
+    assert (battery.percentage, battery.current, battery.voltage) == (1.0, 0.0, 12.6)
 
 
 def test_with_an_empty_one_the_robot_stops_for_good():

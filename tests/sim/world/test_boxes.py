@@ -79,8 +79,8 @@ def test_a_box_alone_stays_where_it_is():
 
 def test_the_floor_slows_a_turning_box_by_its_twist_grip():
     box = MovableBox(1.0, 0, 0, 0.6, 0.2, mass=1.0, friction=0.3)
-    assert box.grip == pytest.approx(0.3 * GRAVITY)
-    assert box.twist_grip == pytest.approx(box.grip * spread(box), rel=1e-4)
+    assert box.max_friction_force == pytest.approx(0.3 * GRAVITY)
+    assert box.max_friction_torque == pytest.approx(box.max_friction_force * spread(box), rel=1e-4)
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, math.pi / 4])

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from sim.world import RobotModel, Simulation, World, WorldError
-from sim.world.generate.maze import grow, longest_way, merged
+from sim.world.generate.maze import generate_maze, longest_path, merged_walls
 from tests.sim.world.files import HEADINGS
 from tests.sim.world.ways import has_a_way
 
@@ -102,7 +102,7 @@ def test_clutter_of_density_0_is_an_empty_field():
 
 @pytest.mark.parametrize("loops", [0.0, 0.4, 1.0])
 def test_each_cell_of_a_maze_can_be_reached(loops):
-    maze = grow(9, 7, loops, random.Random(1))
+    maze = generate_maze(9, 7, loops, random.Random(1))
     inner = 8 * 7 + 9 * 6
     if loops == 0:
         assert len(maze.open) == 9 * 7 - 1  # a tree: one way to each cell
@@ -110,7 +110,7 @@ def test_each_cell_of_a_maze_can_be_reached(loops):
         assert len(maze.open) == inner
     else:
         assert 9 * 7 - 1 < len(maze.open) < inner
-    ends = {longest_way(maze, (column, row))[0] for column in range(9) for row in range(7)}
+    ends = {longest_path(maze, (column, row))[0] for column in range(9) for row in range(7)}
     assert len(ends) == 63
     reached = {(0, 0)}
     for _ in range(63):
@@ -119,8 +119,8 @@ def test_each_cell_of_a_maze_can_be_reached(loops):
 
 
 def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
-    maze = grow(6, 5, 0.1, random.Random(2))
-    lines = list(merged(maze))
+    maze = generate_maze(6, 5, 0.1, random.Random(2))
+    lines = list(merged_walls(maze))
     length = sum(abs(x1 - x0) + abs(y1 - y0) for (x0, y0), (x1, y1) in lines)
     inner = 5 * 5 + 6 * 4
     assert length == 2 * (6 + 5) + inner - len(maze.open)

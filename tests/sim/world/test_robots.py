@@ -97,7 +97,7 @@ def test_contacts_that_ended_can_be_forgotten():
     for until, v in ((1, 0.5), (2, -0.5), (4, 0.5)):
         drive(robot, until, robot=(v, 0))
     _, lasting = robot.contacts
-    robot.robots["robot"].forget()
+    robot.robots["robot"].discard_history()
     assert robot.contacts == [lasting]
     drive(robot, 5, robot=(-0.5, 0))
     (contact,) = robot.contacts

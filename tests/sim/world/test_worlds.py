@@ -20,7 +20,7 @@ from sim.world import (
     World,
     WorldError,
 )
-from sim.world.worldfile import MACHINES
+from sim.world.world_file import MACHINES
 from tests.sim.world.files import CARD, HEADINGS, load
 from tests.sim.world.mobile import MOBILE
 from tests.sim.world.ways import has_a_way

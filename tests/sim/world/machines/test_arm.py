@@ -181,38 +181,38 @@ def test_hold_brakes_and_stays():
     assert arm.positions[0] == pytest.approx(stop)
 
 
-def orders(chance, joint):
+def orders(rng, joint):
     """An endless mix of what an arm can be told, most of it more than its joints can do."""
 
     def angle():
-        return chance.uniform(joint.lower, joint.upper)
+        return rng.uniform(joint.lower, joint.upper)
 
     while True:
-        if chance.random() < 0.4:
+        if rng.random() < 0.4:
             yield lambda arm: arm.command((3 * angle(), 3 * angle()))
-        elif chance.random() < 0.2:
+        elif rng.random() < 0.2:
             yield lambda arm: arm.hold()
         else:
-            moments = sorted(chance.uniform(0, 4) for _ in range(chance.randint(1, 5)))
-            speed = chance.choice([0.0, 0.5, -1.0]) * joint.max_velocity
+            moments = sorted(rng.uniform(0, 4) for _ in range(rng.randint(1, 5)))
+            speed = rng.choice([0.0, 0.5, -1.0]) * joint.max_velocity
             points = [Waypoint(t, (angle(), angle()), (speed, -speed)) for t in moments[:-1]]
-            points.append(Waypoint(moments[-1], (angle(), angle()), chance.choice([None, (0.0, 0.0)])))
-            yield lambda arm, points=points: arm.follow(points, chance.choice([0.0, 0.2, -0.1]))
+            points.append(Waypoint(moments[-1], (angle(), angle()), rng.choice([None, (0.0, 0.0)])))
+            yield lambda arm, points=points: arm.follow(points, rng.choice([0.0, 0.2, -0.1]))
 
 
 @pytest.mark.parametrize("seed", range(40))
 def test_whatever_it_is_told_no_joint_ever_breaks_a_limit(seed):
     """Neither of place, nor of speed, nor of acceleration; and speed is what places change by."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     joint = JointModel(
-        -chance.uniform(0.1, 3), chance.uniform(0.1, 3), 0.0, chance.uniform(0.2, 5), chance.uniform(0.3, 30)
+        -rng.uniform(0.1, 3), rng.uniform(0.1, 3), 0.0, rng.uniform(0.2, 5), rng.uniform(0.3, 30)
     )
     arm = alone(ArmModel(joint, joint))
-    order = orders(chance, joint)
+    order = orders(rng, joint)
     for _ in range(12):
         next(order)(arm)
         place, speed = arm.positions[0], arm.velocities[0]
-        for _ in steps(arm, chance.uniform(0.01, 2)):
+        for _ in steps(arm, rng.uniform(0.01, 2)):
             before, slower, place, speed = place, speed, arm.positions[0], arm.velocities[0]
             assert joint.lower <= place <= joint.upper
             assert abs(speed) <= joint.max_velocity

@@ -12,10 +12,10 @@ MODEL = JointModel(lower=-1.5, upper=1.5, max_velocity=1.0, max_acceleration=2.0
 ROUNDING = 1e-9
 
 
-def duration(way, model=MODEL):
+def duration(path, model=MODEL):
     """The closed form: with and without a stretch at full speed."""
     v, a = model.max_velocity, model.max_acceleration
-    return way / v + v / a if way >= v * v / a else 2 * math.sqrt(way / a)
+    return path / v + v / a if path >= v * v / a else 2 * math.sqrt(path / a)
 
 
 def arrival(joint, target):
@@ -24,11 +24,11 @@ def arrival(joint, target):
     return next(t for t in steps(joint, 10) if (joint.position, joint.velocity) == (target, 0.0)) - begin
 
 
-@pytest.mark.parametrize("way", [1.5, 1.0, 0.5, 0.32, 0.1, 0.02])
-def test_a_move_takes_as_long_as_its_closed_form(way):
+@pytest.mark.parametrize("path", [1.5, 1.0, 0.5, 0.32, 0.1, 0.02])
+def test_a_move_takes_as_long_as_its_closed_form(path):
     joint = alone(MODEL)
-    joint.command(way)
-    assert duration(way) - ROUNDING <= arrival(joint, way) <= duration(way) + 0.02
+    joint.command(path)
+    assert duration(path) - ROUNDING <= arrival(joint, path) <= duration(path) + 0.02
 
 
 def test_the_profile_is_a_trapezoid():

@@ -1,24 +1,24 @@
-"""The solid things of a world in the physics: those that stand still, boxes that can be pushed, people."""
+"""Adds a world's obstacles, movable boxes and people to a pymunk space."""
 
 from __future__ import annotations
 
 import pymunk
 
-from sim.world.description import World
-from sim.world.model import WorldError
 from sim.world.obstacles import MovableBox, placed, ring
-from sim.world.people import Walker
+from sim.world.people import WalkingPerson
 from sim.world.robot import Pose, wrap
+from sim.world.validation import WorldError
+from sim.world.world import World
 
 _FRICTION = 0.5
-# How deep touching bodies may overlap (m), for a contact to last; pymunk's own 0.1 suits pixels.
+# Overlap (m) of bodies in contact that the solver tolerates; pymunk's default, 0.1, is meant for pixels.
 _COLLISION_SLOP = 1e-3
-# The share of any deeper overlap that is left after a second: all of it goes in the next step.
+# The fraction of any deeper overlap that remains after a second: all of it is removed in the next step.
 _COLLISION_BIAS = 0
 
 
 class PushedBox:
-    """A movable box in the physics, held by the floor's friction."""
+    """A movable box in the physics, with friction between box and floor."""
 
     def __init__(self, space: pymunk.Space, box: MovableBox) -> None:
         self._outline = box.outline()
@@ -30,15 +30,15 @@ class PushedBox:
         ground = space.static_body
         pivot = pymunk.PivotJoint(ground, self.body, (box.x, box.y), (0, 0))
         gear = pymunk.GearJoint(ground, self.body, 0, 1)
-        pivot.max_force, gear.max_force = box.grip, box.twist_grip
+        pivot.max_force, gear.max_force = box.max_friction_force, box.max_friction_torque
         for joint in (pivot, gear):
-            # Joints of finite force that pass on velocity only: they slow the box and don't pull it back.
+            # Joints of finite force without position correction: they slow the box and don't pull it back.
             joint.max_bias = 0
             space.add(joint)
 
     @property
     def pose(self) -> Pose:
-        """Where it is: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
+        """Its pose: x, y (m) and yaw (rad, in (-pi, pi]) in the map frame."""
         x, y = self.body.position
         return x, y, wrap(self.body.angle)
 
@@ -49,7 +49,7 @@ class PushedBox:
 
 
 def make_space() -> pymunk.Space:
-    """An empty space that is seen from above."""
+    """An empty space, seen from above: without gravity."""
     space = pymunk.Space()
     space.collision_slop = _COLLISION_SLOP
     space.collision_bias = _COLLISION_BIAS
@@ -57,9 +57,9 @@ def make_space() -> pymunk.Space:
 
 
 def add_obstacles(space: pymunk.Space, world: World) -> dict[pymunk.Shape, str]:
-    """Add what stands still, in the order of the world's file, for the order changes the solver's rounding.
+    """Add static obstacles in the order of the world's file, because the order changes the solver's rounding.
 
-    Returns what each shape is: wall, box or circle.
+    Returns the kind of each shape: wall, box or circle.
     """
     ground = space.static_body
     shapes: dict[pymunk.Shape, str] = {}
@@ -95,9 +95,9 @@ def add_boxes(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str])
     return boxes
 
 
-def add_people(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str]) -> list[Walker]:
-    """Add those who walk about, in the order of the world's file, and their shapes to `names`."""
-    walkers = [Walker(space, person) for person in world.people]
+def add_people(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str]) -> list[WalkingPerson]:
+    """Add the people in the order of the world's file, and their shapes to `names`."""
+    walkers = [WalkingPerson(space, person) for person in world.people]
     for walker in walkers:
         walker.shape.friction = _FRICTION
         names[walker.shape] = "person"
@@ -105,7 +105,7 @@ def add_people(space: pymunk.Space, world: World, names: dict[pymunk.Shape, str]
 
 
 def check_start(space: pymunk.Space, world: World, name: str, names: dict[pymunk.Shape, str]) -> None:
-    """Raise WorldError if the robot of this name, which is not in the space yet, has no room at its start."""
+    """Raise WorldError if a robot, which is not in the space yet, overlaps something at its start."""
     x, y, _ = world.starts()[name]
     hit = space.point_query_nearest((x, y), world.robot.radius, pymunk.ShapeFilter())
     if hit:
