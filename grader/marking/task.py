@@ -8,8 +8,9 @@ import socket
 import tempfile
 from dataclasses import dataclass, field
 
-from grader.marking.handed_in.submission import HandedIn, Release
 from grader.marking.league.contest import Contest
+from grader.marking.submission.assignment_release import Release
+from grader.marking.submission.submitted_files import SubmittedFiles
 
 RESULT = 250_000_000  # bytes of a result on its way back: JSON, where a letter may take six
 
@@ -38,7 +39,7 @@ class Task:
 
     student: str
     release: Release
-    handed_in: HandedIn
+    submitted: SubmittedFiles
     key: str
     contest: Contest | None = None
 

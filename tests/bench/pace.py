@@ -6,8 +6,9 @@ import time
 from pathlib import Path
 
 from grader.marking.command.cli import USUAL_JOBS
-from grader.marking.handed_in.submission import load_release, read_folder
 from grader.marking.pool import Pool
+from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import Task
 from tests.bench.report import table
 

@@ -5,7 +5,8 @@ from pathlib import Path
 import nbformat
 from nbformat.v4 import new_code_cell, new_notebook
 
-from grader.marking.handed_in.submission import load_release, read_folder
+from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import Task
 from tests.marking.tiny import answer, grade
 

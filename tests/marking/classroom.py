@@ -11,9 +11,9 @@ from nbgrader.api import Gradebook
 
 from grader.marking.command.intake import TaskReader, find_submissions
 from grader.marking.gradebook.course import Course
-from grader.marking.handed_in.submission import load_release
 from grader.marking.release.make_exercises import release
 from grader.marking.result import CellResult, NotebookResult, Result
+from grader.marking.submission.assignment_release import load_release
 from grader.marking.task import Task
 from tests.marking.tiny import ROOT, answer, grade
 
@@ -90,7 +90,7 @@ def tasks(course: Course, secret: str = "") -> list[Task]:
 
 def result(course: Course, task: Task, **changes: Any) -> Result:
     """What marking gives, from the submission's own bytes: the same each time, different points for each."""
-    notebook = nbformat.reads(task.handed_in.contents[f"{NOTEBOOK}.ipynb"].decode(), 4)
+    notebook = nbformat.reads(task.submitted.contents[f"{NOTEBOOK}.ipynb"].decode(), 4)
     cells = []
     for cell in notebook.cells:
         if cell.id in POINTS:

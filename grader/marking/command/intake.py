@@ -13,8 +13,9 @@ from nbgrader.utils import is_grade
 
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.course import Course
-from grader.marking.handed_in.submission import Release, read_folder, submission_key
 from grader.marking.judge import testcells
+from grader.marking.submission.assignment_release import Release
+from grader.marking.submission.submitted_files import read_folder, submission_key
 from grader.marking.task import Task
 from grader.marking.version import code_version
 
@@ -52,9 +53,9 @@ class TaskReader:
 
     def read(self, student: str, folder: Path) -> Task:
         """The task of marking what lies in a student's folder now. Raises nothing for whatever lies there."""
-        handed_in = read_folder(folder, self.release)
-        key = submission_key(handed_in, self.release, self._fingerprint, self._version)
-        return Task(student, self.release, handed_in, key)
+        submitted = read_folder(folder, self.release)
+        key = submission_key(submitted, self.release, self._fingerprint, self._version)
+        return Task(student, self.release, submitted, key)
 
 
 def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str], float] | None) -> None:

@@ -19,13 +19,13 @@ from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.marked_notebooks import (
     is_shown,
     marked_notebooks,
-    time_handed_in,
+    submission_time,
     write_notebooks,
 )
-from grader.marking.handed_in.submission import load_release
 from grader.marking.journal import Journal, JournalEntry
 from grader.marking.progress import Progress
 from grader.marking.result import Result
+from grader.marking.submission.assignment_release import load_release
 from grader.marking.task import Task
 
 
@@ -170,7 +170,7 @@ class _ClassRun:
     def write(self, entry: JournalEntry) -> None:
         """Bring gradebook and notebooks up to a result, if they aren't. Raises GradebookError, OSError."""
         result, shown = entry.result, marked_notebooks(entry, self.reader.release)
-        when = time_handed_in(self.course, result)
+        when = submission_time(self.course, result)
         if is_shown(self.course, entry, shown) and self.book.has(result.assignment, result.student, when):
             return
         self.book.write(result, shown, when)

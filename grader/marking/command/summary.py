@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED
-from grader.marking.handed_in.words import quote
 from grader.marking.result import CellResult, Result
+from grader.marking.submission.quoting import quote
 
 SLOWEST = 5
 FEW = 0.5  # of the points

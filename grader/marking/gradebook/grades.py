@@ -13,6 +13,6 @@ class Grades(CsvExportPlugin):
     def export(self, gradebook: Gradebook) -> None:
         """Write the file. `--to` and `--assignment` say otherwise."""
         self.to = self.to or str(PLACE)
-        handed_in = [each.name for each in gradebook.assignments if each.num_submissions]
-        self.assignment = self.assignment or handed_in or ["none"]  # an empty list would stand for all
+        submitted = [each.name for each in gradebook.assignments if each.num_submissions]
+        self.assignment = self.assignment or submitted or ["none"]  # an empty list would stand for all
         super().export(gradebook)

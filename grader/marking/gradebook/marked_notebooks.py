@@ -8,9 +8,9 @@ import nbformat
 from nbformat import NotebookNode
 
 from grader.marking.gradebook.course import TIMESTAMP, Course, timestamp
-from grader.marking.handed_in.submission import Release
 from grader.marking.journal import JournalEntry
 from grader.marking.result import Result
+from grader.marking.submission.assignment_release import Release
 from grader.marking.whole_file import write_whole
 
 NOTICE = "how-this-was-marked"  # id of the cell on top
@@ -70,7 +70,7 @@ def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
     return all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
 
 
-def time_handed_in(course: Course, result: Result) -> datetime | None:
+def submission_time(course: Course, result: Result) -> datetime | None:
     """When the submission was handed in (UTC), where that is known."""
     return timestamp(course.submitted(result.student, result.assignment))[0]
 

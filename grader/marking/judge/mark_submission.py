@@ -10,14 +10,14 @@ from time import monotonic
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.rebuild import rebuild_submission
-from grader.marking.handed_in.suspicion import suspicions
 from grader.marking.judge.league_run import LeagueRun
 from grader.marking.judge.marking import Marking, StartStudentProcess, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
 from grader.marking.outputs import writable_text
 from grader.marking.result import NotebookResult, Result
+from grader.marking.submission.rebuild import rebuild_submission
+from grader.marking.submission.suspicious_code import find_suspicious_code
 from grader.marking.task import Task
 from grader.seeds import secret_of_student
 
@@ -26,7 +26,7 @@ MOST_TRICKS = 20  # of a notebook are told
 
 def rebuild_notebooks(marking: Marking) -> None:
     """Put the student's answers into the release's notebooks. Raises Unusable if none can be marked."""
-    marking.rebuilt = rebuild_submission(marking.task.handed_in, marking.task.release)
+    marking.rebuilt = rebuild_submission(marking.task.submitted, marking.task.release)
     marking.flags += marking.rebuilt.flags
 
 
@@ -40,8 +40,8 @@ def find_exercises(marking: Marking) -> None:
 def name_tricks(marking: Marking) -> None:
     """Flag each suspicious thing in a notebook that the release doesn't do itself."""
     for name, rebuilt in marking.rebuilt.notebooks.items():
-        ours = set(suspicions(_sources(marking.task.release.notebooks[name])))
-        tricks = [trick for trick in suspicions(_sources(rebuilt.notebook)) if trick not in ours]
+        ours = set(find_suspicious_code(_sources(marking.task.release.notebooks[name])))
+        tricks = [trick for trick in find_suspicious_code(_sources(rebuilt.notebook)) if trick not in ours]
         if len(tricks) > MOST_TRICKS:
             tricks[MOST_TRICKS:] = [f"There are {len(tricks) - MOST_TRICKS} more such things in it."]
         marking.flags += tricks

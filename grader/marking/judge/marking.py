@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from nbformat import NotebookNode
 
 from grader.exercise import Exercise
-from grader.marking.handed_in.rebuild import RebuiltSubmission
 from grader.marking.judge.cell_outputs import Displays
 from grader.marking.judge.led_process import LedProcess
 from grader.marking.result import CellResult
+from grader.marking.submission.rebuild import RebuiltSubmission
 from grader.marking.task import Task
 
 StartStudentProcess = Callable[[], LedProcess]  # gives a fresh process, for one notebook
@@ -40,7 +40,7 @@ class Marking:
     @property
     def files(self) -> dict[str, bytes]:
         """What lies beside the notebooks: the release's files, and the student's packages."""
-        workspace = self.task.handed_in.workspace
+        workspace = self.task.submitted.workspace
         return dict(self.task.release.files) | ({} if isinstance(workspace, str) else dict(workspace))
 
     def notebook(self, name: str) -> NotebookNode:

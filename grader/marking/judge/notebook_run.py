@@ -12,7 +12,6 @@ from typing import Any
 from nbformat import NotebookNode
 
 from grader.marking.errors import StudentProcessGone
-from grader.marking.handed_in.words import quote
 from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.led_process import LedProcess
@@ -20,6 +19,7 @@ from grader.marking.judge.looking_cells import looking_cells
 from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.testcells import is_test
 from grader.marking.outputs import writable_text
+from grader.marking.submission.quoting import quote
 
 NOTHING = "pass"  # in place of a cell that is left out: the ones below keep their numbers
 LEFT_OUT = "Not run for marking, where the tests look at what your nodes do."

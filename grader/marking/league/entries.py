@@ -9,18 +9,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.marking.errors import CourseError, Unusable
-from grader.marking.handed_in.folder import FILE, FolderEntry, read_file
-from grader.marking.handed_in.submission import (
-    LARGEST,
-    SUFFIX,
-    HandedIn,
-    Release,
-    load_release,
+from grader.marking.league.contest import Contest
+from grader.marking.league.standings import REFERENCE
+from grader.marking.submission.assignment_release import SUFFIX, Release, load_release
+from grader.marking.submission.submitted_files import (
+    MAX_NOTEBOOK_BYTES,
+    SubmittedFiles,
     read_folder,
     submission_key,
 )
-from grader.marking.league.contest import Contest
-from grader.marking.league.standings import REFERENCE
+from grader.marking.submission.untrusted_folder import FILE, FolderEntry, read_file
 from grader.marking.task import Task
 from grader.marking.version import code_version
 
@@ -30,15 +28,15 @@ class Entries:
     """What plays for a release. read: reads what each one handed in; it raises nothing."""
 
     release: Release
-    read: Mapping[str, Callable[[], HandedIn]]
+    read: Mapping[str, Callable[[], SubmittedFiles]]
 
     def tasks(self, contest: Contest, chosen: Iterable[str]) -> Iterable[Task]:
         """The task of each of the chosen, read when its turn comes."""
         version = code_version()
         for student in chosen:
-            handed_in = self.read[student]()
-            key = submission_key(handed_in, self.release, repr(contest), version)
-            yield Task(student, self.release, handed_in, key, contest)
+            submitted = self.read[student]()
+            key = submission_key(submitted, self.release, repr(contest), version)
+            yield Task(student, self.release, submitted, key, contest)
 
 
 def of_class(folder: Path, assignment: str) -> Entries:
@@ -62,7 +60,7 @@ def of_notebooks(folder: Path, assignment: str, notebooks: Iterable[str]) -> Ent
     if not any(place.glob(f"*{SUFFIX}")):
         raise CourseError(f"expected the assignment {assignment} in {place.parent}, saw none")
     release = load_release(place)
-    found: dict[str, Callable[[], HandedIn]] = {}
+    found: dict[str, Callable[[], SubmittedFiles]] = {}
     for path in map(Path, notebooks):
         if path.stem in found:
             raise CourseError(f"two notebooks are called {path.stem}: give each version a name of its own")
@@ -70,18 +68,18 @@ def of_notebooks(folder: Path, assignment: str, notebooks: Iterable[str]) -> Ent
             raise CourseError(f"expected a notebook such as my_robot{SUFFIX}, saw {path}")
         if not path.exists():
             raise CourseError(f"there is no notebook {path}")
-        found[path.stem] = functools.partial(_handed_in, _content(path), list(release.notebooks)[-1])
+        found[path.stem] = functools.partial(_submitted, _content(path), list(release.notebooks)[-1])
     return Entries(release, found)
 
 
 def _content(path: Path) -> bytes:
     try:
-        return read_file(path.absolute().parent, path.name, LARGEST)
+        return read_file(path.absolute().parent, path.name, MAX_NOTEBOOK_BYTES)
     except Unusable as reason:
         raise CourseError(str(reason)) from None
 
 
-def _handed_in(content: bytes, name: str) -> HandedIn:
+def _submitted(content: bytes, name: str) -> SubmittedFiles:
     """As if it alone had been handed in, under the name that the assignment gives it."""
     file = name + SUFFIX
-    return HandedIn((FolderEntry(file, FILE, len(content)),), {file: content})
+    return SubmittedFiles((FolderEntry(file, FILE, len(content)),), {file: content})

@@ -3,9 +3,10 @@
 import nbformat
 import pytest
 
-from grader.marking.handed_in.submission import Release, read_folder
 from grader.marking.pool import Pool
 from grader.marking.result import Result
+from grader.marking.submission.assignment_release import Release
+from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import Task, TimeLimits
 from tests.marking.tiny import answer, grade
 from tests.students.packages import greeter

@@ -11,7 +11,7 @@ from nbgrader.api import Gradebook
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
-from grader.marking.gradebook.marked_notebooks import marked_notebooks, time_handed_in
+from grader.marking.gradebook.marked_notebooks import marked_notebooks, submission_time
 from grader.marking.journal import JournalEntry
 from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
@@ -62,7 +62,7 @@ def file(course):
 def write(course, task, **changes):
     entry = JournalEntry("ab12", result(course, task, **changes))
     with Book(course) as book:
-        book.write(entry.result, marked_notebooks(entry, task.release), time_handed_in(course, entry.result))
+        book.write(entry.result, marked_notebooks(entry, task.release), submission_time(course, entry.result))
 
 
 def cells(found, *changed):

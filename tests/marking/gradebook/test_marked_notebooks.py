@@ -8,7 +8,7 @@ from grader.marking.gradebook.marked_notebooks import (
     is_shown,
     marked_notebooks,
     notice,
-    time_handed_in,
+    submission_time,
     write_notebooks,
 )
 from grader.marking.journal import JournalEntry
@@ -82,11 +82,11 @@ def test_the_folder_holds_what_was_marked_and_the_time_and_nothing_else(course, 
         write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
         assert sorted(path.name for path in folder.iterdir()) == ["nodes.ipynb", "timestamp.txt"]
         assert {os.stat(path).st_mode & 0o777 for path in folder.iterdir()} == {0o444}
-    assert str(time_handed_in(course, entry.result)) == "2026-01-01 10:00:00"
+    assert str(submission_time(course, entry.result)) == "2026-01-01 10:00:00"
     (course.submitted("anna", ASSIGNMENT) / "timestamp.txt").unlink()
     write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
     assert [path.name for path in folder.iterdir()] == ["nodes.ipynb"]
-    assert time_handed_in(course, entry.result) is None
+    assert submission_time(course, entry.result) is None
 
 
 def test_a_course_of_several_instructors_lets_its_group_write(course, task):

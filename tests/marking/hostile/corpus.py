@@ -24,11 +24,12 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-from grader.marking.handed_in.submission import load_release, read_folder
 from grader.marking.pool import Pool
 from grader.marking.release.make_exercises import release
 from grader.marking.release.samples import submission
 from grader.marking.result import Result
+from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import Task, TimeLimits
 
 ROOT = Path(__file__).parents[3]
@@ -98,7 +99,7 @@ def mark(folder: Path, names: Sequence[str], jobs: int = 2) -> dict[str, Result]
     """Mark those who handed in; name to result."""
     submitted, released = folder / "class" / "submitted", load_release(folder / "exercises" / ASSIGNMENT)
     read = {name: read_folder(submitted / name / ASSIGNMENT, released) for name in names}
-    tasks = [Task(name, released, handed_in, "00") for name, handed_in in read.items()]
+    tasks = [Task(name, released, submitted, "00") for name, submitted in read.items()]
     found = {}
     for limits in (TimeLimits(), QUICK):
         some = [task for task in tasks if (task.student in WITHOUT_END) == (limits == QUICK)]

@@ -20,9 +20,10 @@ from pathlib import Path
 
 import nbformat
 
-from grader.marking.handed_in.submission import Release, read_folder
 from grader.marking.pool import Pool
 from grader.marking.result import Result
+from grader.marking.submission.assignment_release import Release
+from grader.marking.submission.submitted_files import read_folder
 from grader.marking.task import Task
 from tests.marking.hostile.corpus import SECRET, block, blocks
 from tests.marking.tiny import answer, grade
@@ -52,12 +53,12 @@ Trick = Callable[[Path], str | None]
 def mark(folder: Path, names: Iterable[str]) -> dict[str, Result]:
     """Hand in for those named, and mark them; name to result. The secret lies in the class's folder."""
     (folder / ".secret").write_text(SECRET)
-    tasks = [_handed_in(folder / name, TRICKS[name]) for name in names]
+    tasks = [_submitted(folder / name, TRICKS[name]) for name in names]
     with Pool(2, secret=SECRET) as pool:
         return {result.student: result for result in pool.mark(tasks)}
 
 
-def _handed_in(place: Path, trick: Trick) -> Task:
+def _submitted(place: Path, trick: Trick) -> Task:
     sources = place / "ws/src"
     _write(sources, RIGHT)
     notebook = copy.deepcopy(RELEASE.notebooks["small"])

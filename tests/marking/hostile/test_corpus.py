@@ -8,7 +8,7 @@ from tests.marking.hostile.corpus import DAMAGES, HONEST, ROOT, SECRET, block, c
 FILES = sorted(file.stem for file in (ROOT / "tests" / "students" / "hostile").glob("*.py"))
 EVERYBODY = [*HONEST, *FILES, *(trick.__name__ for trick in DAMAGES)]
 # One for each place where a trick takes hold; their siblings are for the night. Each flag, each repair and
-# each way to be stopped has a cheaper test of its own, in handed_in/, judge/, sandbox/ and student_process/.
+# each way to be stopped has a cheaper test of its own, in submission/, judge/, sandbox/ and student_process/.
 EVERY_DAY = [
     *HONEST,
     *("forged_recording", "fake_messages", "teleported_robot", "speaks_as_the_robot"),  # evidence

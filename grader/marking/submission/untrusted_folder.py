@@ -1,7 +1,7 @@
-"""Looks into a folder that a student filled, and reads from it without surprises.
+"""Lists and reads a folder that a student controls.
 
-Links are never followed, only regular files are opened, no more is read than asked for, and nothing that
-lies there, such as a pipe that nobody writes to, makes this wait.
+Links are never followed, only regular files are opened, no more is read than requested, and nothing in the
+folder blocks, such as a pipe without a writer.
 """
 
 import errno
@@ -14,10 +14,10 @@ from itertools import islice
 from pathlib import Path
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.words import quote
+from grader.marking.submission.quoting import quote
 
-MOST_ENTRIES = 5000
-DEEPEST = 3  # folders in folders
+MAX_ENTRIES = 5000
+MAX_DEPTH = 3  # folders in folders
 FILE, FOLDER = "a file", "a folder"
 KINDS = {
     stat.S_IFREG: FILE,
@@ -40,13 +40,13 @@ class FolderEntry:
 
 
 def list_entries(folder: Path) -> list[FolderEntry]:
-    """Return what lies in `folder` and in its folders, sorted by path: as much as anybody could mean.
+    """Return the entries of `folder` and its subfolders, sorted by path: at most MAX_ENTRIES.
 
-    Raises Unusable if `folder` is none that can be read.
+    Raises Unusable if `folder` is not a readable folder.
     """
     with ExitStack() as opened:
         found = _below(_folder(folder, opened), "")
-        return sorted(islice(found, MOST_ENTRIES), key=lambda entry: entry.path)
+        return sorted(islice(found, MAX_ENTRIES), key=lambda entry: entry.path)
 
 
 def read_file(folder: Path, path: str, limit: int) -> bytes:
@@ -73,7 +73,7 @@ def _file(folder: Path, path: str) -> Iterator[int]:
         try:
             for part in between:
                 place = _opened(part, _AS_FOLDER, opened, place)
-            # Looked at first: to open a device is to use it.
+            # Checked before opening: opening a device has effects.
             _refuse_all_but_files(path, os.lstat(name, dir_fd=place).st_mode)
             descriptor = _opened(name, _AS_FILE, opened, place)
             _refuse_all_but_files(path, os.fstat(descriptor).st_mode)
@@ -107,10 +107,10 @@ def _below(place: int, prefix: str) -> Iterator[FolderEntry]:
         with suppress(FileNotFoundError):
             seen = os.lstat(name, dir_fd=place)
             yield FolderEntry(prefix + name, _kind(seen.st_mode), seen.st_size)
-            if stat.S_ISDIR(seen.st_mode) and prefix.count("/") < DEEPEST:
+            if stat.S_ISDIR(seen.st_mode) and prefix.count("/") < MAX_DEPTH:
                 folders.append(name)
     for name in folders:
-        with suppress(OSError), ExitStack() as inside:  # where nobody may look, nothing is used
+        with suppress(OSError), ExitStack() as inside:  # an unreadable folder counts as empty
             yield from _below(_opened(name, _AS_FOLDER, inside, place), f"{prefix}{name}/")
 
 

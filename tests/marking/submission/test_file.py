@@ -6,10 +6,10 @@ import zipfile
 import pytest
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.cells import LONGEST_SUM, LONGEST_TEXT, MOST_CELLS, read_notebook
-from grader.marking.handed_in.rebuild import rebuild
-from grader.marking.handed_in.salvage import MOST_PARTS
-from tests.marking.handed_in.damage import SOLVED, STARTER, cell, data, own, same, solved
+from grader.marking.submission.plain_cells import MAX_CELL_CHARS, MAX_CELLS, MAX_CHARS, read_notebook
+from grader.marking.submission.rebuild import rebuild
+from grader.marking.submission.recover_json import MAX_JSON_PARTS
+from tests.marking.submission.damage import SOLVED, STARTER, cell, data, own, same, solved
 
 WHOLE = data(SOLVED)
 GREEK = WHOLE.decode().replace("import rclpy", "# Grüße, Ω\\nimport rclpy", 1)
@@ -45,7 +45,7 @@ def zipped():
     return file.getvalue()
 
 
-CORRECTED_HINT = {
+REPAIRED = {
     "byte order mark": (
         b"\xef\xbb\xbf" + WHOLE,
         "The notebook's file began with a byte order mark; it was read without.",
@@ -152,16 +152,16 @@ REFUSED = {
     ),
     "too many cells": (
         many(own("x"), 50_000),
-        f"`nodes.ipynb` has 50000 cells; at most {MOST_CELLS} can be marked. "
+        f"`nodes.ipynb` has 50000 cells; at most {MAX_CELLS} can be marked. "
         "Delete those that nobody needs and hand it in again.",
     ),
     "too much text": (
-        data({**solved(), "cells": [own("#" * LONGEST_TEXT)] * 6}),
+        data({**solved(), "cells": [own("#" * MAX_CELL_CHARS)] * 6}),
         "The cells of `nodes.ipynb` hold 6.0 million characters of text; at most 5 million can be marked. "
         "Make them shorter.",
     ),
     "too many parts": (
-        b'{"cells": [' + b"{}," * MOST_PARTS,
+        b'{"cells": [' + b"{}," * MAX_JSON_PARTS,
         "`nodes.ipynb` is made of 20 million parts; at most 10 million can be read. "
         "Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again.",
     ),
@@ -178,7 +178,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize(("content", "words"), CORRECTED_HINT.values(), ids=CORRECTED_HINT)
+@pytest.mark.parametrize(("content", "words"), REPAIRED.values(), ids=REPAIRED)
 def test_a_damaged_file_is_read_as_well_as_possible_and_that_is_said(content, words):
     result = rebuild(STARTER, read_notebook(content, "nodes.ipynb"))
     assert (result.repairs, result.flags) == ([words], [])
@@ -230,12 +230,12 @@ def test_outputs_of_a_hundred_megabytes_are_no_matter():
 
 
 def test_an_answer_of_a_megabyte_is_run():
-    assert LONGEST_SUM > LONGEST_TEXT == 10**6
+    assert MAX_CHARS > MAX_CELL_CHARS == 10**6
     notebook = solved()
-    cell(notebook, "hello")["source"] = "#" * LONGEST_TEXT
+    cell(notebook, "hello")["source"] = "#" * MAX_CELL_CHARS
     result = rebuild(STARTER, read_notebook(data(notebook), "nodes.ipynb"))
     assert result.repairs == []
-    assert next(c.source for c in result.notebook.cells if c.id == "hello") == "#" * LONGEST_TEXT
+    assert next(c.source for c in result.notebook.cells if c.id == "hello") == "#" * MAX_CELL_CHARS
 
 
 def test_merge_marks_in_a_students_text_are_text():

@@ -1,4 +1,4 @@
-"""Gets the JSON out of a file that should be a notebook."""
+"""Reads the JSON of a notebook's file, and recovers the cells of a damaged one."""
 
 import codecs
 import json
@@ -7,18 +7,18 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.words import quote
+from grader.marking.submission.quoting import quote
 
 MERGE_MARKS = (re.compile(r"^<{7} ", re.MULTILINE), re.compile(r"^>{7} ", re.MULTILINE))
 WEB_PAGE = re.compile(r"<[!?a-zA-Z]")
 CELLS = re.compile(r'"cells"\s*:\s*\[')
-MOST_PARTS = 10_000_000  # each takes some 60 bytes, and notebooks of 100 MB in long lines have fewer
+MAX_JSON_PARTS = 10_000_000  # each takes some 60 bytes, and notebooks of 100 MB in long lines have fewer
 BETWEEN = re.compile(r"[\s,]*")
 AGAIN = "Download the notebook again in JupyterLab (File, Download) and hand that in."
 
 
-def read_table(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]:
-    """Return the JSON table in the bytes of the file called `file`, with a sentence for each odd thing.
+def read_json_object(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]:
+    """Return the JSON object in the bytes of the file called `file`, with a sentence for each odd thing.
 
     Raises Unusable, and nothing else.
     """
@@ -28,14 +28,14 @@ def read_table(data: bytes, file: str) -> tuple[dict[str, Any], list[str]]:
     if data.startswith(b"PK\x03\x04"):
         problem = f"{quote(file)} is a zip archive; expected a notebook."
         raise Unusable(f"{problem} Unpack it and hand in the notebook that lies in it.")
-    if (parts := sum(map(data.count, (b"{", b"[", b",")))) > MOST_PARTS:
+    if (parts := sum(map(data.count, (b"{", b"[", b",")))) > MAX_JSON_PARTS:
         raise Unusable(
-            f"{quote(file)} is made of {parts / 1e6:.0f} million parts; at most {MOST_PARTS / 1e6:g} "
+            f"{quote(file)} is made of {parts / 1e6:.0f} million parts; at most {MAX_JSON_PARTS / 1e6:g} "
             "million can be read. Clear its outputs (Edit, Clear Outputs of All Cells) and hand it in again."
         )
     text, repairs = _decoded(data)
     twice: list[str] = []
-    decoder = json.JSONDecoder(strict=False, object_pairs_hook=lambda pairs: _table(pairs, twice))
+    decoder = json.JSONDecoder(strict=False, object_pairs_hook=lambda pairs: _unique(pairs, twice))
     text = text.lstrip()
     try:
         value, end = decoder.raw_decode(text)
@@ -75,18 +75,19 @@ def _decoded(data: bytes) -> tuple[str, list[str]]:
     return data.decode("latin-1"), repairs
 
 
-def _table(pairs: Sequence[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
-    table = dict(pairs)
-    if len(table) < len(pairs):
+def _unique(pairs: Sequence[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
+    """The object with these pairs; `twice` gets the first key that is repeated in it."""
+    unique = dict(pairs)
+    if len(unique) < len(pairs):
         seen: set[str] = set()
         twice.append(next(name for name, _ in pairs if name in seen or seen.add(name)))
-    return table
+    return unique
 
 
 def _cells_before(
     text: str, error: Exception, decoder: json.JSONDecoder, file: str, repairs: list[str]
 ) -> list[Any]:
-    """The whole cells before the place where a file breaks off or makes no sense."""
+    """The complete cells before the position where a file is truncated or invalid."""
     _refuse_what_is_no_notebook(text, error, file)
     start = CELLS.search(text)
     cells: list[Any] = []
@@ -113,6 +114,6 @@ def _refuse_what_is_no_notebook(text: str, error: Exception, file: str) -> None:
     if WEB_PAGE.match(text):
         problem = f"{quote(file)} holds a web page, maybe one that asks for a password; expected a notebook."
         raise Unusable(f"{problem} {AGAIN}")
-    if not text.startswith("{"):  # its words are not told: where it is linked to, a secret may lie
+    if not text.startswith("{"):  # it is not quoted: it may be a link to a file with a secret
         problem = f"{quote(file)} is not a notebook: expected JSON, beginning with `{{`, saw something else."
         raise Unusable(f"{problem} {AGAIN}")

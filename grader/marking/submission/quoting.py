@@ -1,4 +1,4 @@
-"""What marking says of a submission that is not as it should be: words for the student and the instructor."""
+"""Quotes names and values of a submission in sentences for the student and the instructor."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -8,7 +8,7 @@ NAME_LENGTH = 60  # characters
 
 
 def quote(name: object) -> str:
-    """Return a stranger's name for a sentence: short, on one line, without what ends code in Markdown."""
+    """Return an untrusted name as inline code of Markdown: short, printable and on one line."""
     plain = str(name).encode(errors="replace").decode()
     plain = "".join(letter if letter.isprintable() and letter != "`" else "?" for letter in plain)
     return f"`{plain if len(plain) <= NAME_LENGTH else plain[: NAME_LENGTH - 1] + '…'}`"
@@ -23,6 +23,6 @@ def list_names(names: Iterable[object]) -> str:
 
 
 def kind_of_value(value: Any) -> str:
-    """Return what a JSON value is, for one who reads no JSON."""
+    """Return the kind of a JSON value in words that need no knowledge of JSON."""
     kinds = {bool: "true or false", int: "a number", float: "a number", str: "text", list: "a list"}
     return "nothing" if value is None else kinds.get(type(value), "a table")

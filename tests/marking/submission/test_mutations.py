@@ -2,7 +2,7 @@ import random
 
 import pytest
 
-from tests.marking.handed_in.mutations import VERDICTS, mutated, real, verdict
+from tests.marking.submission.mutations import VERDICTS, mutated, real, verdict
 
 SEEDS = [*range(50), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(50, 200))]
 

@@ -1,7 +1,7 @@
-"""Reads the bytes of a notebook's file into plain cells, whatever has happened to the file.
+"""Reads the bytes of a notebook's file into plain cells, however damaged the file is.
 
-Of every cell only its kind, its text and its names are kept. Outputs, counts, attachments, widgets and all
-other metadata stay behind.
+Only the kind, text and names of each cell are read. Outputs, counts, attachments, widgets and all other
+metadata are dropped.
 """
 
 import re
@@ -11,20 +11,20 @@ from functools import cached_property
 from typing import Any
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.salvage import read_table
-from grader.marking.handed_in.words import kind_of_value, quote
+from grader.marking.submission.quoting import kind_of_value, quote
+from grader.marking.submission.recover_json import read_json_object
 
-MOST_CELLS = 1000
-LONGEST_TEXT = 1_000_000  # characters of one cell
-LONGEST_SUM = 5_000_000  # characters of all cells
+MAX_CELLS = 1000
+MAX_CELL_CHARS = 1_000_000
+MAX_CHARS = 5_000_000  # of all cells
 DEFINITION = re.compile(r"^(?:(?:class|def|async def) |%%writefile +)(\S[^\s(:]*)", re.MULTILINE)
-MOST_TOLD = 5
+MAX_ODDITIES = 5
 KINDS = ("code", "markdown", "raw")
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell. A kind, id or name that is missing or makes no sense is ""."""
+    """One cell. A kind, id or name that is missing or invalid is ""."""
 
     kind: str
     text: str
@@ -35,7 +35,7 @@ class Cell:
 
     @cached_property
     def key(self) -> str:
-        """Its text without what nobody sees: two cells with the same key say the same."""
+        """Its text without invisible characters: cells with the same key have the same text."""
         return "\n".join(line.rstrip() for line in self.text.strip().splitlines())
 
     @cached_property
@@ -45,7 +45,7 @@ class Cell:
 
     @cached_property
     def defined(self) -> frozenset[str]:
-        """The names of the functions, classes and files that it makes."""
+        """The names of the functions, classes and files that it defines."""
         return frozenset(DEFINITION.findall(self.text))
 
 
@@ -59,38 +59,38 @@ class PlainNotebook:
 
 def read_notebook(data: bytes, file: str) -> PlainNotebook:
     """Read a notebook from the bytes of the file called `file`. Raises Unusable, and nothing else."""
-    table, repairs = read_table(data, file)
-    found = list(_raw_cells(table))
-    if not found and not isinstance(table.get("cells"), list):
+    content, repairs = read_json_object(data, file)
+    found = list(_raw_cells(content))
+    if not found and not isinstance(content.get("cells"), list):
         problem = f"{quote(file)} holds no cells; expected a notebook."
         raise Unusable(f"{problem} Hand in the notebook's own file, as it lies in JupyterLab.")
-    if len(found) > MOST_CELLS:
-        problem = f"{quote(file)} has {len(found)} cells; at most {MOST_CELLS} can be marked."
+    if len(found) > MAX_CELLS:
+        problem = f"{quote(file)} has {len(found)} cells; at most {MAX_CELLS} can be marked."
         raise Unusable(f"{problem} Delete those that nobody needs and hand it in again.")
-    version = table.get("nbformat")
+    version = content.get("nbformat")
     if version != 4:
         seen = quote(version) if isinstance(version, (int, float, str)) else "unknown"
         repairs.append(f"The notebook's format is {seen}; it was read as well as possible. Expected was `4`.")
-    repairs += _language(table)
+    repairs += _language(content)
     cells, odd = _cells(found)
     repairs += odd
-    if (total := sum(len(cell.text) for cell in cells)) > LONGEST_SUM:
+    if (total := sum(len(cell.text) for cell in cells)) > MAX_CHARS:
         problem = f"The cells of {quote(file)} hold {total / 1e6:.1f} million characters of text;"
-        raise Unusable(f"{problem} at most {LONGEST_SUM / 1e6:g} million can be marked. Make them shorter.")
+        raise Unusable(f"{problem} at most {MAX_CHARS / 1e6:g} million can be marked. Make them shorter.")
     return PlainNotebook(cells, repairs)
 
 
 def cell_of(raw: Mapping[str, Any], repairs: list[str] | None = None, number: int = 0) -> Cell:
-    """Read one cell of a notebook; what was odd is told in `repairs`, where the cell is called `number`."""
+    """Read one cell. repairs: gets a sentence on each odd thing in it, where the cell has this number."""
     oddities = [] if repairs is None else repairs
-    metadata = _table(raw.get("metadata"))
-    settings = {key: value for key, value in _table(metadata.get("nbgrader")).items() if _plain(value)}
+    metadata = _dict(raw.get("metadata"))
+    settings = {key: value for key, value in _dict(metadata.get("nbgrader")).items() if _is_scalar(value)}
     tags = metadata.get("tags")
     return Cell(
         _kind(raw, oddities, number),
         _text(raw, oddities, number),
-        _word(raw.get("id")),
-        _word(settings.get("grade_id")),
+        _str(raw.get("id")),
+        _str(settings.get("grade_id")),
         settings,
         isinstance(tags, list) and "skip-execution" in tags,
     )
@@ -102,15 +102,14 @@ def is_answer(cell: Cell) -> bool:
 
 
 def is_test(cell: Cell) -> bool:
-    """Whether this cell of a release gives points for an answer."""
+    """Whether this cell of a release is a test that gives points."""
     return cell.settings.get("grade") is True and not is_answer(cell)
 
 
-def _raw_cells(table: Mapping[str, Any]) -> Iterator[Any]:
-    """The cells of a notebook, those of the formats 2 and 3 too, which had them in worksheets."""
-    places = [table, *_list(table.get("worksheets"))]
-    for place in places:
-        yield from _list(_table(place).get("cells"))
+def _raw_cells(content: Mapping[str, Any]) -> Iterator[Any]:
+    """The cells of a notebook, also of the formats 2 and 3, which had them in worksheets."""
+    for sheet in [content, *_list(content.get("worksheets"))]:
+        yield from _list(_dict(sheet).get("cells"))
 
 
 def _cells(found: list[Any]) -> tuple[list[Cell], list[str]]:
@@ -121,8 +120,8 @@ def _cells(found: list[Any]) -> tuple[list[Cell], list[str]]:
             cells.append(cell_of(raw, oddities, number))
         else:
             oddities.append(f"Cell {number} of the notebook is {kind_of_value(raw)}; it was left out.")
-    if len(oddities) > MOST_TOLD:
-        oddities[MOST_TOLD:] = [f"The notebook has {len(oddities) - MOST_TOLD} more such oddities."]
+    if len(oddities) > MAX_ODDITIES:
+        oddities[MAX_ODDITIES:] = [f"The notebook has {len(oddities) - MAX_ODDITIES} more such oddities."]
     return cells, oddities
 
 
@@ -146,7 +145,7 @@ def _text(raw: Mapping[str, Any], oddities: list[str], number: int) -> str:
         oddities.append(f"Cell {number} of the notebook holds {saw}; that was left out.")
         lines = [line for line in lines if isinstance(line, str)]
     text = "".join(lines)
-    if len(text) > LONGEST_TEXT:
+    if len(text) > MAX_CELL_CHARS:
         saw = f"{len(text) / 1e6:.1f} million characters, more than can be run"
         oddities.append(f"Cell {number} of the notebook holds {saw}; it counts as empty.")
         return ""
@@ -154,17 +153,17 @@ def _text(raw: Mapping[str, Any], oddities: list[str], number: int) -> str:
     return text.encode(errors="replace").decode()  # half a character, as only escapes can make it
 
 
-def _language(table: Mapping[str, Any]) -> list[str]:
-    metadata = _table(table.get("metadata"))
-    kernel, language = _table(metadata.get("kernelspec")), _table(metadata.get("language_info"))
-    name = _word(kernel.get("language")) or _word(language.get("name")) or "python"
+def _language(content: Mapping[str, Any]) -> list[str]:
+    metadata = _dict(content.get("metadata"))
+    kernel, language = _dict(metadata.get("kernelspec")), _dict(metadata.get("language_info"))
+    name = _str(kernel.get("language")) or _str(language.get("name")) or "python"
     if name in ("python", "ipython") and kernel.get("name") != "python2":
         return []
-    saw = _word(kernel.get("display_name")) or _word(kernel.get("name")) or name
+    saw = _str(kernel.get("display_name")) or _str(kernel.get("name")) or name
     return [f"The notebook was saved for the kernel {quote(saw)}; it was run with Python 3."]
 
 
-def _table(value: Any) -> Mapping[str, Any]:
+def _dict(value: Any) -> Mapping[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
@@ -172,9 +171,9 @@ def _list(value: Any) -> list[Any]:
     return value if isinstance(value, list) else []
 
 
-def _plain(value: Any) -> bool:
+def _is_scalar(value: Any) -> bool:
     return value is None or isinstance(value, (str, bool, int, float))
 
 
-def _word(value: Any) -> str:
+def _str(value: Any) -> str:
     return value if isinstance(value, str) else ""

@@ -10,21 +10,22 @@ from pathlib import Path
 import pytest
 
 from grader.marking.errors import CourseError
-from grader.marking.handed_in import submission
-from grader.marking.handed_in.folder import MOST_ENTRIES, list_entries
-from grader.marking.handed_in.rebuild import rebuild_submission
-from grader.marking.handed_in.submission import LARGEST, load_release, read_folder, submission_key
-from tests.marking.handed_in.damage import (
+from grader.marking.submission import assignment_release, submitted_files
+from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.rebuild import rebuild_submission
+from grader.marking.submission.submitted_files import MAX_NOTEBOOK_BYTES, read_folder, submission_key
+from grader.marking.submission.untrusted_folder import MAX_ENTRIES, list_entries
+from tests.marking.submission.damage import (
     NODES,
     ROOT,
     SOLVED,
     STARTER,
     data,
-    handed_in,
     own,
     rebuilt_folder,
     same,
     solved,
+    submit,
     verdict,
 )
 
@@ -35,7 +36,7 @@ FILE_ITSELF = "Hand in the file itself, as JupyterLab gives it (File, Download).
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
-    return handed_in(tmp_path)
+    return submit(tmp_path)
 
 
 @pytest.fixture
@@ -260,9 +261,9 @@ def test_a_folder_without_end_is_looked_into_only_so_far(folder):
 
 def test_among_very_many_files_the_notebook_is_found(folder):
     (folder / "nodes.ipynb").write_bytes(WHOLE)
-    for number in range(MOST_ENTRIES + 1):
+    for number in range(MAX_ENTRIES + 1):
         (folder / f"{number}.txt").touch()
-    assert len(list_entries(folder)) == MOST_ENTRIES
+    assert len(list_entries(folder)) == MAX_ENTRIES
     assert same(rebuilt_folder(folder).notebooks["nodes"].notebook)
     before = key(folder)
     (folder / "nodes.ipynb").write_bytes(data(STARTER))
@@ -271,10 +272,10 @@ def test_among_very_many_files_the_notebook_is_found(folder):
 
 def test_of_very_many_notebooks_no_more_is_read_than_takes_a_moment(folder, monkeypatch):
     read = []
-    monkeypatch.setattr(submission, "read_file", lambda _, path, limit: read.append(path) or b"")
+    monkeypatch.setattr(submitted_files, "read_file", lambda _, path, limit: read.append(path) or b"")
     for number in range(100):
         (folder / f"{number:02}.ipynb").touch()
-    os.truncate(folder / "00.ipynb", LARGEST)
+    os.truncate(folder / "00.ipynb", MAX_NOTEBOOK_BYTES)
     os.truncate(folder / "01.ipynb", 1)
     small = [f"{number:02}.ipynb" for number in range(2, 21)]
     assert verdict(folder).startswith("Expected the notebook `nodes.ipynb`, saw only `00.ipynb`, `02.ipynb`,")
@@ -323,7 +324,7 @@ def test_whatever_was_handed_in_has_a_key(surprise, folder, monkeypatch):
     surprise(folder / "nodes.ipynb")
     assert key(folder) == key(folder) != key(folder.parent)
     assert key(folder / "nodes.ipynb") != key(folder / "nowhere")
-    assert LARGEST < 10**9
+    assert MAX_NOTEBOOK_BYTES < 10**9
 
 
 def test_a_file_that_nobody_may_read_has_a_key(as_nobody):
@@ -345,7 +346,7 @@ def test_what_was_read_is_the_same_on_another_machine(folder):
 
 
 def test_files_that_a_release_brings_along_are_limited(tmp_path, monkeypatch):
-    monkeypatch.setattr(submission, "DATA", 3)
+    monkeypatch.setattr(assignment_release, "MAX_RELEASE_BYTES", 3)
     (tmp_path / "map.txt").write_text("wall")
     with pytest.raises(CourseError, match=r"have 0 MB; expected 3e-06 at most$"):
         load_release(tmp_path)

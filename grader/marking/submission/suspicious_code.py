@@ -1,7 +1,7 @@
-"""What of a submission's source only makes sense for somebody who works on the marking instead of the task.
+"""Finds code in a submission that attacks the marking instead of solving the task.
 
-It decides nothing: points come from what the judge saw. It names the tricks, so that an instructor knows whom
-to talk to. Who hides a trick well is not found here, and gains nothing all the same.
+It decides nothing: points come from what the judge observed. It reports the code, so that an instructor can
+talk to the student. A well-hidden attack is not found here, and gains no points either.
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ import ast
 import re
 from collections.abc import Iterable, Iterator
 
-DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
+PUBLIC_MODULES = {"sim", "sim.view", "grader", "grader.exercises"}
 MAX_SOURCE = 20_000  # characters of a cell
 MAX_SOURCES = 400_000  # of all of them
 COURSE = ("rclpy", "sim", "grader", "builtins")
 
 
 def _by_word(table: dict[str, str]) -> dict[str, str]:
-    """What one does with each word, from the words for each such thing."""
+    """Map each word to its reason, from the words of each reason."""
     return {word: reason for reason, words in table.items() for word in words.split()}
 
 
-# Modules that no exercise needs, by what one does with them.
+# Modules that no exercise needs, by what they are used for.
 MODULES = _by_word(
     {
         "runs code when the process ends": "atexit",
@@ -33,7 +33,7 @@ MODULES = _by_word(
     }
 )
 SHOWING = ("IPython.display", "IPython.core.display")  # of IPython: many notebooks import these
-# Attributes, wherever they stand.
+# Attributes of any object.
 ATTRIBUTES = _by_word(
     {
         "finds classes that it was not given": "__subclasses__",
@@ -57,7 +57,7 @@ ATTRIBUTES = _by_word(
         "searches the disk": "walk",
     }
 )
-# Words that are too common for others' attributes.
+# Words that are common attributes of other objects.
 PROCESS_WORDS = ("kill", "fork", "system", "popen", "close", "dup2", "write", "walk")
 OWNERS = {"modules": "sys", **dict.fromkeys(PROCESS_WORDS, "os")}
 CALLS = _by_word({"runs text as code": "exec eval", "imports by text": "__import__"})
@@ -72,13 +72,13 @@ METHODS = _by_word(
 )
 WORDS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/", "<script", "onerror=", "javascript:")
 SHELL = ("system", "getoutput")  # what IPython makes of !command
-SHOWN = 60  # characters of the code that is told
-# IPython's own lines. Its transformer looks at all of a cell again for each of them, and so takes minutes.
+SHOWN = 60  # characters of the code that are reported
+# IPython's own lines. IPython's transformer would parse the whole cell again for each: that takes minutes.
 COMMAND = re.compile(r"^([ \t]*+)(?:\w[\w, \t]*=[ \t]*+)?!.*", re.MULTILINE)
 MAGIC = re.compile(r"^([ \t]*+)(?:(?:\w[\w, \t]*=[ \t]*+)?%.*|\?.*|.*\?$)", re.MULTILINE)
 
 
-def suspicions(cells: Iterable[tuple[str, str]]) -> list[str]:
+def find_suspicious_code(cells: Iterable[tuple[str, str]]) -> list[str]:
     """A sentence for each suspicious thing in these cells, pairs of a name and a source; each thing once."""
     course: dict[str, str] = {}
     found: dict[str, None] = {}
@@ -104,7 +104,7 @@ def suspicions(cells: Iterable[tuple[str, str]]) -> list[str]:
 
 
 def _parse(source: str) -> ast.Module:
-    """The cell's code; none of what can't run either."""
+    """The cell's code; an empty module for invalid code."""
     for text in (source, _without_magic(source)):
         try:
             return ast.parse(text)
@@ -114,14 +114,14 @@ def _parse(source: str) -> ast.Module:
 
 
 def _without_magic(source: str) -> str:
-    """The source with IPython's own lines as Python; of a cell that is all its own, the text."""
+    """The source with IPython's own lines as Python; a cell magic becomes a string."""
     if source.lstrip().startswith("%%"):
         return repr(source)
     return MAGIC.sub(r"\1pass", COMMAND.sub(r"\1get_ipython().system('')", source))
 
 
 def _names_from_course(node: ast.AST) -> dict[str, str]:
-    """Names that an import gives from the modules that a run stands on, with the module."""
+    """Names that an import binds from the course's or ROS's modules, with the module."""
     names = {}
     if isinstance(node, ast.Import):
         names = {(a.asname or a.name.split(".")[0]): a.name for a in node.names}
@@ -152,7 +152,8 @@ def _imports(module: str) -> Iterator[str]:
     top = module.split(".")[0]
     if top in MODULES and module not in SHOWING:
         yield f"imports `{module}`, which {MODULES[top]}"
-    if top in ("sim", "grader") and module not in DOORS and not module.startswith("grader.exercises."):
+    public = module in PUBLIC_MODULES or module.startswith("grader.exercises.")
+    if top in ("sim", "grader") and not public:
         yield f"imports `{module}`, which is inside the course's own machinery"
 
 
@@ -166,7 +167,7 @@ def _attribute(node: ast.Attribute) -> Iterator[str]:
 
 
 def _replacements(node: ast.expr, course: dict[str, str], what: str = "") -> Iterator[str]:
-    """Something is assigned to an attribute: does it belong to a module of the course or of ROS?"""
+    """Report an assignment to an attribute of a module of the course or of ROS."""
     root = node
     while isinstance(root, ast.Attribute):
         root = root.value
@@ -175,7 +176,7 @@ def _replacements(node: ast.expr, course: dict[str, str], what: str = "") -> Ite
 
 
 def _shadowed(statement: ast.stmt, course: dict[str, str]) -> Iterator[str]:
-    """A statement of the cell itself, not of a function: does it hide a name of the course?"""
+    """Report a top-level statement that rebinds a name of the course."""
     names = [getattr(statement, "name", "")]
     if isinstance(statement, ast.Assign):
         parts = [part for target in statement.targets for part in ast.walk(target)]
@@ -197,7 +198,7 @@ def _calls(node: ast.Call, course: dict[str, str]) -> Iterator[str]:
 
 
 def _code_of(node: ast.expr) -> str:
-    """The code of an attribute; of one too deep for that, its end."""
+    """The code of an attribute; only its end if it is nested too deeply."""
     try:
         return ast.unparse(node)[:SHOWN]
     except RecursionError:

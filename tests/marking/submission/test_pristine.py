@@ -3,9 +3,9 @@
 import nbformat
 import pytest
 
-from grader.marking.handed_in.submission import load_release
 from grader.marking.release.samples import submission
-from tests.marking.handed_in.damage import ASSIGNMENTS, ROOT, rebuilt_folder, same
+from grader.marking.submission.assignment_release import load_release
+from tests.marking.submission.damage import ASSIGNMENTS, ROOT, rebuilt_folder, same
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])

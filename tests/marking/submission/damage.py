@@ -11,10 +11,11 @@ import pytest
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.cells import read_notebook
-from grader.marking.handed_in.rebuild import RebuiltNotebook, RebuiltSubmission, rebuild, rebuild_submission
-from grader.marking.handed_in.submission import Release, load_release, read_folder
 from grader.marking.release.samples import submission
+from grader.marking.submission.assignment_release import Release, load_release
+from grader.marking.submission.plain_cells import read_notebook
+from grader.marking.submission.rebuild import RebuiltNotebook, RebuiltSubmission, rebuild, rebuild_submission
+from grader.marking.submission.submitted_files import read_folder
 
 ROOT = Path(__file__).parents[3]
 ASSIGNMENTS = sorted(path.name for path in (ROOT / "exercises").iterdir())
@@ -63,7 +64,7 @@ def rebuilt(damage: Damage, notebook: dict[str, Any] | None = None) -> RebuiltNo
 
 
 def rebuilt_folder(folder: Path, release: Release = NODES) -> RebuiltSubmission:
-    """What becomes of all that was handed in."""
+    """The result of rebuilding a submission."""
     return rebuild_submission(read_folder(folder, release), release)
 
 
@@ -74,7 +75,7 @@ def verdict(folder: Path, release: Release = NODES) -> str:
     return str(caught.value)
 
 
-def handed_in(folder: Path, **files: bytes) -> Path:
+def submit(folder: Path, **files: bytes) -> Path:
     """Write the files, `nodes` for nodes.ipynb, into a new submission in `folder`."""
     target = folder / "class" / "submitted" / "alice" / "01_nodes"
     target.mkdir(parents=True)

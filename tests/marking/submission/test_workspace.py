@@ -4,14 +4,15 @@ import dataclasses
 
 import pytest
 
-from grader.marking.handed_in.submission import read_folder, read_submission, submission_key
-from tests.marking.handed_in.damage import NODES as RELEASE
-from tests.marking.handed_in.damage import SOLVED, data, handed_in
+from grader.marking.submission.submitted_files import read_folder, submission_key
+from grader.marking.submission.submitted_notebooks import read_notebooks
+from tests.marking.submission.damage import NODES as RELEASE
+from tests.marking.submission.damage import SOLVED, data, submit
 
 
 @pytest.fixture
 def folder(tmp_path):
-    return handed_in(tmp_path, nodes=data(SOLVED))
+    return submit(tmp_path, nodes=data(SOLVED))
 
 
 def test_its_sources_are_taken_and_what_was_built_is_not(folder):
@@ -20,7 +21,7 @@ def test_its_sources_are_taken_and_what_was_built_is_not(folder):
         (folder / "ws" / path).write_text("text")
     taken = read_folder(folder, RELEASE)
     assert taken.workspace == {"ws/src/a/package.xml": b"text"}
-    assert read_submission(taken, RELEASE).repairs == []
+    assert read_notebooks(taken, RELEASE).repairs == []
 
 
 def test_another_file_is_another_submission(folder):
@@ -47,4 +48,4 @@ def test_a_link_is_not_followed_and_the_notebook_is_marked_all_the_same(folder, 
     (folder / link).symlink_to(tmp_path)
     taken = read_folder(folder, RELEASE)
     assert taken.workspace == reason
-    assert read_submission(taken, RELEASE).repairs == [f"No file of your workspace was taken. {reason}"]
+    assert read_notebooks(taken, RELEASE).repairs == [f"No file of your workspace was taken. {reason}"]

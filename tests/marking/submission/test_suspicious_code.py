@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.marking.handed_in.suspicion import suspicions
+from grader.marking.submission.suspicious_code import find_suspicious_code
 
 ROOT = Path(__file__).parents[3]
 
@@ -54,28 +54,28 @@ ROOT = Path(__file__).parents[3]
     ],
 )
 def test_a_trick_is_named(source, what):
-    assert suspicions([("square", source)]) == [f"The cell `square` {what}."]
+    assert find_suspicious_code([("square", source)]) == [f"The cell `square` {what}."]
 
 
 @pytest.mark.parametrize("module", ["IPython.display", "IPython.core.display"])
 def test_to_show_something_is_no_trick(module):
-    assert suspicions([("a", f"from {module} import HTML\nHTML('<b>here</b>')")]) == []
+    assert find_suspicious_code([("a", f"from {module} import HTML\nHTML('<b>here</b>')")]) == []
 
 
 def test_a_trick_is_named_once_for_each_cell():
     cells = [("a", "import gc\nimport gc"), ("b", "import gc")]
     reason = "imports `gc`, which finds objects that it was not given"
-    assert suspicions(cells) == [f"The cell `a` {reason}.", f"The cell `b` {reason}."]
+    assert find_suspicious_code(cells) == [f"The cell `a` {reason}.", f"The cell `b` {reason}."]
 
 
 @pytest.mark.parametrize("source", ["def broken(:", "\0", "(" * 5000, "-" * 19_000 + "1"])
 def test_what_is_no_python_is_nothing_suspicious(source):
-    assert suspicions([("a", source)]) == []
+    assert find_suspicious_code([("a", source)]) == []
 
 
 def test_a_notebook_without_end_is_looked_through_from_its_beginning():
     cells = [(f"a{number}", "import pty\n" + "a;" * 9_000) for number in range(1000)]
-    *found, last = suspicions(cells)
+    *found, last = find_suspicious_code(cells)
     assert found == [f"The cell `a{n}` imports `pty`, which starts processes." for n in range(22)]
     said = "and those before it have more than 400000 characters: nobody has looked further."
     assert last == f"The cell `a22` {said}"
@@ -83,7 +83,7 @@ def test_a_notebook_without_end_is_looked_through_from_its_beginning():
 
 @pytest.mark.parametrize("line", ["    %a", "a, b = !ls", "what?", " " * 9_000 + "what?"])
 def test_lines_of_ipython_take_no_more_time_than_others(line):
-    assert len(suspicions([("a", f"if 0:\n{line}\n" * (19_000 // len(line)))])) <= 1
+    assert len(find_suspicious_code([("a", f"if 0:\n{line}\n" * (19_000 // len(line)))])) <= 1
 
 
 @pytest.mark.parametrize("folder", ["course", "solutions", "exercises"])
@@ -91,14 +91,15 @@ def test_nothing_in_the_course_is_suspicious(folder):
     """But for the shell in lessons, which nobody hands in."""
     for notebook in (ROOT / folder).glob("*/*.ipynb"):
         cells = json.loads(notebook.read_text())["cells"]
-        found = suspicions((c["id"], "".join(c["source"])) for c in cells if c["cell_type"] == "code")
+        sources = [(c["id"], "".join(c["source"])) for c in cells if c["cell_type"] == "code"]
+        found = find_suspicious_code(sources)
         assert [one for one in found if folder != "course" or "the system's shell" not in one] == []
 
 
 def test_no_answer_of_the_score_tables_is_suspicious():
     for path in (ROOT / "solutions").glob("*/"):
         for file in (ROOT / "tests" / "students" / path.name.partition("_")[2]).glob("*.py"):
-            assert suspicions([(file.stem, file.read_text())]) == []
+            assert find_suspicious_code([(file.stem, file.read_text())]) == []
 
 
 def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
@@ -106,7 +107,7 @@ def test_every_trick_with_code_that_only_a_cheat_needs_is_named():
     silent = {
         file.stem
         for file in (ROOT / "tests" / "students" / "hostile").glob("*.py")
-        if not suspicions([setup, (file.stem, file.read_text())])
+        if not find_suspicious_code([setup, (file.stem, file.read_text())])
     }
     # They are honest mistakes as well, or what they do shows in another way.
     assert silent == {

@@ -6,7 +6,7 @@ import nbformat
 import pytest
 from nbgrader.utils import compute_checksum
 
-from tests.marking.handed_in.damage import (
+from tests.marking.submission.damage import (
     SOLVED,
     STARTER,
     cell,
@@ -91,7 +91,7 @@ HARMLESS = {
     ],
 }
 
-CORRECTED_HINT = {
+REPAIRED = {
     "answer deleted": (delete("hello"), "The answer `hello` was missing; an empty cell took its place."),
     "test deleted": (
         delete("hello-points"),
@@ -223,7 +223,7 @@ def test_what_changes_nothing_is_passed_over_in_silence(damage):
     assert same(result.notebook)
 
 
-@pytest.mark.parametrize(("damage", "words"), CORRECTED_HINT.values(), ids=CORRECTED_HINT)
+@pytest.mark.parametrize(("damage", "words"), REPAIRED.values(), ids=REPAIRED)
 def test_an_accident_is_mended_and_said(damage, words, request):
     result = rebuilt(damage)
     assert (result.repairs, result.flags) == ([words], [])

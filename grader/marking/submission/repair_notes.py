@@ -1,9 +1,9 @@
-"""The sentences about cells: the same thing said of several cells is said once."""
+"""The sentences about repaired cells: one sentence for all cells with the same repair."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from grader.marking.handed_in.words import list_names
+from grader.marking.submission.quoting import list_names
 
 # Of one cell, of several. Repairs: for student and instructor.
 REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
@@ -12,7 +12,7 @@ REPAIRS: Mapping[str, tuple[str, str]] = MappingProxyType(
             "The cell {} had lost its name; it was found by its id.",
             "The cells {} had lost their names; they were found by their ids.",
         ),
-        "found by look": (
+        "found by text": (
             "The cell {} had lost its name; it was found by its text and place.",
             "The cells {} had lost their names; they were found by their text and place.",
         ),
@@ -78,7 +78,7 @@ FLAGS: Mapping[str, tuple[str, str]] = MappingProxyType(
 
 
 class Notes:
-    """Collects what is to be said of which cells."""
+    """Collects the repairs and flags of cells."""
 
     def __init__(self) -> None:
         self._cells: dict[str, list[str]] = {}
@@ -89,10 +89,10 @@ class Notes:
         if cell not in cells:
             cells.append(cell)
 
-    def sentences(self, words: Mapping[str, tuple[str, str]]) -> list[str]:
-        """Return what was noted of all that `words` has words for."""
+    def sentences(self, texts: Mapping[str, tuple[str, str]]) -> list[str]:
+        """Return a sentence for each thing that was noted and is a key of `texts`."""
         return [
             one_or_several[len(self._cells[about]) > 1].format(list_names(self._cells[about]))
-            for about, one_or_several in words.items()
+            for about, one_or_several in texts.items()
             if about in self._cells
         ]

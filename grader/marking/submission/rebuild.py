@@ -1,8 +1,8 @@
-"""Makes the notebook that is run for a mark: the instructor's own, with a student's answers in it.
+"""Rebuilds the notebook that is run for a mark: the instructor's own, with a student's answers in it.
 
-From what was handed in come the text of the answers, our cells without points as the student changed them,
-and the student's own cells, all in their order. Everything else is the release's: no metadata, output, tag or
-test of a submission changes what is run or what it is worth.
+Taken from the submission are the text of the answers, released cells without points as the student changed
+them, and the student's own cells, in their order. Everything else is the release's: no metadata, output, tag
+or test of a submission changes what is run or what it is worth.
 """
 
 import copy
@@ -13,16 +13,18 @@ from dataclasses import dataclass, field
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.cells import Cell, PlainNotebook, cell_of, is_answer
-from grader.marking.handed_in.matching import Match, match_cells
-from grader.marking.handed_in.notes import FLAGS, REPAIRS, Notes
-from grader.marking.handed_in.order import Place, order_cells
-from grader.marking.handed_in.submission import HandedIn, Release, read_submission
-from grader.marking.handed_in.words import list_names
+from grader.marking.submission.assignment_release import Release
+from grader.marking.submission.cell_matching import Match, match_cells
+from grader.marking.submission.cell_order import CellPlace, order_cells
+from grader.marking.submission.plain_cells import Cell, PlainNotebook, cell_of, is_answer
+from grader.marking.submission.quoting import list_names
+from grader.marking.submission.repair_notes import FLAGS, REPAIRS, Notes
+from grader.marking.submission.submitted_files import SubmittedFiles
+from grader.marking.submission.submitted_notebooks import read_notebooks
 from grader.notebooks import cell_ids
 
 ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"
-MOST_POINTS = 1e6
+MAX_POINTS = 1e6
 SETTINGS = ("points", "grade", "solution", "locked", "task")
 
 
@@ -31,8 +33,8 @@ class RebuiltNotebook:
     """A notebook ready to run.
 
     answers: by grade_id, whether each was "answered", left "untouched" or is "missing". repairs: a sentence
-    for student and instructor on each thing that was mended. flags: for the instructor alone, on each thing
-    that no honest work leaves behind.
+    for student and instructor on each repair. flags: for the instructor alone, on each thing that honest work
+    does not lead to.
     """
 
     notebook: NotebookNode
@@ -46,7 +48,7 @@ class RebuiltSubmission:
     """A submission ready to run: its notebooks by name.
 
     missing: why a notebook of the release cannot be marked, by its name. repairs, flags: of all notebooks, as
-    in Rebuilt.
+    in RebuiltNotebook.
     """
 
     notebooks: dict[str, RebuiltNotebook] = field(default_factory=dict)
@@ -55,13 +57,13 @@ class RebuiltSubmission:
     flags: list[str] = field(default_factory=list)
 
 
-def rebuild_submission(handed_in: HandedIn, release: Release) -> RebuiltSubmission:
+def rebuild_submission(submitted: SubmittedFiles, release: Release) -> RebuiltSubmission:
     """Read a submission and rebuild all its notebooks. Raises Unusable if none can be marked."""
-    submission = read_submission(handed_in, release)
-    whole = RebuiltSubmission(missing=dict(submission.missing), repairs=list(submission.repairs))
-    for name, submitted in submission.notebooks.items():
+    read = read_notebooks(submitted, release)
+    whole = RebuiltSubmission(missing=dict(read.missing), repairs=list(read.repairs))
+    for name, notebook in read.notebooks.items():
         try:
-            rebuilt = rebuild(release.notebooks[name], submitted)
+            rebuilt = rebuild(release.notebooks[name], notebook)
         except Unusable as reason:
             whole.missing[name] = str(reason)
             continue
@@ -78,14 +80,14 @@ def rebuild(release: NotebookNode, submitted: PlainNotebook) -> RebuiltNotebook:
 
     Raises Unusable if those are not cells of this release.
     """
-    ours, theirs = [cell_of(cell) for cell in release.cells], submitted.cells
-    found = match_cells(ours, theirs)
-    _refuse_strangers(ours, theirs, found)
+    released, theirs = [cell_of(cell) for cell in release.cells], submitted.cells
+    found = match_cells(released, theirs)
+    _refuse_other_assignment(released, theirs, found)
     notes = Notes()
-    _note_how_found(ours, found, notes)
+    _note_how_found(released, found, notes)
     nodes, answers, chosen = [], {}, {}
     own = set(range(len(theirs))) - found.used()
-    for r, (cell, node) in enumerate(zip(ours, release.cells, strict=True)):
+    for r, (cell, node) in enumerate(zip(released, release.cells, strict=True)):
         copies = found.copies[r]
         if copies:
             chosen[r] = copies[-1]
@@ -102,32 +104,32 @@ def rebuild(release: NotebookNode, submitted: PlainNotebook) -> RebuiltNotebook:
             nodes.append(_with_text(node, node.source, cell.kind))
         else:
             nodes.append(_plain(cell, node, [theirs[s] for s in copies], notes))
-    order, moved = order_cells(ours, chosen, own)
+    order, moved = order_cells(released, chosen, own)
     for r in moved:
-        notes.add("moved", ours[r].name or ours[r].id)
+        notes.add("moved", released[r].name or released[r].id)
     notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, theirs)})
     repairs = [*submitted.repairs, *notes.sentences(REPAIRS)]
     return RebuiltNotebook(notebook, answers, repairs, notes.sentences(FLAGS))
 
 
-def _refuse_strangers(ours: Sequence[Cell], theirs: Sequence[Cell], found: Match) -> None:
-    names = {cell.name for cell in ours if cell.name}
-    there = {cell.name: r for r, cell in enumerate(ours) if cell.name and found.copies[r]}
-    strange = {cell.name: None for cell in theirs if cell.name not in names and cell.name}
-    if there and (len(there) >= len(strange) or 2 * len(there) >= len(names)):
+def _refuse_other_assignment(released: Sequence[Cell], theirs: Sequence[Cell], found: Match) -> None:
+    names = {cell.name for cell in released if cell.name}
+    present = [cell.name for r, cell in enumerate(released) if cell.name and found.copies[r]]
+    unknown = {cell.name: None for cell in theirs if cell.name not in names and cell.name}
+    if present and (len(present) >= len(unknown) or 2 * len(present) >= len(names)):
         return
-    saw = f"those of another ({list_names(strange)})" if strange else "none of them"
+    saw = f"those of another ({list_names(unknown)})" if unknown else "none of them"
     raise Unusable(
         f"Expected a notebook with this assignment's cells ({list_names(sorted(names))}), saw {saw}. "
         "Hand in the notebook of this assignment."
     )
 
 
-def _note_how_found(ours: Sequence[Cell], found: Match, notes: Notes) -> None:
-    how = {"found by id": found.by_id, "found by look": found.by_look, "name of another": found.swapped}
+def _note_how_found(released: Sequence[Cell], found: Match, notes: Notes) -> None:
+    how = {"found by id": found.by_id, "found by text": found.by_text, "name of another": found.swapped}
     for about, cells in how.items():
         for r in sorted(cells):
-            notes.add(about, ours[r].name)
+            notes.add(about, released[r].name)
 
 
 def _note_answer(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
@@ -141,7 +143,7 @@ def _note_answer(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
 
 
 def _note_fixed(cell: Cell, copies: Sequence[Cell], notes: Notes) -> None:
-    """A cell that students may not change: theirs is only looked at."""
+    """Compare the copies of a cell that students must not change."""
     if not copies:
         notes.add("test missing", cell.name)
     if len(copies) > 1:
@@ -171,7 +173,7 @@ def _plain(cell: Cell, node: NotebookNode, copies: Sequence[Cell], notes: Notes)
 
 
 def _with_text(node: NotebookNode, text: str, kind: str) -> NotebookNode:
-    """The cell of the release with another text, as it is before any run."""
+    """The cell of the release with another text, without outputs."""
     if kind != node.cell_type:
         return _new(kind, text, node.id)
     node = copy.deepcopy(node)
@@ -187,15 +189,15 @@ def _new(kind: str, text: str, cell_id: str) -> NotebookNode:
 
 
 def _in_order(
-    order: Sequence[Place], nodes: Sequence[NotebookNode], theirs: Sequence[Cell]
+    order: Sequence[CellPlace], nodes: Sequence[NotebookNode], theirs: Sequence[Cell]
 ) -> list[NotebookNode]:
     cells = []
     for place in order:
-        own = None if place.from_course else theirs[place.index]
+        own = None if place.released else theirs[place.index]
         cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.index])
     reserved = {node.id for node in nodes}
     for place, cell in zip(order, cells, strict=True):
-        if not place.from_course and cell.id in reserved:
+        if not place.released and cell.id in reserved:
             cell.id = ""
     for cell, cell_id in zip(cells, cell_ids(cells), strict=True):
         cell.id = cell_id
@@ -207,10 +209,10 @@ def _untouched(cell: Cell, starter: Cell) -> bool:
 
 
 def _as_released(cell: Cell) -> bool:
-    """Whether the cell is as some version of the assignment had it, by nbgrader's checksum in it."""
+    """Whether the cell is as in some version of the assignment, by nbgrader's checksum in it."""
     kinds = (str(cell.settings.get(key)) for key in ("grade", "solution", "locked"))
     points = cell.settings.get("points")
-    known = isinstance(points, (int, float)) and abs(points) < MOST_POINTS
+    known = isinstance(points, (int, float)) and abs(points) < MAX_POINTS
     worth = str(float(points)) if known and cell.settings.get("grade") else ""
     text = "".join([cell.text, cell.kind, *kinds, cell.name, worth])
     return cell.settings.get("checksum") == hashlib.md5(text.encode(errors="replace")).hexdigest()

@@ -1,6 +1,6 @@
 """Random damage to real submissions, and what holds whatever was damaged.
 
-    python -m tests.marking.handed_in.mutations 5000      so many, each from its own seed
+    python -m tests.marking.submission.mutations 5000      so many, each from its own seed
 """
 
 import collections
@@ -13,11 +13,11 @@ from typing import Any
 import nbformat
 
 from grader.marking.errors import Unusable
-from grader.marking.handed_in.cells import read_notebook
-from grader.marking.handed_in.rebuild import rebuild
-from grader.marking.handed_in.submission import load_release
 from grader.marking.release.samples import submission
-from tests.marking.handed_in.damage import ASSIGNMENTS, ROOT, data
+from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.plain_cells import read_notebook
+from grader.marking.submission.rebuild import rebuild
+from tests.marking.submission.damage import ASSIGNMENTS, ROOT, data
 
 VERDICTS = ("refused", "mended", "flagged", "as it was")
 NUMBERS = [True, -1, 1e308, 10**400]

@@ -1,1 +1,0 @@
-"""Reads what was handed in, and mends it: a notebook that can be run, made from the release."""
