@@ -9,7 +9,7 @@ from grader.checks.actions import (
     sends_goals,
     serves_action,
 )
-from grader.checks.check import Check, Missed, check, hinting
+from grader.checks.check import Check, Missed, check, hinting, otherwise
 from grader.checks.control import (
     fell_at,
     keeps_deadline,
@@ -79,6 +79,7 @@ __all__ = [
     "named",
     "nearest_person",
     "no_errors",
+    "otherwise",
     "overshoots",
     "passes",
     "places",

@@ -16,9 +16,18 @@ Picture = Literal["", "path", "topics"]
 Hints = Mapping[str, Callable[..., Any]]
 """A check's table of hints: each sentence with a function that tells whether its cause explains a miss.
 
-The function is given the recording and what `Missed.about` holds. It returns something false where the cause
-does not apply; or True, or a mapping with the values for the sentence's {placeholders}.
+The function is given the recording and what `Missed.about` holds; a row is left out where it takes another
+number of arguments. It returns something false where the cause does not apply; or True, or a mapping with the
+values for the sentence's {placeholders}.
 """
+
+
+def otherwise(run: Recording, *about: Any) -> bool:
+    """Return whether a miss is about something: the cause in the last row of a table of hints.
+
+    So a miss that a shared measure raised, such as `publishes`, has its own hint or the diagnosis'.
+    """
+    return bool(about)
 
 
 class Missed(Exception):
@@ -97,7 +106,7 @@ class Check:
     def _hint(self, recording: Recording, missed: Missed) -> str:
         """The first row of the table whose cause explains the miss; "" if none does."""
         for sentence, cause in self.hints.items():
-            found = cause(recording, *missed.about)
+            found = _takes(cause, recording, *missed.about) and cause(recording, *missed.about)
             if found:
                 return sentence.format(**found) if isinstance(found, Mapping) else sentence
         return ""
@@ -149,6 +158,15 @@ def new_check(
 def check(*, points: float, after: Check | tuple[Check, ...] = ()) -> Callable[[Callable], Check]:
     """Make a check of a function, as `new_check` does."""
     return lambda function: new_check(function, points, after)
+
+
+def _takes(function: Callable[..., Any], *arguments: Any) -> bool:
+    """Whether a function can be called with these positional arguments."""
+    try:
+        inspect.signature(function).bind(*arguments)
+    except TypeError:
+        return False
+    return True
 
 
 def fraction(value: Any) -> float:

@@ -1,9 +1,9 @@
-"""Compares numbers, and explains a wrong result by the formula that gives it."""
+"""Compares numbers and series of numbers, and writes them as score pages do."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 
@@ -27,15 +27,10 @@ def text_of(value: Any) -> str:
     return f"“{value[:60]}”" if isinstance(value, str) else str(value)
 
 
-def first_matching(
-    mistakes: Mapping[str, Sequence[Any]], values: Sequence[Any], tolerance: float = 1e-6
-) -> str:
-    """Return the hint of the first wrong formula that explains a series of values; "" if none does.
+def matches(values: Sequence[Any], wanted: Sequence[Any], tolerance: float = 1e-6) -> bool:
+    """Return whether two series have the same values, as far as the shorter one goes.
 
-    mistakes: hint to the values that this formula would give, the likeliest first. A shorter series is
-    compared with the beginning of the longer one.
+    An empty series matches nothing. In a table of hints, `wanted` is what a wrong formula gives.
     """
-    for hint, wrong in mistakes.items():
-        if values and all(same(a, b, tolerance) for a, b in zip(values, wrong, strict=False)):
-            return hint
-    return ""
+    pairs = list(zip(values, wanted, strict=False))
+    return bool(pairs) and all(same(a, b, tolerance) for a, b in pairs)

@@ -294,7 +294,9 @@ def test_a_miss_that_tells_of_something_else_has_no_graph(missed):
 
 def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody_drives():
     recording = typo(from_course=True)
-    recording.graph.endpoints.append(Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, from_course=True))
+    recording.graph.endpoints.append(
+        Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, from_course=True)
+    )
     missed = verdict(2.0, "failed", expected="messages on /cmd_vel and /newz")
     assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
 

@@ -6,7 +6,7 @@ import itertools
 import math
 from typing import Any, NamedTuple
 
-from grader.checks import Missed, answers, commands_within, publishes
+from grader.checks import Missed, answers, commands_within, otherwise, publishes
 from grader.checks.joints import described_limits
 from grader.companions.lift import JOINT, lift
 from grader.exercise import Exercise
@@ -113,9 +113,7 @@ def says_so(run: Recording) -> None:
             lambda run, jam, later: later and {"sent": later[0]}
         ),
         "Stuck is when abs(effort) is as high as the description's limit, and abs(velocity) is 0, for half a "
-        "second. Read them by the joint's name, remember since when, and compare with now.": (
-            lambda run, jam, later: True
-        ),
+        "second. Read them by the joint's name, remember since when, and compare with now.": (otherwise),
     },
 )
 def frees_what_is_stuck(run: Recording) -> None:

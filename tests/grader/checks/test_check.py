@@ -3,7 +3,9 @@ import math
 import pytest
 
 from grader import Missed, check
-from grader.checks import Check, hinting
+from grader.checks import Check, hinting, otherwise
+from grader.checks.check import new_check
+from sim.evidence import Ended, Recording
 
 
 def test_the_docstrings_first_paragraph_is_the_sentence():
@@ -93,3 +95,43 @@ def documented(recording):
 
 def sentence(name):
     return Check(name, name, 1.0, (), documented)
+
+
+HINTS = {
+    "Nothing came.": lambda run: run.ended.reason == "error",
+    "It is {count} too many.": lambda run, count: count > 1 and {"count": count - 1},
+    "Count again.": otherwise,
+}
+
+
+@pytest.mark.parametrize(
+    ("reason", "about", "hint"),
+    [
+        ("time", (3,), "It is 2 too many."),
+        ("time", (1,), "Count again."),
+        ("time", (), ""),
+        ("error", (), "Nothing came."),
+        ("error", (3,), "It is 2 too many."),
+        ("time", (3, 4), "Count again."),
+    ],
+)
+def test_the_hint_is_the_first_row_whose_cause_takes_what_the_miss_is_about_and_explains_it(
+    reason, about, hint
+):
+    def counts(recording):
+        """A sentence."""
+        raise Missed("1", "3", about=about)
+
+    with pytest.raises(Missed) as caught:
+        new_check(counts, 1, hints=HINTS)(Recording(ended=Ended(reason, "", 1.0)))
+    assert caught.value.hint == hint
+
+
+def test_a_miss_with_a_hint_of_its_own_keeps_it():
+    def counts(recording):
+        """A sentence."""
+        raise Missed("1", "3", "Its own.", about=(3,))
+
+    with pytest.raises(Missed) as caught:
+        new_check(counts, 1, hints=HINTS)(Recording())
+    assert caught.value.hint == "Its own."

@@ -32,7 +32,13 @@ def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):
 
 @pytest.mark.parametrize(
     "recording",
-    [of("time"), of("goal", 4.0), of("interrupted", 4.0), of("error", errors=[ERROR]), of("time", all_exited_at=10.0)],
+    [
+        of("time"),
+        of("goal", 4.0),
+        of("interrupted", 4.0),
+        of("error", errors=[ERROR]),
+        of("time", all_exited_at=10.0),
+    ],
 )
 def test_who_was_at_work_to_the_end_has_all_of_it(recording):
     assert work_of(recording) == Work(1.0)

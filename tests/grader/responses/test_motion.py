@@ -8,7 +8,12 @@ from grader.checks import Missed
 from grader.responses import Speed, Window, closest, require_standing, speeds, top_speed
 from sim.evidence import Pose, Recording
 
-PATH = [Pose(0.0, 0.0, 0.0, 0.0), Pose(1.0, 0.3, 0.4, 0.0), Pose(2.0, 0.3, 0.4, 0.5), Pose(2.5, 0.3, 0.4, 0.5)]
+PATH = [
+    Pose(0.0, 0.0, 0.0, 0.0),
+    Pose(1.0, 0.3, 0.4, 0.0),
+    Pose(2.0, 0.3, 0.4, 0.5),
+    Pose(2.5, 0.3, 0.4, 0.5),
+]
 
 
 def test_a_speed_is_the_mean_between_two_poses():

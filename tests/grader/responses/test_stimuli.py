@@ -40,7 +40,11 @@ def test_a_wrong_response_is_missed_with_what_was_wanted_and_seen():
     with pytest.raises(Missed) as missed:
         stimulus.expects(7.0, hint="Pass it on.")
     found = missed.value
-    assert (found.expected, found.saw, found.hint) == ("7 on /command within 0.5 s of 1 s", "6.5", "Pass it on.")
+    assert (found.expected, found.saw, found.hint) == (
+        "7 on /command within 0.5 s of 1 s",
+        "6.5",
+        "Pass it on.",
+    )
     assert found.about == (stimulus,)
 
 
@@ -61,12 +65,16 @@ def test_what_had_no_time_for_a_response_is_left_out():
 
 def test_a_response_before_it_is_possible_does_not_count():
     slow = Stimuli("/wanted", answered_on="/command", within=0.5, not_before=0.3)
-    [stimulus] = slow(recorded(row(1.0, "/wanted", 7.0, True), row(1.2, "/command", 7.0), row(1.4, "/command", 8.0)))
+    [stimulus] = slow(
+        recorded(row(1.0, "/wanted", 7.0, True), row(1.2, "/command", 7.0), row(1.4, "/command", 8.0))
+    )
     assert (stimulus.values(), stimulus.within) == ([8.0], 0.5)
 
 
 def test_no_stimulus_of_ours_is_our_mistake():
-    with pytest.raises(ValueError, match=r"^nodes of the exercise's own should have sent messages on /wanted: 0$"):
+    with pytest.raises(
+        ValueError, match=r"^nodes of the exercise's own should have sent messages on /wanted: 0$"
+    ):
         ASKED(recorded())
     with pytest.raises(ValueError, match=r"should have sent requests: none$"):
         from_course(recorded(row(1.0, "/wanted", 1.0)), "/wanted", what="requests")
