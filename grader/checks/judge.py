@@ -17,6 +17,7 @@ from grader.diagnosis.owners import LEAVE_IT, Intrusion, intrusions
 from sim.evidence import Recording
 
 Status = Literal["passed", "failed", "skipped", "broken"]
+WORST_FIRST: tuple[Status, ...] = ("failed", "skipped", "broken", "passed")  # where the credit is the same
 
 BROKEN_HINT = "Nothing to do: this check has a mistake of its own. Your instructor decides about its points."
 EXPLAINED_BY_FAULT = "Not judged: the error above explains it."
@@ -173,11 +174,8 @@ class _Judging:
 
 def _worst_of(group: Sequence[Verdict]) -> Verdict:
     """The one that earns least; one of a robot that was unsafe goes before all, and earns no more."""
-    told = min(group, key=lambda v: (not v.unsafe, v.credit, _GRAVITY[v.status]))
+    told = min(group, key=lambda v: (not v.unsafe, v.credit, WORST_FIRST.index(v.status)))
     return replace(told, credit=min(verdict.credit for verdict in group))
-
-
-_GRAVITY: dict[Status, int] = {"failed": 0, "skipped": 1, "broken": 2, "passed": 3}
 
 
 def worst(checks: Sequence[Check], runs: Iterable[Sequence[Verdict]]) -> list[Verdict]:
