@@ -4,7 +4,7 @@ A stimulus is a message, request or goal that a program of the course sends. The
 student's programs publish within its window. Checks compare the two, and raise `Missed` if they differ.
 """
 
-from grader.responses.comparison import matches, same, text_of
+from grader.responses.comparison import listed, matches, same, text_of
 from grader.responses.motion import Speed, closest, require_standing, speeds, top_speed
 from grader.responses.stimuli import Stimuli, Stimulus, from_course, last_before, requests_from_course
 from grader.responses.window import EDGE, Window
@@ -18,6 +18,7 @@ __all__ = [
     "closest",
     "from_course",
     "last_before",
+    "listed",
     "matches",
     "requests_from_course",
     "require_standing",

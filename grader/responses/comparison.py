@@ -27,6 +27,12 @@ def text_of(value: Any) -> str:
     return f"“{value[:60]}”" if isinstance(value, str) else str(value)
 
 
+def listed(values: Sequence[float], most: int = 9) -> str:
+    """Return numbers as a score page lists them; after the first ones, how many more there are."""
+    shown = ", ".join(f"{value:g}" for value in values[:most])
+    return f"{shown}, and {len(values) - most} more" if len(values) > most else shown
+
+
 def matches(values: Sequence[Any], wanted: Sequence[Any], tolerance: float = 1e-6) -> bool:
     """Return whether two series have the same values, as far as the shorter one goes.
 

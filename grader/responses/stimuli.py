@@ -21,9 +21,9 @@ def from_course(
     settled: leave out those of the last seconds of the run, which had no time for a response.
     what: their name in a sentence; by default "messages on" the topic. Raises as `no_data` for fewer.
     """
-    end = run.ended.stamp - settled
-    sent = [row for row in run.messages(topic) if row.from_course]
-    found = [row for row in sent if row.stamp + EDGE < end] if settled else sent
+    found = [row for row in run.messages(topic) if row.from_course]
+    if settled:
+        found = [row for row in found if Window.after(row.stamp, settled).is_over(run)]
     if len(found) < at_least:
         saw = f"{len(found)}" if found else "none"
         raise no_data(run, what or f"messages on {topic}", saw, run.graph.publishers(topic))

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from grader.responses import matches, same, text_of
+from grader.responses import listed, matches, same, text_of
 
 
 @pytest.mark.parametrize(
@@ -31,6 +31,13 @@ def test_numbers_are_the_same_within_a_tolerance(value, wanted, equal):
 )
 def test_a_value_is_written_as_a_score_page_shows_it(value, text):
     assert text_of(value) == text
+
+
+def test_numbers_are_listed_up_to_the_ninth():
+    assert listed([0.0, 0.5, -1.25]) == "0, 0.5, -1.25"
+    assert listed([1.0] * 9) == ", ".join("1" * 9)
+    assert listed([1.0] * 11) == ", ".join("1" * 9) + ", and 2 more"
+    assert listed([]) == ""
 
 
 def test_series_match_as_far_as_the_shorter_one_goes():
