@@ -112,6 +112,8 @@ class Exercise:
     package: the name of the package that is built and run. `grade` then takes the folder of a workspace,
         `prepare` of each scenario says which of its programs runs, and checks are given a `PackageRun`.
     build_type: that of the package; one of "ament_cmake" has interfaces, and is read in place of being built.
+    names_count: names are a part of the task, so those alone may earn more than 30 % of the points.
+    extra_allowed: messages beyond those that the task wants cost nothing.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -129,6 +131,8 @@ class Exercise:
     network: Network | None = None
     package: str = ""
     build_type: str = PYTHON
+    names_count: bool = False
+    extra_allowed: bool = False
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -179,6 +183,16 @@ class Exercise:
     def points(self) -> float:
         """What can be reached."""
         return sum(item.points for item in self.checks)
+
+    @property
+    def varies(self) -> bool:
+        """Whether the right answer depends on what a run shows, and not on the task's text alone.
+
+        Something varies if the course sends messages, draws the world from a seed, or builds a package.
+        """
+        runs = [scenario for scenario, _ in self.runs()]
+        drawn = any(callable(scenario.world) or scenario.companions for scenario in runs)
+        return drawn or bool(self.package) or len({seed for _, seed in self.runs()}) > 1
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
         """Scenarios with their seeds: public ones, or private ones from a secret."""

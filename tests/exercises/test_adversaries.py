@@ -32,13 +32,8 @@ ASSIGNMENTS: tuple[type[Assignment], ...] = (
 ALL = [(assignment, name) for assignment in ASSIGNMENTS for name in assignment.names]
 ALL_KINDS = (*KINDS, "ends early")
 LUCK, NOTHING = 0.25, 0.3  # of the points that are left, and of all
-NAMES_ARE_ASKED_FOR = ("add", "remapping")  # and the card tells them
 EARLY, AT_ONCE = 0.3, 0.1  # of the time; where a program may end when it is done, it has to end sooner
-# Where the task says all: nothing varies, and nothing is to be sensed. Who gives that by the clock is right,
-# but who says everything is not; save where a part of what is said is right: of an IMU, and of a square.
-FIXED = {(Nodes, name) for name in Nodes.names}
-FIXED |= {(Topics, name) for name in ("greeting", "temperature", "imu", "remapping", "square")}
-FIXED |= {(Joints, "seven")}
+DONE_AT_ONCE = 3  # s: a program that may end in a run this short is done before it could end early
 
 
 def rows(kinds):
@@ -57,12 +52,17 @@ def rows(kinds):
 
 
 def wrong_in(assignment, name):
-    """The kinds that do not what the exercise asks for."""
-    if (assignment, name) == (Nodes, "hello"):
-        return ["does nothing", "says everything"]  # it is done at once
-    if (assignment, name) in ((Topics, "imu"), (Topics, "square"), (Silence, "pub")):
-        return ["does nothing", "ends early"]
-    return ["does nothing", "says everything", "ends early"] if (assignment, name) in FIXED else ALL_KINDS
+    """The kinds that are wrong in this exercise: all of them, unless the task's text says all that is right.
+
+    Then a node that repeats a right answer by the clock is right, and so may be one that publishes more.
+    """
+    exercise = assignment.judge(name)
+    kinds = list(ALL_KINDS) if exercise.varies else ["does nothing", "says everything", "ends early"]
+    if exercise.extra_allowed:
+        kinds.remove("says everything")
+    if exercise.may_end and not any(scenario.seconds > DONE_AT_ONCE for scenario, _ in exercise.runs()):
+        kinds.remove("ends early")
+    return kinds
 
 
 def done_at(run):
@@ -81,7 +81,7 @@ def test_who_knows_only_the_card_gets_what_is_given_for_being_there(assignment, 
     there, program = for_being_there(exercise), adversary(kind, card_of(assignment.topic(), name))
     score = earned(exercise, kind, program)
     assert score <= there + (LUCK * (exercise.points - there) if kind == BY_LOT else 0), score.text
-    if kind == "does nothing" and name not in NAMES_ARE_ASKED_FOR:
+    if kind == "does nothing" and not exercise.names_count:
         assert score <= NOTHING * exercise.points, score.text
 
 

@@ -15,7 +15,9 @@ from sim.evidence import Call, Recording, Seconds
 
 ADD = "/add_two_ints"
 
-add = Exercise("add", "A service in one line", seconds=6, companions=[Questioner], seeds=(1, 2))
+add = Exercise(
+    "add", "A service in one line", seconds=6, companions=[Questioner], seeds=(1, 2), names_count=True
+)
 
 
 @add.check(4)
