@@ -119,17 +119,17 @@ class RealTimeRun:
 
     def teleop(self) -> Callable[[float, float], None]:
         """Add a node that drives the first robot: forward and left, each in [-1, 1], from any thread."""
-        from sim.ros.play.teleop import Reins, reins
+        from sim.ros.play.teleop import TeleopSettings, teleop_settings
         from sim.ros.robots.velocity import VelocityPublisher
 
         # Whatever --ros-args calls the robot's node, this one has its own name.
         node = Node("teleop", cli_args=["--ros-args", "-r", "__node:=teleop"])
-        held = reins(self.scene.world) or Reins()
-        velocity = VelocityPublisher(node, held.stamped, held.topic)
+        settings = teleop_settings(self.scene.world) or TeleopSettings()
+        velocity = VelocityPublisher(node, settings.stamped, settings.topic)
         self.add(node)
 
         def drive(forward: float, left: float) -> None:
-            velocity.send(forward * held.speed, left * held.turn)
+            velocity.send(forward * settings.speed, left * settings.turn)
 
         return drive
 

@@ -34,7 +34,7 @@ def _reader() -> Parser:
 def _system() -> System:
     if latest.player is not None:
         if not latest.player.nodes:
-            latest.player.turn(0.0)  # it has just begun: its nodes are made now
+            latest.player.play_frame(0.0)  # it has just begun: its nodes are made now
         return Played(latest.player)
     if latest.recording is None:
         raise Wrong("Nothing has run yet: start nodes with run(...) or play(...), and then ask about them.")

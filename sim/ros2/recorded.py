@@ -173,7 +173,7 @@ class Played(Recorded):
             raise Wrong("The play is paused, so nothing happens in it: let it go on, and try again.")
         yield
         while not player.over and not enough() and self.now < limit - 1e-9:
-            player.turn(limit, enough)
+            player.play_frame(limit, enough)
             yield
             if player.speed != math.inf:
                 select.select((), (), (), FRAME)  # a play goes along with the clock on the wall

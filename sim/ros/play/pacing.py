@@ -1,4 +1,4 @@
-"""How simulated time goes along with the clock on the wall."""
+"""Paces simulated time to the wall clock."""
 
 from __future__ import annotations
 
@@ -7,21 +7,23 @@ from collections import deque
 from collections.abc import Callable
 from time import perf_counter
 
-LATE = 0.25  # s of wall time between two looks; after more, the pace starts anew instead of catching up
-MEASURED_OVER = 1.0  # s of wall time
+MAX_GAP = 0.25  # s of wall time between calls of `due`; after more, pacing restarts and doesn't catch up
+MEASURING_PERIOD = 1.0  # s of wall time
 
 
 class Pace:
-    """Says how far simulated time should have come by now, and measures how fast it really goes.
+    """Computes the simulated time that is due, and measures the speed that is reached.
 
-    speed: simulated seconds per second; math.inf for as fast as it goes. clock: seconds of wall time.
-    Raises ValueError for a speed that is none.
+    speed: simulated seconds per second; math.inf for as fast as possible. clock: wall time (s).
+    Raises ValueError for an invalid speed.
     """
 
     def __init__(self, speed: float = 1.0, clock: Callable[[], float] = perf_counter) -> None:
         self.clock = clock
-        self._looks: deque[tuple[float, float]] = deque()  # (wall time, simulated time) of the last second
-        self._start: tuple[float, float] | None = None  # when and from where it has gone at this speed
+        self._samples: deque[tuple[float, float]] = deque()  # (wall time, simulated time) of the last second
+        self._start: tuple[float, float] | None = (
+            None  # wall time and simulated time since when it runs at this speed
+        )
         self.speed = speed
 
     @property
@@ -37,34 +39,34 @@ class Pace:
                 f" it is {speed!r}."
             )
         self._speed = float(speed)
-        self.start_anew()
+        self.restart()
 
-    def start_anew(self) -> None:
-        """Go on from where it is now, whatever the clock did meanwhile."""
+    def restart(self) -> None:
+        """Continue from the current simulated time, however much wall time has passed."""
         self._start = None
-        self._looks.clear()
+        self._samples.clear()
 
     def due(self, reached: float) -> float:
-        """The simulated time (s) to go on to now. reached: how far it has come; there is no way back."""
+        """The simulated time (s) that is due now; at least `reached`, the time (s) reached so far."""
         now = self.clock()
-        if self._looks and now - self._looks[-1][0] > LATE:
-            self.start_anew()
+        if self._samples and now - self._samples[-1][0] > MAX_GAP:
+            self.restart()
         if self._start is None:
             self._start = now, reached
-        self._looks.append((now, reached))
-        while now - self._looks[0][0] > MEASURED_OVER:
-            self._looks.popleft()
+        self._samples.append((now, reached))
+        while now - self._samples[0][0] > MEASURING_PERIOD:
+            self._samples.popleft()
         since, origin = self._start
         return math.inf if self._speed == math.inf else max(reached, origin + (now - since) * self._speed)
 
     def fell_behind(self) -> None:
-        """It came less far than was due: don't catch up, for that would only get worse."""
+        """The due time was not reached: don't catch up, because that would fall behind even more."""
         self._start = None
 
     @property
     def measured(self) -> float:
-        """Simulated seconds per second over the last second; 0 while there is nothing to measure."""
-        if len(self._looks) < 2:
+        """Simulated seconds per second over the last second; 0 without measurements."""
+        if len(self._samples) < 2:
             return 0.0
-        (begin, origin), (end, reached) = self._looks[0], self._looks[-1]
+        (begin, origin), (end, reached) = self._samples[0], self._samples[-1]
         return (reached - origin) / (end - begin) if end > begin else 0.0

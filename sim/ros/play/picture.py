@@ -1,4 +1,4 @@
-"""What a player shows while it plays, and to whom."""
+"""Keeps a live picture up to date while a player runs."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from sim.evidence import Recording
-from sim.ros.play.readings import Readings
+from sim.ros.play.telemetry import Telemetry
 from sim.ros.session import Session
 from sim.world import Scan
 
-RATES_OVER = 2.0  # s of simulated time
-STATES_EVERY, GRAPHS_EVERY = 0.25, 1.0  # s of wall time
-CONTACTS = 100  # the newest that are shown
+RATE_PERIOD = 2.0  # s of simulated time
+STATE_PERIOD, GRAPH_PERIOD = 0.25, 1.0  # s of wall time
+MAX_CONTACTS = 100  # the newest contacts are shown
 
 
 class Picture(Protocol):
-    """Shows a run while it goes on. All its methods are called by the player, in the kernel's main thread."""
+    """Shows a running simulation. The player calls all methods in the kernel's main thread."""
 
     # Set by the player. May be called in any thread, with one of {"speed": 2.0}, {"pause": True or False},
     # {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} and {"drive": [forward, left]}, each in
@@ -25,71 +25,75 @@ class Picture(Protocol):
     on_command: Callable[[dict], None] | None
 
     def frame(self, stamp: float, poses: list[tuple[float, float, float]], scan: Scan | None) -> None:
-        """Where everything in the world is at `stamp` (s), and what was seen last; 30 a second at most."""
+        """Show all poses at `stamp` (s) and the latest scan; called at most 30 times a second."""
 
     def state(self, state: dict) -> None:
-        """How the run is going; 4 a second at most, and whenever it was paused, sped up or ended.
+        """Show the state; called at most 4 times a second, and whenever speed, paused or ended changes.
 
-        Keys: stamp (s), speed (asked for; may be inf), pace (measured), paused, topics (a list of dicts of
+        Keys: stamp (s), speed (requested; may be inf), pace (measured), paused, topics (a list of dicts of
         name, type, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason, detail]), numbers
-        and topic as `Readings.update` gives them. Where pens draw: drawing.
+        and topic as `Telemetry.update` returns them, and drawing if the world has pens.
         """
 
     def connections(self, recording: Recording) -> None:
-        """Who is connected to whom by now; once a second at most, if it has changed and somebody looks."""
+        """Show the graph; called at most once a second, if it was requested and has changed."""
 
     def finish(self, recording: Recording) -> None:
-        """The run is over: show what is left of it."""
+        """The run has ended: show its recording."""
 
     def close(self) -> None:
-        """Go, and leave nothing."""
+        """Remove the picture."""
 
 
-class Show:
-    """Keeps a picture up to date. A picture that fails is left alone: the run goes on without it."""
+class PictureUpdater:
+    """Keeps a picture up to date. If the picture raises an exception, the run continues without it."""
 
     def __init__(self, picture: Picture | None, clock: Callable[[], float]) -> None:
         self._picture, self._clock = picture, clock
-        self._last: tuple[float, dict] | None = None  # wall time of the last state; what was urgent
-        self.readings = Readings()
+        self._last: tuple[float, dict] | None = None  # wall time of the last state; its urgent values
+        self.telemetry = Telemetry()
         self._shown: float | None = None  # the stamp of the last frame
-        self._graph: tuple[float, int, int] | None = None  # when the last was shown; its nodes and ends
-        self._sent: deque[tuple[float, dict[str, int]]] = deque()  # (stamp, messages on each topic by then)
+        self._graph: tuple[float, int, int] | None = (
+            None  # wall time of the last graph; its numbers of nodes and endpoints
+        )
+        self._sent: deque[tuple[float, dict[str, int]]] = (
+            deque()
+        )  # (stamp, messages sent on each topic until then)
 
     def frame(self, session: Session, stamp: float) -> None:
-        """Show the world at `stamp`, for which all that is due has been done."""
+        """Show the world at `stamp`, after everything due at that time has run."""
         if self._picture is None or session.truth is None or stamp == self._shown:
             return
         self._shown, scene = stamp, session.truth.scene
-        self._tell("frame", stamp, scene.poses, scene.last_scan)
+        self._call("frame", stamp, scene.poses, scene.last_scan)
 
     def state(self, session: Session, stamp: float, pace: float, **urgent: Any) -> None:
-        """Show how it goes; at once if something `urgent` has changed: speed, paused and ended."""
+        """Show the state, at once if an `urgent` value has changed: speed, paused or ended."""
         now = self._clock()
-        known = self._last is not None and self._last[1] == urgent and now - self._last[0] < STATES_EVERY
+        known = self._last is not None and self._last[1] == urgent and now - self._last[0] < STATE_PERIOD
         if self._picture is None or known:
             return
         self._last = now, urgent
-        contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-CONTACTS:]]
+        contacts = [[contact.x, contact.y] for contact in session.recording.contacts[-MAX_CONTACTS:]]
         state = {"stamp": stamp, "pace": pace, "topics": self._topics(session), "contacts": contacts}
         if session.recording.drawing is not None:
             state["drawing"] = session.recording.drawing
-        self._tell("state", state | self.readings.update(session) | urgent)
+        self._call("state", state | self.telemetry.update(session) | urgent)
 
     def connections(self, recording: Recording) -> None:
-        """Show the graph, as somebody asks for it."""
+        """Show the graph, which was requested."""
         now, nodes, ends = self._clock(), len(recording.graph.nodes), len(recording.graph.endpoints)
         if self._graph is not None:
             shown_at, *shown = self._graph
-            if now - shown_at < GRAPHS_EVERY or shown == [nodes, ends]:  # neither ever gets fewer
+            if now - shown_at < GRAPH_PERIOD or shown == [nodes, ends]:  # both numbers only grow
                 return
         self._graph = now, nodes, ends
-        self._tell("connections", recording)
+        self._call("connections", recording)
 
     def finish(self, recording: Recording) -> None:
-        """Show what is left, if there is anything, and be done."""
+        """Show the recording if there is something to show, and detach the picture."""
         moved = recording.world is None or recording.path or recording.tracks
-        self._tell(*(("finish", recording) if moved else ("close",)))
+        self._call(*(("finish", recording) if moved else ("close",)))
         if self._picture is not None:
             self._picture.on_command = None
         self._picture = None
@@ -98,7 +102,7 @@ class Show:
         stamp = session.recording.stamp
         if session.engine is not None and (not self._sent or self._sent[-1][0] < stamp):
             self._sent.append((stamp, dict(session.engine.topics.sent)))
-        while len(self._sent) > 2 and stamp - self._sent[1][0] >= RATES_OVER:
+        while len(self._sent) > 2 and stamp - self._sent[1][0] >= RATE_PERIOD:
             self._sent.popleft()
         if not self._sent:
             return []
@@ -112,7 +116,7 @@ class Show:
             for name, type_ in session.recording.topics.items()
         ]
 
-    def _tell(self, method: str, *arguments: Any) -> None:
+    def _call(self, method: str, *arguments: Any) -> None:
         if self._picture is None:
             return
         try:

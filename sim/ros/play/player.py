@@ -1,4 +1,4 @@
-"""Plays a run along with the clock on the wall: watched, paused, driven by hand, stopped."""
+"""Plays a run at the pace of the wall clock; it can be watched, paused, driven manually and stopped."""
 
 from __future__ import annotations
 
@@ -18,41 +18,41 @@ from sim.ros.engine import interrupts
 from sim.ros.engine.engine import INTERRUPTED
 from sim.ros.engine.program import Process
 from sim.ros.latest import latest
-from sim.ros.play.hand import Hand
+from sim.ros.play.keyboard_driver import KeyboardDriver
 from sim.ros.play.pacing import Pace
-from sim.ros.play.picture import Picture, Show
+from sim.ros.play.picture import Picture, PictureUpdater
 from sim.ros.session import Session
 
 FRAME = 1 / 30  # s of wall time
-WORK = 0.8 * FRAME  # of it; the rest is the kernel's, for messages and other cells
+WORK_PER_FRAME = 0.8 * FRAME  # the rest of a frame is for the kernel's messages and other cells
 STEP = 0.05  # s, one period of the robot's sensors
 
 
 class Player:
-    """A run that is played. `recording` grows while it goes on, and ends equal to that of `run`.
+    """A run that is played. `recording` grows meanwhile, and at the end equals that of `run`.
 
-    Made by `play`. It works in stretches of a frame each, as a task of the event loop, so that other cells
-    and the picture's buttons have their turn in between.
+    Created by `play`. It works frame by frame, as a task of the event loop, so that other cells and the
+    picture's buttons are handled in between.
     """
 
     def __init__(self, session: Session, pace: Pace) -> None:
-        """Open the session, and stop what was played before. Raises WorldError for a bad world."""
-        if latest.player is not None:  # there is one at a time
+        """Open the session, and stop the previous player. Raises WorldError for an invalid world."""
+        if latest.player is not None:  # only one at a time
             latest.player.stop("Another play has begun.")
         self.recording: Recording = session.recording
         self.paused = False
         self._session, self._pace = session, pace
-        self._show = Show(None, pace.clock)
-        self.stamp = 0.0  # s of simulated time up to which all that is due has been done
+        self._updater = PictureUpdater(None, pace.clock)
+        self.stamp = 0.0  # simulated time (s) until which everything has run
         self._commands: deque[dict[str, Any]] = deque()
-        self._hand = Hand(session, pace.clock)
-        self._at_work = self._let_go = False
-        self._wanted: str | None = None  # why it should stop
+        self._keyboard_driver = KeyboardDriver(session, pace.clock)
+        self._advancing = self._released = False
+        self._stop_reason: str | None = None  # set when the run is to end
         self._error: Exception | None = None
-        self._context = contextvars.copy_context()  # a notebook's output goes to the cell that this names
-        self._context.run(session.advance, -1.0)  # opens it
+        self._context = contextvars.copy_context()  # notebook output goes to the cell that this context names
+        self._context.run(session.advance, -1.0)  # opens the session
         latest.player = self
-        atexit.register(self._quit)
+        atexit.register(self._stop_at_exit)
 
     @property
     def over(self) -> bool:
@@ -61,7 +61,7 @@ class Player:
 
     @property
     def speed(self) -> float:
-        """Simulated seconds per second; can be set. math.inf: as fast as it goes."""
+        """Simulated seconds per second; can be set. math.inf: as fast as possible."""
         return self._pace.speed
 
     @speed.setter
@@ -70,42 +70,42 @@ class Player:
 
     @property
     def nodes(self) -> list[str]:
-        """Full names of the nodes that are there now."""
+        """Full names of the current nodes."""
         return [node.get_fully_qualified_name() for node in self._session.nodes]
 
     def add(self, program: Process) -> None:
-        """Add one of our programs, a tool's for example."""
+        """Start a further program of the course, such as a tool."""
         self._context.run(self._session.start, program, from_course=True)
 
     def pause(self) -> None:
-        """Let time stand still."""
+        """Stop simulated time."""
         self.paused = True
-        self._pace.start_anew()
+        self._pace.restart()
 
     def resume(self) -> None:
-        """Let time go on."""
+        """Continue simulated time."""
         self.paused = False
-        self._pace.start_anew()
+        self._pace.restart()
 
     def step(self) -> None:
-        """Pause, and go on by 0.05 s: to the next of the robot's scans. Only in the thread of `play`."""
+        """Pause, then advance by 0.05 s, the period of the robot's scans. Only in the thread of `play`."""
         self.pause()
-        self._work(self.stamp + STEP)
+        self._advance(self.stamp + STEP)
         self._update()
 
     def stop(self, why: str = "The user stopped it.") -> None:
-        """End the run here; in another thread, ask for its end."""
-        self._wanted = why
-        if not self._at_work and not self.over and not self._session.elsewhere:
+        """End the run now or, in another thread, at the next frame."""
+        self._stop_reason = why
+        if not self._advancing and not self.over and not self._session.elsewhere:
             self._end()
 
     def result(self) -> Recording:
-        """Run the rest at once, whatever the speed, and return the recording. Only in the thread of `play`.
+        """Run the rest as fast as possible, and return the recording. Only in the thread of `play`.
 
-        Raises KeyboardInterrupt when the user interrupts that, and whatever `until` raised.
+        Raises KeyboardInterrupt if the user interrupts that, and any exception of `until`.
         """
         if not self.over:
-            self._work(math.inf)
+            self._advance(math.inf)
             self._update()
             if self._session.interrupted:
                 raise interrupted()
@@ -134,8 +134,8 @@ class Player:
         """Nothing: the picture is there already."""
 
     def show(self, picture: Picture) -> None:
-        """Let a picture follow it, and obey its commands."""
-        self._show = Show(picture, self._pace.clock)
+        """Show the run in a picture, and execute the picture's commands."""
+        self._updater = PictureUpdater(picture, self._pace.clock)
         picture.on_command = self._commands.append
 
     def begin(self) -> None:
@@ -149,7 +149,7 @@ class Player:
                 raise interrupted() from None
             self.result()
         else:
-            self._task = loop.create_task(self._play())  # kept, for the loop doesn't
+            self._task = loop.create_task(self._play())  # the loop keeps only a weak reference
 
     async def _play(self) -> None:
         clock = self._pace.clock
@@ -157,44 +157,44 @@ class Player:
             while not self.over:
                 began = clock()
                 interrupts.listen(self._interrupt)
-                self.turn()
-                await asyncio.sleep(max(began + FRAME - clock(), FRAME - WORK))
+                self.play_frame()
+                await asyncio.sleep(max(began + FRAME - clock(), FRAME - WORK_PER_FRAME))
         except asyncio.CancelledError:
             self.stop(INTERRUPTED)
             raise
         await interrupts.leave(self._interrupt)
 
     def _interrupt(self) -> None:
-        self._wanted = INTERRUPTED
+        self._stop_reason = INTERRUPTED
 
-    def turn(self, limit: float = math.inf, enough: Callable[[], bool] = lambda: False) -> None:
-        """Do what a frame has to: obey, go on as far as is due, show it.
+    def play_frame(self, limit: float = math.inf, enough: Callable[[], bool] = lambda: False) -> None:
+        """Play one frame: execute commands, advance to the due time, update the picture.
 
-        limit: go on to that time (s) at most. enough: asked between moments whether to go on.
+        limit: latest simulated time (s) to advance to. enough: checked between time steps; True stops there.
         """
         while self._commands and not self.over:
-            with contextlib.suppress(ValueError):  # a picture may send anything
-                self._obey(self._commands.popleft())
+            with contextlib.suppress(ValueError):  # a page may send anything
+                self._execute(self._commands.popleft())
         clock = self._pace.clock
-        self._hand.rest()
-        if self._wanted is not None and not self.over:
+        self._keyboard_driver.release_if_stale()
+        if self._stop_reason is not None and not self.over:
             self._end()
         if not self.over and not self.paused:
-            due, rest = min(self._pace.due(self.stamp), limit), clock() + WORK
-            self._work(due, lambda: clock() >= rest or enough())
+            due, pause_at = min(self._pace.due(self.stamp), limit), clock() + WORK_PER_FRAME
+            self._advance(due, lambda: clock() >= pause_at or enough())
             if self.stamp < due:
                 self._pace.fell_behind()
         self._update()
         if self._session.interrupted:
             interrupts.pass_on()
 
-    def _work(self, limit: float, enough: Callable[[], bool] | None = None) -> None:
-        """Go on to `limit`; if that ends the run, clean up after it."""
+    def _advance(self, limit: float, enough: Callable[[], bool] | None = None) -> None:
+        """Advance to `limit`; if the run ends there, clean up."""
         if self._session.elsewhere:
             raise RuntimeError("A player goes on only in the thread that called play(); here, stop it.")
-        if self._at_work:
+        if self._advancing:
             raise RuntimeError("A player can't be moved on from inside its own run; let `until` return True.")
-        self._at_work = True
+        self._advancing = True
         try:
             self.stamp = max(self.stamp, self._context.run(self._session.advance, limit, enough))
         except Exception as error:
@@ -202,37 +202,37 @@ class Player:
             detail = f"`until` raised {type(error).__name__}: {error}"
             self.recording.ended = Ended("interrupted", self._session.stamp, detail)
         finally:
-            self._at_work = False
+            self._advancing = False
         if self._session.interrupted and not self.over:
-            self._wanted = INTERRUPTED
-        if self._wanted is not None and not self.over:
+            self._stop_reason = INTERRUPTED
+        if self._stop_reason is not None and not self.over:
             self._end()
 
     def _end(self) -> None:
         self.recording.stamp = max(self.recording.stamp, self.stamp)
-        ended = Ended("interrupted", self.recording.stamp, self._wanted)
+        ended = Ended("interrupted", self.recording.stamp, self._stop_reason)
         self._context.run(self._session.end, ended)
         self._update()
 
-    def _quit(self) -> None:
-        """Python ends: nobody is there to look at a picture."""
-        self._show = Show(None, self._pace.clock)
+    def _stop_at_exit(self) -> None:
+        """End the run without a picture, because Python exits."""
+        self._updater = PictureUpdater(None, self._pace.clock)
         self.stop("Python has ended.")
 
     def _update(self) -> None:
-        """Show where it is now; and when it is over, say so and let go of everything."""
+        """Update the picture and, once the run has ended, release everything."""
         ended = list(self.recording.ended[::2]) if self.over else None
         urgent = {"speed": self.speed, "paused": self.paused, "ended": ended}
-        self._show.frame(self._session, self.stamp)
-        self._show.state(self._session, self.stamp, self._pace.measured, **urgent)
-        if self.over and not self._let_go:
-            self._let_go, latest.player = True, None if latest.player is self else latest.player
-            atexit.unregister(self._quit)
-            # In the context of the caller: what executes notebooks unattended hears only the cell under way.
-            self._show.finish(self.recording)
-            gc.collect()  # what earlier stretches left
+        self._updater.frame(self._session, self.stamp)
+        self._updater.state(self._session, self.stamp, self._pace.measured, **urgent)
+        if self.over and not self._released:
+            self._released, latest.player = True, None if latest.player is self else latest.player
+            atexit.unregister(self._stop_at_exit)
+            # In the caller's context: tools that execute notebooks receive output of the current cell only.
+            self._updater.finish(self.recording)
+            gc.collect()  # free what earlier frames have left
 
-    def _obey(self, command: dict[str, Any]) -> None:
+    def _execute(self, command: dict[str, Any]) -> None:
         match command:
             case {"speed": speed}:
                 self.speed = speed
@@ -243,8 +243,8 @@ class Player:
             case {"stop": True}:
                 self.stop()
             case {"topic": name}:
-                self._show.readings.look(name)
+                self._updater.telemetry.select(name)
             case {"graph": True}:
-                self._show.connections(self.recording)
+                self._updater.connections(self.recording)
             case {"drive": [forward, left]}:
-                self._context.run(self._hand.drive, forward, left)
+                self._context.run(self._keyboard_driver.drive, forward, left)

@@ -1,4 +1,4 @@
-"""Driving by hand: what is held on the keyboard or the pad becomes /cmd_vel."""
+"""Manual driving: keys or the pad of the live picture are published as velocity commands."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from sim.ros.fibers.scheduler import engine
 from sim.ros.robots.velocity import VelocityPublisher
 from sim.world import World
 
-RATE = 20.0  # Hz, while something is held
-SPEED, TURN = 0.4, 1.0  # m/s and rad/s of a key that is held
+RATE = 20.0  # Hz, while a key is held
+SPEED, TURN = 0.4, 1.0  # m/s and rad/s while a key is held
 TURTLE_SPEED, TURTLE_TURN = 2.0, 2.0
 
 
-class Reins(NamedTuple):
-    """How keys drive: the topic, whether TwistStamped goes there, and how fast (m/s, rad/s) a key means."""
+class TeleopSettings(NamedTuple):
+    """How keys drive: topic, whether its type is TwistStamped, and speed (m/s) and turning rate (rad/s)."""
 
     topic: str = "cmd_vel"
     stamped: bool = False
@@ -24,22 +24,21 @@ class Reins(NamedTuple):
     turn: float = TURN
 
 
-def reins(world: World | None) -> Reins | None:
-    """How keys drive the first robot or turtle of a world; None where there is none."""
+def teleop_settings(world: World | None) -> TeleopSettings | None:
+    """How keys drive the first robot or turtle of a world; None if it has none."""
     if world is None or world.driven_body is None:
         return None
     if world.machine is None:
-        return Reins(stamped=world.robot.stamped)
-    return Reins(f"{world.driven_body}/cmd_vel", speed=TURTLE_SPEED, turn=TURTLE_TURN)
+        return TeleopSettings(stamped=world.robot.stamped)
+    return TeleopSettings(f"{world.driven_body}/cmd_vel", speed=TURTLE_SPEED, turn=TURTLE_TURN)
 
 
 class Teleop(Node):
     """Publishes /cmd_vel (geometry_msgs/Twist) at 20 Hz while the user of `play` holds a key or the pad.
 
-    Once it is let go, it publishes a zero, and then nothing. Parameters: `speed` (m/s, forwards) and `turn`
-    (rad/s, counter-clockwise) of a key that is held; `stamped`, true for geometry_msgs/TwistStamped instead;
-    `topic`, where it isn't cmd_vel.
-    Remappings work as with any node.
+    On release it publishes one zero command, and then nothing. Parameters: `speed` (m/s, forwards) and `turn`
+    (rad/s, counter-clockwise) while a key is held; `stamped`, true for geometry_msgs/TwistStamped; `topic`,
+    by default cmd_vel. Remappings work as with any node.
     """
 
     def __init__(self, **keywords: Any) -> None:

@@ -59,6 +59,6 @@ def watched(made, picture=None):
 def to_the_end(made, meanwhile=lambda: None):
     """Let it play to its end, with something else done after each frame."""
     while not made.over:
-        made.turn()
+        made.play_frame()
         meanwhile()
     return made.recording

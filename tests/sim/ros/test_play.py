@@ -182,7 +182,7 @@ def test_the_users_alarm_rings_while_something_plays():
         signal.setitimer(signal.ITIMER_REAL, 0.05)
         end = time.monotonic() + 60
         while not rung and time.monotonic() < end:
-            made.turn()
+            made.play_frame()
             time.sleep(0.01)
         made.stop()
     finally:
@@ -231,7 +231,7 @@ def test_time_between_two_frames_is_nobodys(monkeypatch):
 
     monkeypatch.setattr(guard, "TOTAL_LIMIT", 0.3)
     made = playing.player(mains.classic, seconds=0.9)
-    made.turn()
+    made.play_frame()
     end = time.thread_time() + 1.5
     while time.thread_time() < end:
         pass

@@ -41,7 +41,7 @@ def robot(clock):
 
 def frames(made, count):
     for _ in range(count):
-        made.turn()
+        made.play_frame()
 
 
 def sent(made, topic="/cmd_vel"):
@@ -71,7 +71,7 @@ def test_the_graph_is_shown_when_somebody_asks_and_it_has_changed_once_a_second_
     def ask(count):
         for _ in range(count):
             robot.watcher.on_command({"graph": True})
-            robot.turn()
+            robot.play_frame()
 
     frames(robot, 20)
     assert robot.watcher.graphs == []
@@ -108,7 +108,7 @@ def test_stopping_ends_it_where_it_is(robot):
     assert 0.3 < ended.stamp == robot.recording.stamp < 3
     assert robot.result() is robot.recording
     robot.stop()
-    robot.turn()
+    robot.play_frame()
     assert robot.recording.ended == ended
 
 
@@ -211,9 +211,9 @@ def test_states_come_four_times_a_second_and_when_something_changed(robot, clock
     assert len(robot.watcher.states) - count <= 4 * (clock.now - begin) + 1
     count = len(robot.watcher.states)
     robot.watcher.on_command({"pause": True})
-    robot.turn()
+    robot.play_frame()
     robot.watcher.on_command({"speed": 3.0})
-    robot.turn()
+    robot.play_frame()
     changes = robot.watcher.states[count:]
     assert [(state["paused"], state["speed"]) for state in changes] == [(True, 1.0), (True, 3.0)]
     assert changes[-1]["pace"] == 0.0
@@ -222,24 +222,24 @@ def test_states_come_four_times_a_second_and_when_something_changed(robot, clock
 def test_buttons_of_the_picture(robot):
     tell = robot.watcher.on_command
     tell({"pause": True})
-    robot.turn()
+    robot.play_frame()
     assert robot.paused
     tell({"step": True})
     tell({"step": True})
-    robot.turn()
+    robot.play_frame()
     assert robot.recording.stamp == pytest.approx(0.1)
     tell({"pause": False})
     tell({"speed": 8.0})
-    robot.turn()
+    robot.play_frame()
     assert (robot.paused, robot.speed) == (False, 8.0)
     for nonsense in ({"speed": math.nan}, {"speed": "fast"}, {"drive": 3}, {"drive": [1]}, {"fly": True}):
         tell(nonsense)
-    robot.turn()
+    robot.play_frame()
     assert not robot.over
     thread = threading.Thread(target=tell, args=({"stop": True},))
     thread.start()
     thread.join()
-    robot.turn()
+    robot.play_frame()
     assert robot.recording.ended[::2] == ("interrupted", "The user stopped it.")
 
 
@@ -249,10 +249,10 @@ def test_what_keeps_it_from_working_ends_it(robot, monkeypatch):
     def fails():
         raise OSError("no streams")
 
-    robot.turn()
+    robot.play_frame()
     with monkeypatch.context() as patched:
         patched.setattr(session, "student_streams", fails)
-        robot.turn()
+        robot.play_frame()
     assert robot.over
     with pytest.raises(OSError, match=r"^no streams$"):
         robot.result()
@@ -276,22 +276,22 @@ def in_another_thread(act):
 
 def test_another_thread_can_stop_it_but_not_move_it(robot):
     words = "A player goes on only in the thread that called play(); here, stop it."
-    robot.turn()
+    robot.play_frame()
     assert in_another_thread(robot.step) == in_another_thread(robot.result) == words
     robot.resume()
-    robot.turn()
+    robot.play_frame()
     assert not robot.over
     in_another_thread(lambda: robot.stop("Time is up."))
-    robot.turn()
+    robot.play_frame()
     assert robot.recording.ended[::2] == ("interrupted", "Time is up.")
     assert len(robot.watcher.finished) == 1
 
 
 def test_a_play_that_another_thread_replaces_lets_go_of_everything(robot):
-    robot.turn()
+    robot.play_frame()
     usual = run(mains.classic, world="room", seconds=2, quiet=True)
     in_another_thread(lambda: playing.player(mains.classic, seconds=2).stop())
-    robot.turn()
+    robot.play_frame()
     assert robot.recording.ended[::2] == ("interrupted", "Another play has begun.")
     assert len(robot.watcher.finished) == 1
     assert run(mains.classic, world="room", seconds=2, quiet=True).digest == usual.digest
@@ -394,7 +394,7 @@ def test_what_is_held_becomes_commands_and_a_zero_once(robot, clock):
     assert sent(robot) == []
     for _ in range(30):
         drive(robot, 1.0, -0.5)
-        robot.turn()
+        robot.play_frame()
     held = [stamp for stamp, *_ in robot.recording.messages("/cmd_vel")]
     assert held == pytest.approx([held[0] + index / RATE for index in range(len(held))])
     assert set(sent(robot)) == {(0.4, -0.5)} and len(held) > 10
@@ -412,7 +412,7 @@ def test_who_drives_by_hand_sends_what_the_robot_takes(clock):
     made.watcher = playing.watched(made)
     for _ in range(20):
         drive(made, 1.0, 0.5)
-        made.turn()
+        made.play_frame()
     made.stop()
     commands = [heard.message.twist for heard in made.recording.messages("/cmd_vel")]
     assert {(command.linear.x, command.angular.z) for command in commands} == {(0.4, 0.5)}
@@ -423,7 +423,7 @@ def test_keys_drive_the_first_turtle_and_the_picture_gets_its_line(clock):
     made.watcher = playing.watched(made)
     for _ in range(40):
         drive(made, 1.0, 0.5)
-        made.turn()
+        made.play_frame()
     state = made.watcher.states[-1]
     made.stop()
     assert set(sent(made, "/turtle1/cmd_vel")) == {(2.0, 1.0)}
@@ -433,7 +433,7 @@ def test_keys_drive_the_first_turtle_and_the_picture_gets_its_line(clock):
 
 
 def test_a_page_that_is_gone_lets_go(robot, clock):
-    robot.turn()
+    robot.play_frame()
     drive(robot, 1.0, 0.0)
     frames(robot, 60)
     assert set(sent(robot)[:-1]) == {(0.4, 0.0)} and sent(robot)[-1] == (0.0, 0.0)
@@ -445,7 +445,7 @@ def test_a_teleop_of_the_users_is_the_one_that_drives(clock):
     made.watcher = playing.watched(made)
     for _ in range(20):
         drive(made, -1.0, 1.0)
-        made.turn()
+        made.play_frame()
     made.stop()
     assert set(sent(made, "/joy_vel")) == {(-0.2, 2.0)}
     assert sent(made) == []
@@ -457,7 +457,7 @@ def test_where_there_is_no_robot_nothing_is_started(clock):
     made.watcher = playing.watched(made)
     for _ in range(20):
         drive(made, 1.0, 0.0)
-        made.turn()
+        made.play_frame()
     made.stop()
     assert made.recording.graph.nodes == ["/counter"]
 

@@ -129,7 +129,7 @@ def test_what_does_not_work_says_why(playing, command, words):
 
 
 def test_a_play_that_stands_still_answers_nothing(playing):
-    playing.player.turn(0.5)
+    playing.player.play_frame(0.5)
     playing.player.pause()
     still = "The play is paused, so nothing happens in it: let it go on, and try again.\n"
     assert playing("topic hz /place") == still
@@ -138,16 +138,16 @@ def test_a_play_that_stands_still_answers_nothing(playing):
 
 
 def test_ctrl_c_ends_what_goes_on_without_end(playing):
-    player, turn, turns = playing.player, playing.player.turn, []
+    player, turn, turns = playing.player, playing.player.play_frame, []
 
     def interrupted(*arguments):
         turns.append(turn(*arguments))
         if len(turns) == 3:
             raise KeyboardInterrupt
 
-    player.turn, player.speed = interrupted, 20.0
+    player.play_frame, player.speed = interrupted, 20.0
     assert playing("topic pub -r 100 -p 0 /level std_msgs/msg/Float64").endswith("Stopped.\n")
-    player.turn, player.speed = turn, math.inf
+    player.play_frame, player.speed = turn, math.inf
     turn(player.recording.stamp + 0.2)
     count = len(player.recording.messages("/level"))
     turn(player.recording.stamp + 2.0)
@@ -173,7 +173,7 @@ def test_when_the_play_is_over_it_is_the_last_recording(playing):
 
 def test_a_play_that_ends_meanwhile_is_said(playing):
     while playing.player.recording.stamp < 198.9:
-        playing.player.turn(199.0)
+        playing.player.play_frame(199.0)
     assert playing("service call /ad example_interfaces/srv/AddTwoInts").endswith(
         "Nothing came of it before the play ended.\n"
     )

@@ -1,4 +1,4 @@
-"""What a player shows in words and numbers: the robot's, and those of one topic that somebody looks at."""
+"""Numbers shown beside a live picture: the robot's state, and the messages of one selected topic."""
 
 from __future__ import annotations
 
@@ -9,64 +9,64 @@ from collections.abc import Iterator
 from typing import Any
 
 from sim.evidence import Message
-from sim.ros.play.teleop import reins
+from sim.ros.play.teleop import teleop_settings
 from sim.ros.session import Session
 
-PLOT_OVER, POINTS = 10.0, 400  # s of simulated time, and points, of a topic's plot
-LINES, ITEMS = 40, 6  # of a message: as many are shown
-CURVES = 2
-NO_NUMBERS = ("header", "covariance", "stamp")
+PLOT_PERIOD, MAX_POINTS = 10.0, 400  # s of simulated time, and points of a topic's plot
+MAX_LINES, MAX_ITEMS = 40, 6  # shown of a message, and of each list in it
+MAX_CURVES = 2
+SKIPPED_FIELDS = ("header", "covariance", "stamp")
 
 
-class Readings:
-    """Goes through the messages of a run as they come; each is looked at once."""
+class Telemetry:
+    """Follows the messages of a run; each is read once."""
 
     def __init__(self) -> None:
-        self.topic = ""  # what somebody looks at
+        self.topic = ""  # the selected one
         self._next = 0
         self._newest: dict[str, Message] = {}
-        self._recent: deque[Message] = deque(maxlen=POINTS)
+        self._recent: deque[Message] = deque(maxlen=MAX_POINTS)
 
-    def look(self, topic: str) -> None:
+    def select(self, topic: str) -> None:
         """Show this topic from now on; "" for none."""
         self.topic = topic
         self._recent.clear()
 
     def update(self, session: Session) -> dict[str, Any]:
-        """Numbers, rows of a label and a text; topic, None or what is known of the one looked at."""
-        heard = session.recording.published
-        for item in heard[self._next :]:
-            self._newest[item.topic] = item
-            if item.topic == self.topic:
-                self._recent.append(item)
-        self._next = len(heard)
+        """numbers: pairs of label and text. topic: the selected topic's newest message and plot, or None."""
+        messages = session.recording.published
+        for message in messages[self._next :]:
+            self._newest[message.topic] = message
+            if message.topic == self.topic:
+                self._recent.append(message)
+        self._next = len(messages)
         return {"numbers": list(self._numbers(session)), "topic": self._topic(session)}
 
     def _numbers(self, session: Session) -> Iterator[tuple[str, str]]:
         world, truth = session.recording.world, session.truth
-        held = reins(world)
+        settings = teleop_settings(world)
         names = [body.name for body in truth.scene.bodies] if truth is not None else []
-        if held is None or world.driven_body not in names:
+        if settings is None or world.driven_body not in names:
             return
         x, y, yaw = truth.scene.poses[names.index(world.driven_body)]
         yield "Pose", f"x {x:.2f} m, y {y:.2f} m, yaw {yaw:.2f} rad"
         odom = self._message("/odom", "nav_msgs/msg/Odometry")
         if odom is not None:
             yield "Speed", _twist(odom.twist.twist)
-        topic = f"/{held.topic}"
+        topic = f"/{settings.topic}"
         command = self._message(topic, "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
         ago = f", {session.stamp - self._newest[topic].stamp:.1f} s ago" if command is not None else ""
         yield "Last command", _twist(command) + ago if command is not None else "none yet"
-        yield from self._surroundings(truth.scene.last_scan, world)
+        yield from self._sensors(truth.scene.last_scan, world)
         if world.goal is not None:
             yield "Goal", f"{math.dist((x, y), world.goal):.2f} m away"
 
-    def _surroundings(self, scan: Any, world: Any) -> Iterator[tuple[str, str]]:
+    def _sensors(self, scan: Any, world: Any) -> Iterator[tuple[str, str]]:
         if scan is not None:
-            met = [(float(reach), ray) for ray, reach in enumerate(scan.ranges) if math.isfinite(reach)]
-            reach, ray = min(met, default=(math.inf, 0))
+            hits = [(float(reach), ray) for ray, reach in enumerate(scan.ranges) if math.isfinite(reach)]
+            reach, ray = min(hits, default=(math.inf, 0))
             angle = math.remainder(ray * world.lidar.angle_increment + world.lidar.yaw, math.tau)
-            yield "Nearest", f"{reach:.2f} m, at {angle:.2f} rad" if met else "nothing in reach"
+            yield "Nearest", f"{reach:.2f} m, at {angle:.2f} rad" if hits else "nothing in reach"
         bumper = self._message("/bumper", "std_msgs/msg/Bool")
         if bumper is not None:
             yield "Bumper", "pressed" if bumper.data else "free"
@@ -81,29 +81,29 @@ class Readings:
             return None
         item = self._newest.get(self.topic)
         message = _decoded(item) if item is not None else None
-        told = {"name": self.topic, "type": kind, "text": "No message yet.", "stamp": None, "curves": []}
+        shown = {"name": self.topic, "type": kind, "text": "No message yet.", "stamp": None, "curves": []}
         if message is not None:
             lines = list(_lines(message))
-            more = [f"... and {len(lines) - LINES} more lines"] if len(lines) > LINES else []
-            told |= {"text": "\n".join(lines[:LINES] + more), "stamp": item.stamp}
-            told["curves"] = list(self._curves(message, item.stamp))
-        return told
+            more = [f"... and {len(lines) - MAX_LINES} more lines"] if len(lines) > MAX_LINES else []
+            shown |= {"text": "\n".join(lines[:MAX_LINES] + more), "stamp": item.stamp}
+            shown["curves"] = list(self._curves(message, item.stamp))
+        return shown
 
     def _curves(self, message: Any, now: float) -> Iterator[dict[str, Any]]:
-        """What there is to draw: the numbers of a long list, or single numbers over time."""
+        """The curves to plot: the numbers of a long list, or single numbers over time."""
         fields = dict(_single_numbers(message))
         rows = next(_long_lists(message), None)
         if rows is not None:
             name, values = rows
-            step = max(1, len(values) // POINTS)
+            step = max(1, len(values) // MAX_POINTS)
             points = [[i, float(v)] for i, v in enumerate(values) if i % step == 0 and math.isfinite(v)]
             yield {"name": name, "along": "item", "points": points}
             return
-        while self._recent and self._recent[0].stamp < now - PLOT_OVER:
+        while self._recent and self._recent[0].stamp < now - PLOT_PERIOD:
             self._recent.popleft()
         seen = [(item.stamp, dict(_single_numbers(_decoded(item)))) for item in self._recent]
         changing = [name for name in fields if len({values.get(name) for _, values in seen}) > 1]
-        for name in (changing or list(fields))[:CURVES]:
+        for name in (changing or list(fields))[:MAX_CURVES]:
             points = [
                 [stamp, values[name]] for stamp, values in seen if math.isfinite(values.get(name, math.nan))
             ]
@@ -113,7 +113,7 @@ class Readings:
 def _decoded(item: Message) -> Any:
     try:
         return item.message
-    except Exception:  # bytes that are no such message
+    except Exception:  # invalid bytes
         return None
 
 
@@ -122,21 +122,21 @@ def _twist(twist: Any) -> str:
     return f"{twist.linear.x:.2f} m/s, turning {twist.angular.z:.2f} rad/s"
 
 
-def _parts(message: Any) -> Iterator[tuple[str, Any]]:
+def _fields(message: Any) -> Iterator[tuple[str, Any]]:
     for name in message.get_fields_and_field_types():
         yield name, getattr(message, name)
 
 
 def _lines(value: Any, indent: str = "") -> Iterator[str]:
-    """A message as `ros2 topic echo` prints it, long lists cut short."""
-    for name, part in _parts(value):
+    """A message as `ros2 topic echo` prints it, with long lists abbreviated."""
+    for name, part in _fields(value):
         if hasattr(part, "get_fields_and_field_types"):
             yield f"{indent}{name}:"
             yield from _lines(part, indent + "  ")
         elif hasattr(part, "__len__") and not isinstance(part, str | bytes):
             yield from _list(name, list(part), indent)
         else:
-            yield f"{indent}{name}: {_word(part)}"
+            yield f"{indent}{name}: {_format_value(part)}"
 
 
 def _list(name: str, items: list[Any], indent: str) -> Iterator[str]:
@@ -144,17 +144,17 @@ def _list(name: str, items: list[Any], indent: str) -> Iterator[str]:
         yield f"{indent}{name}: {len(items)} of these:"
         yield from _lines(items[0], indent + "- ")
         return
-    rest = f", ... {len(items)} in all" if len(items) > ITEMS else ""
-    yield f"{indent}{name}: [{', '.join(map(_word, items[:ITEMS]))}{rest}]"
+    rest = f", ... {len(items)} in all" if len(items) > MAX_ITEMS else ""
+    yield f"{indent}{name}: [{', '.join(map(_format_value, items[:MAX_ITEMS]))}{rest}]"
 
 
-def _word(value: Any) -> str:
+def _format_value(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)[:200]
 
 
 def _single_numbers(message: Any, before: str = "") -> Iterator[tuple[str, float]]:
-    for name, part in _parts(message) if message is not None else ():
-        if name in NO_NUMBERS:
+    for name, part in _fields(message) if message is not None else ():
+        if name in SKIPPED_FIELDS:
             continue
         if hasattr(part, "get_fields_and_field_types"):
             yield from _single_numbers(part, f"{before}{name}.")
@@ -163,8 +163,8 @@ def _single_numbers(message: Any, before: str = "") -> Iterator[tuple[str, float
 
 
 def _long_lists(message: Any) -> Iterator[tuple[str, list[float]]]:
-    for name, part in _parts(message):
-        if hasattr(part, "__len__") and not isinstance(part, str | bytes) and len(part) > ITEMS:
+    for name, part in _fields(message):
+        if hasattr(part, "__len__") and not isinstance(part, str | bytes) and len(part) > MAX_ITEMS:
             values = [float(value) for value in part if isinstance(value, numbers.Real)]
             if len(values) == len(part):
                 yield name, values
