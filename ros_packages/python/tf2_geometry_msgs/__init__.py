@@ -1,4 +1,4 @@
-"""Takes the messages of geometry_msgs into another frame; to import it teaches Buffer.transform to do so."""
+"""Transforms the messages of geometry_msgs. Importing it registers their types for Buffer.transform."""
 
 from tf2_geometry_msgs.tf2_geometry_msgs import (
     do_transform_point,

@@ -1,4 +1,4 @@
-"""What a transform does to points, vectors, poses and polygons. The result has the transform's header."""
+"""Transforms points, vectors, poses and polygons. The result has the header of the transform."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,39 +18,41 @@ from geometry_msgs.msg import (
     Vector3,
     Vector3Stamped,
 )
-from tf2_py.rigid import Motion, normalised, rotate
+from tf2_py.rigid_transform import RigidTransform, normalised, rotate
+
+AXES = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """A message as a message."""
+    """The message itself."""
     return msg
 
 
 def from_msg_msg(msg: Any) -> Any:
-    """A message of a message."""
+    """The message itself."""
     return msg
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
-    """A point: turned and shifted."""
-    place = _motion(transform).after(_at(point.point)).shift
-    return PointStamped(header=transform.header, point=_xyz(Point, place))
+    """A point, rotated and translated."""
+    position = _rigid_transform(transform).after(_translation(point.point)).translation
+    return PointStamped(header=transform.header, point=_xyz(Point, position))
 
 
 def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
-    """A vector, such as a velocity: turned, but not shifted."""
+    """A vector, such as a velocity, rotated but not translated."""
     vector = vector3.vector
-    turned = rotate(_motion(transform).rotation, (vector.x, vector.y, vector.z))
-    return Vector3Stamped(header=transform.header, vector=_xyz(Vector3, turned))
+    rotated = rotate(_rigid_transform(transform).rotation, (vector.x, vector.y, vector.z))
+    return Vector3Stamped(header=transform.header, vector=_xyz(Vector3, rotated))
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
-    """A pose: its place turned and shifted, its direction turned."""
-    direction = pose.orientation
-    turn = normalised((direction.x, direction.y, direction.z, direction.w))
-    moved = _motion(transform).after(_at(pose.position)._replace(rotation=turn))
-    x, y, z, w = normalised(moved.rotation)
-    return Pose(position=_xyz(Point, moved.shift), orientation=Quaternion(x=x, y=y, z=z, w=w))
+    """A pose, rotated and translated."""
+    orientation = pose.orientation
+    rotation = normalised((orientation.x, orientation.y, orientation.z, orientation.w))
+    result = _rigid_transform(transform).after(_translation(pose.position)._replace(rotation=rotation))
+    x, y, z, w = normalised(result.rotation)
+    return Pose(position=_xyz(Point, result.translation), orientation=Quaternion(x=x, y=y, z=z, w=w))
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
@@ -61,36 +63,40 @@ def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) ->
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """A pose and how sure it is."""
-    moved = PoseWithCovarianceStamped(header=transform.header)
-    moved.pose.pose = do_transform_pose(pose.pose.pose, transform)
-    moved.pose.covariance = transform_covariance(pose.pose.covariance, transform)
-    return moved
+    """A pose and its covariance."""
+    result = PoseWithCovarianceStamped(header=transform.header)
+    result.pose.pose = do_transform_pose(pose.pose.pose, transform)
+    result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
+    return result
 
 
 def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformStamped) -> PolygonStamped:
-    """A polygon: each of its points."""
-    motion, moved = _motion(transform), PolygonStamped(header=transform.header)
+    """A polygon, with each of its points transformed."""
+    rigid_transform, result = _rigid_transform(transform), PolygonStamped(header=transform.header)
     for point in polygon.polygon.points:
-        moved.polygon.points.append(_xyz(Point32, motion.after(_at(point)).shift))
-    return moved
+        position = rigid_transform.after(_translation(point)).translation
+        result.polygon.points.append(_xyz(Point32, position))
+    return result
 
 
 def transform_covariance(cov_in: Sequence[float], transform: TransformStamped) -> np.ndarray:
-    """A covariance of x, y, z and the turns about them, row by row (36 numbers), in another frame."""
-    turn = _motion(transform).rotation
-    matrix = np.array([rotate(turn, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
-    both = np.kron(np.eye(2), matrix)
-    return (both @ np.reshape(cov_in, (6, 6)) @ both.T).ravel()
+    """A covariance of x, y, z and the rotations about them (36 numbers, row-major), in another frame."""
+    rotation = _rigid_transform(transform).rotation
+    matrix = np.array([rotate(rotation, axis) for axis in AXES]).T
+    block_diagonal = np.kron(np.eye(2), matrix)
+    return (block_diagonal @ np.reshape(cov_in, (6, 6)) @ block_diagonal.T).ravel()
 
 
-def _motion(transform: TransformStamped) -> Motion:
-    shift, turn = transform.transform.translation, transform.transform.rotation
-    return Motion(normalised((turn.x, turn.y, turn.z, turn.w)), (shift.x, shift.y, shift.z))
+def _rigid_transform(message: TransformStamped) -> RigidTransform:
+    translation, rotation = message.transform.translation, message.transform.rotation
+    return RigidTransform(
+        normalised((rotation.x, rotation.y, rotation.z, rotation.w)),
+        (translation.x, translation.y, translation.z),
+    )
 
 
-def _at(point: Any) -> Motion:
-    return Motion((0.0, 0.0, 0.0, 1.0), (point.x, point.y, point.z))
+def _translation(point: Any) -> RigidTransform:
+    return RigidTransform((0.0, 0.0, 0.0, 1.0), (point.x, point.y, point.z))
 
 
 def _xyz(kind: type, values: Sequence[float]) -> Any:

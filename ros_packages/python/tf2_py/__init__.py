@@ -1,4 +1,4 @@
-"""The buffer of transforms beneath tf2_ros, with the names of upstream's tf2_py."""
+"""The buffer of transforms that tf2_ros uses, with the names of upstream's tf2_py."""
 
 from tf2_py.buffer_core import BufferCore
 from tf2_py.errors import (

@@ -1,4 +1,4 @@
-"""A buffer of transforms: what is known of each frame, and the way from one frame to another."""
+"""The buffer of transforms: stores the transforms of all frames and composes them."""
 
 import threading
 from collections.abc import Callable
@@ -9,48 +9,50 @@ from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.time import Time
 
-from tf2_py.cache import Frame, Known, MovingFrame, Nanoseconds, StaticFrame, seconds
+from tf2_py.cache import FrameCache, Nanoseconds, StaticCache, StoredTransform, TimeCache, format_seconds
 from tf2_py.errors import LookupException, TransformException
-from tf2_py.frames import Frames, whole
-from tf2_py.naming import check, without_slash
-from tf2_py.rigid import STAY, Motion
-from tf2_py.words import SECOND, faults, stamped, unconnected, yaml_of
+from tf2_py.formatting import SECOND, connectivity_error, frame_yaml, transform_message
+from tf2_py.frames import Frames, compose
+from tf2_py.rigid_transform import IDENTITY, RigidTransform
+from tf2_py.validation import check_frame_id, strip_slash, transform_errors
 
 
 class BufferCore:
-    """Remembers transforms, and answers where one frame is in another.
+    """Stores transforms, and looks up the transform between any two frames.
 
-    A time is an rclpy Time or a stamp of a message; 0 stands for the newest moment for which all is known.
+    A time is an rclpy Time or a message's stamp. Time 0 is the latest time at which all is available.
     """
 
     def __init__(self, cache_time: Duration | None = None) -> None:
-        """cache_time: how far back moving frames are remembered; 10 s if it is left out."""
-        self._length = cache_time.nanoseconds if cache_time is not None else 10 * SECOND
+        """cache_time: how long transforms of moving frames are stored; 10 s by default."""
+        self._cache_time = cache_time.nanoseconds if cache_time is not None else 10 * SECOND
         self._frames = Frames()
         self._authorities: dict[str, str] = {}
-        # The newest, since the last transform came: nodes ask for the same again and again.
-        self._found: dict[tuple[str, str], tuple[Nanoseconds, Motion]] = {}
+        # The results of lookups at time 0 since the last change: nodes repeat their lookups.
+        self._latest: dict[tuple[str, str], tuple[Nanoseconds, RigidTransform]] = {}
         self._lock = threading.RLock()
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Remember where a moving frame is; authority: who says so. What can't be is logged and left out."""
-        self._set(transform, authority, MovingFrame)
+        """Store a transform of a moving frame; log an invalid one. authority: the publisher's name."""
+        self._set(transform, authority, TimeCache)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Remember where a frame is for all times."""
-        self._set(transform, authority, StaticFrame)
+        """Store a transform that is valid at any time."""
+        self._set(transform, authority, StaticCache)
 
     def lookup_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Stamp
     ) -> TransformStamped:
-        """The transform that takes what is given in source_frame into target_frame. It does not wait.
+        """The transform that converts data in source_frame to target_frame. It does not wait.
 
         Raises:
-            TransformException: it can't be had; its kind and words tell why.
+            TransformException: it is not available; the subclass and the message say why.
         """
         with self._lock:
-            when, motion = self._lookup("lookupTransform", target_frame, source_frame, nanoseconds(time))
-        return stamped(when, target_frame, source_frame, motion)
+            stamp, transform = self._lookup(
+                "lookupTransform", target_frame, source_frame, nanoseconds(time)
+            )
+        return transform_message(stamp, target_frame, source_frame, transform)
 
     def lookup_transform_full_core(
         self,
@@ -60,22 +62,22 @@ class BufferCore:
         source_time: Time | Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """From source_frame at one time to target_frame at another, while fixed_frame stood still."""
-        asked = "lookupTransform"
+        """The transform from source_frame at one time to target_frame at another, by way of fixed_frame."""
+        function = "lookupTransform"
         with self._lock:
-            for role, frame in (("target", target_frame), ("source", source_frame), ("fixed", fixed_frame)):
-                check(asked, f"{role}_frame", frame, self._frames)
-            _, first = self._lookup(asked, fixed_frame, source_frame, nanoseconds(source_time))
-            when, then = self._lookup(asked, target_frame, fixed_frame, nanoseconds(target_time))
-        return stamped(when, target_frame, source_frame, then.after(first))
+            self._check_frames(function, target=target_frame, source=source_frame, fixed=fixed_frame)
+            _, first = self._lookup(function, fixed_frame, source_frame, nanoseconds(source_time))
+            stamp, second = self._lookup(function, target_frame, fixed_frame, nanoseconds(target_time))
+        return transform_message(stamp, target_frame, source_frame, second.after(first))
 
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Stamp
     ) -> tuple[bool, str]:
-        """Whether lookup_transform_core would find it, and if not, why."""
-        asked = "canTransform"
+        """Whether lookup_transform_core would succeed, and if not, why."""
         with self._lock:
-            return _tried(lambda: self._lookup(asked, target_frame, source_frame, nanoseconds(time)))
+            return _succeeds(
+                lambda: self._lookup("canTransform", target_frame, source_frame, nanoseconds(time))
+            )
 
     def can_transform_full_core(
         self,
@@ -85,48 +87,47 @@ class BufferCore:
         source_time: Time | Stamp,
         fixed_frame: str,
     ) -> tuple[bool, str]:
-        """Whether lookup_transform_full_core would find it, and if not, why."""
-        asked = "canTransform"
+        """Whether lookup_transform_full_core would succeed, and if not, why."""
+        function = "canTransform"
 
-        def both() -> None:
-            for role, frame in (("target", target_frame), ("source", source_frame), ("fixed", fixed_frame)):
-                check(asked, f"{role}_frame", frame, self._frames)
-            self._lookup(asked, target_frame, fixed_frame, nanoseconds(target_time))
-            self._lookup(asked, fixed_frame, source_frame, nanoseconds(source_time))
+        def lookup_both() -> None:
+            self._check_frames(function, target=target_frame, source=source_frame, fixed=fixed_frame)
+            self._lookup(function, target_frame, fixed_frame, nanoseconds(target_time))
+            self._lookup(function, fixed_frame, source_frame, nanoseconds(source_time))
 
         with self._lock:
-            return _tried(both)
+            return _succeeds(lookup_both)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """The newest time for which the whole way between two frames is known.
+        """The latest time at which all transforms between two frames are available.
 
         Raises:
-            TransformException: there is no such way.
+            TransformException: the frames are not connected.
         """
         with self._lock:
             for frame in (target_frame, source_frame):
                 if frame not in self._frames:
                     raise LookupException(f"Frame {frame} does not exist.")
-            return Time(nanoseconds=self._frames.common_time(target_frame, source_frame))
+            return Time(nanoseconds=self._frames.latest_common_time(target_frame, source_frame))
 
     def clear(self) -> None:
-        """Forget all transforms of moving frames; the names and the static ones stay."""
+        """Remove all transforms of moving frames; the frames and the static transforms remain."""
         with self._lock:
-            self._found.clear()
-            for frame in self._frames.values():
-                if frame is not None:
-                    frame.clear()
+            self._latest.clear()
+            for cache in self._frames.values():
+                if cache is not None:
+                    cache.clear()
 
     def all_frames_as_string(self) -> str:
-        """Each frame and its parent, a line for each."""
+        """Each frame and its parent, one per line."""
         with self._lock:
-            return self._frames.words()
+            return self._frames.as_string()
 
     def all_frames_as_yaml(self) -> str:
-        """Parent, broadcaster, rate (Hz), times and length of the memory (s) of each frame, as YAML."""
+        """Parent, broadcaster, rate (Hz), times and buffer length (s) of each frame, as YAML."""
         with self._lock:
-            known = [(name, frame) for name, frame in self._frames.items() if frame and frame.newest]
-            texts = [yaml_of(name, self._authorities[name], frame) for name, frame in known]
+            caches = [(name, cache) for name, cache in self._frames.items() if cache and cache.latest]
+            texts = [frame_yaml(name, self._authorities[name], cache) for name, cache in caches]
             return "".join(texts) if self._frames else "[]"
 
     def _frameExists(self, frame_id: str) -> bool:
@@ -135,68 +136,78 @@ class BufferCore:
     def _getFrameStrings(self) -> list[str]:
         return list(self._frames)
 
-    def _set(self, transform: TransformStamped, authority: str, kind: type[Frame]) -> None:
-        parent, child = without_slash(transform.header.frame_id), without_slash(transform.child_frame_id)
-        shift, turn = transform.transform.translation, transform.transform.rotation
-        motion = Motion((turn.x, turn.y, turn.z, turn.w), (shift.x, shift.y, shift.z))
-        wrong = faults(parent, child, motion, authority)
-        for fault in wrong:
-            get_logger("tf2").error(fault)
-        if wrong:
+    def _set(self, message: TransformStamped, authority: str, kind: type[FrameCache]) -> None:
+        parent, child = strip_slash(message.header.frame_id), strip_slash(message.child_frame_id)
+        translation, rotation = message.transform.translation, message.transform.rotation
+        transform = RigidTransform(
+            (rotation.x, rotation.y, rotation.z, rotation.w), (translation.x, translation.y, translation.z)
+        )
+        errors = transform_errors(parent, child, transform, authority)
+        for error in errors:
+            get_logger("tf2").error(error)
+        if errors:
             return
         with self._lock:
-            self._found.clear()
-            frame = self._frames.get(child)
-            if not isinstance(frame, kind):
-                frame = MovingFrame(self._length) if kind is MovingFrame else StaticFrame()
-                self._frames[child] = frame
+            self._latest.clear()
+            cache = self._frames.get(child)
+            if not isinstance(cache, kind):
+                cache = TimeCache(self._cache_time) if kind is TimeCache else StaticCache()
+                self._frames[child] = cache
             self._frames.setdefault(parent, None)
-            stamp = nanoseconds(transform.header.stamp)
-            if frame.insert(Known(stamp, parent, motion)):
+            stamp = nanoseconds(message.header.stamp)
+            if cache.insert(StoredTransform(stamp, parent, transform)):
                 self._authorities[child] = authority
             else:
                 get_logger("tf2").warning(
-                    f"TF_OLD_DATA ignoring data from the past for frame {child} at time {seconds(stamp)} "
-                    f"according to authority {authority}\n"
+                    f"TF_OLD_DATA ignoring data from the past for frame {child} at time "
+                    f"{format_seconds(stamp)} according to authority {authority}\n"
                     "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
                 )
 
-    def _lookup(self, asked: str, target: str, source: str, time: Nanoseconds) -> tuple[Nanoseconds, Motion]:
-        """The time that is meant, and the motion from the source into the target."""
-        if time:
-            return self._look_up(asked, target, source, time)
-        if (target, source) not in self._found:
-            self._found[target, source] = self._look_up(asked, target, source, time)
-        return self._found[target, source]
+    def _check_frames(self, function: str, **frames: str) -> None:
+        for role, frame in frames.items():
+            check_frame_id(function, f"{role}_frame", frame, self._frames)
 
-    def _look_up(self, asked: str, target: str, source: str, time: Nanoseconds) -> tuple[Nanoseconds, Motion]:
+    def _lookup(
+        self, function: str, target: str, source: str, time: Nanoseconds
+    ) -> tuple[Nanoseconds, RigidTransform]:
+        """The stamp and the transform from the source to the target."""
+        if time:
+            return self._compute(function, target, source, time)
+        if (target, source) not in self._latest:
+            self._latest[target, source] = self._compute(function, target, source, time)
+        return self._latest[target, source]
+
+    def _compute(
+        self, function: str, target: str, source: str, time: Nanoseconds
+    ) -> tuple[Nanoseconds, RigidTransform]:
         if target == source:
-            frame = self._frames.get(target)
-            return (frame.span[1] if frame is not None and time == 0 else time), STAY
-        check(asked, "target_frame", target, self._frames)
-        check(asked, "source_frame", source, self._frames)
-        time = time or self._frames.common_time(target, source)
-        top, up, broken = self._frames.climb(source, (target,), time)
-        end, down, broken_below = self._frames.climb(target, (top, source), time)
-        if end == source:  # found on the way: what is above it doesn't matter
-            top, up = source, []
-        where = f", when looking up transform from frame [{source}] to frame [{target}]"
-        failed = broken_below or (broken if end != top else None)
-        if failed is not None:
-            raise type(failed)(f"{failed}{where}")
+            cache = self._frames.get(target)
+            return (cache.span[1] if cache is not None and time == 0 else time), IDENTITY
+        check_frame_id(function, "target_frame", target, self._frames)
+        check_frame_id(function, "source_frame", source, self._frames)
+        time = time or self._frames.latest_common_time(target, source)
+        top, source_path, source_error = self._frames.walk_up(source, (target,), time)
+        end, target_path, target_error = self._frames.walk_up(target, (top, source), time)
+        if end == source:  # an ancestor of the target: errors above it don't matter
+            top, source_path = source, []
+        error = target_error or (source_error if end != top else None)
+        if error is not None:
+            where = f", when looking up transform from frame [{source}] to frame [{target}]"
+            raise type(error)(f"{error}{where}")
         if end != top:
-            raise unconnected(target, source)
-        return time, whole(down).inverse().after(whole(up))
+            raise connectivity_error(target, source)
+        return time, compose(target_path).inverse().after(compose(source_path))
 
 
 def nanoseconds(time: Time | Stamp) -> Nanoseconds:
-    """A time of rclpy or of a message as a whole number."""
+    """The nanoseconds of an rclpy Time or a message's stamp."""
     return time.nanoseconds if isinstance(time, Time) else time.sec * SECOND + time.nanosec
 
 
-def _tried(attempt: Callable[[], object]) -> tuple[bool, str]:
+def _succeeds(lookup: Callable[[], object]) -> tuple[bool, str]:
     try:
-        attempt()
+        lookup()
     except TransformException as error:
         return False, str(error)
     return True, ""

@@ -1,128 +1,129 @@
-"""What is known of one frame: where it was in its parent, and when.
+"""The stored transforms of one frame to its parent.
 
-Times are nanoseconds, and 0 asks for the newest.
+Times are nanoseconds; a lookup at time 0 returns the latest transform.
 """
 
 from bisect import bisect_left, bisect_right
 from typing import NamedTuple
 
 from tf2_py.errors import ExtrapolationException
-from tf2_py.rigid import Motion, between
+from tf2_py.rigid_transform import RigidTransform, interpolate
 
 Nanoseconds = int
 
 
-class Known(NamedTuple):
-    """Where a frame was in its parent."""
+class StoredTransform(NamedTuple):
+    """A transform of a frame to its parent, with its stamp."""
 
     stamp: Nanoseconds
     parent: str
-    motion: Motion
+    transform: RigidTransform
 
 
-class MovingFrame:
-    """A frame that moves: its transforms of the last seconds, the oldest first."""
+class TimeCache:
+    """The transforms of a moving frame, ordered by stamp."""
 
-    def __init__(self, length: Nanoseconds) -> None:
-        """length: how far back it remembers, from the newest."""
-        self._length = length
-        self._known: list[Known] = []
+    def __init__(self, cache_time: Nanoseconds) -> None:
+        """cache_time: the greatest age of a stored transform, counted from the latest one."""
+        self._cache_time = cache_time
+        self._stored: list[StoredTransform] = []
         self._stamps: list[Nanoseconds] = []
 
     def __len__(self) -> int:
-        return len(self._known)
+        return len(self._stored)
 
     @property
-    def newest(self) -> Known | None:
-        """The newest transform, if there is one."""
-        return self._known[-1] if self._known else None
+    def latest(self) -> StoredTransform | None:
+        """The latest transform, if there is one."""
+        return self._stored[-1] if self._stored else None
 
     @property
     def span(self) -> tuple[Nanoseconds, Nanoseconds]:
-        """The oldest and the newest stamp."""
+        """The oldest and the latest stamp."""
         return (self._stamps[0], self._stamps[-1]) if self._stamps else (0, 0)
 
-    def insert(self, known: Known) -> bool:
-        """Remember it, in the order of stamps. False: it is older than what is remembered at all."""
+    def insert(self, transform: StoredTransform) -> bool:
+        """Store a transform. Returns False, and stores nothing, if it is too old."""
         stamps = self._stamps
         if stamps:
-            limit = stamps[-1] - self._length
-            gone = bisect_left(stamps, limit)
-            del stamps[:gone], self._known[:gone]
-            if known.stamp < limit:
+            limit = stamps[-1] - self._cache_time
+            expired = bisect_left(stamps, limit)
+            del stamps[:expired], self._stored[:expired]
+            if transform.stamp < limit:
                 return False
-        at = bisect_right(stamps, known.stamp)
-        if known not in self._known[bisect_left(stamps, known.stamp) : at]:
-            stamps.insert(at, known.stamp)
-            self._known.insert(at, known)
+        at = bisect_right(stamps, transform.stamp)
+        if transform not in self._stored[bisect_left(stamps, transform.stamp) : at]:
+            stamps.insert(at, transform.stamp)
+            self._stored.insert(at, transform)
         return True
 
-    def at(self, time: Nanoseconds) -> Known:
-        """Where the frame was at this time, between two that are known if need be.
+    def lookup(self, time: Nanoseconds) -> StoredTransform:
+        """The transform at this time, interpolated between two stored ones if necessary.
 
         Raises:
-            ExtrapolationException: the time is before the oldest or after the newest.
+            ExtrapolationException: the time is before the oldest transform or after the latest.
         """
         stamps = self._stamps
         if stamps and (time == 0 or time == stamps[-1]):
-            return self._known[-1]
+            return self._stored[-1]
         if len(stamps) < 2 and (not stamps or time != stamps[0]):
             only = stamps[0] if stamps else 0
             raise ExtrapolationException(
-                f"Lookup would require extrapolation at time {seconds(time)}, "
-                f"but only time {seconds(only)} is in the buffer"
+                f"Lookup would require extrapolation at time {format_seconds(time)}, "
+                f"but only time {format_seconds(only)} is in the buffer"
             )
         if time > stamps[-1]:
             raise ExtrapolationException(
-                f"Lookup would require extrapolation into the future.  Requested time {seconds(time)} "
-                f"but the latest data is at time {seconds(stamps[-1])}"
+                f"Lookup would require extrapolation into the future.  Requested time {format_seconds(time)} "
+                f"but the latest data is at time {format_seconds(stamps[-1])}"
             )
         if time < stamps[0]:
             raise ExtrapolationException(
-                f"Lookup would require extrapolation into the past.  Requested time {seconds(time)} "
-                f"but the earliest data is at time {seconds(stamps[0])}"
+                f"Lookup would require extrapolation into the past.  Requested time {format_seconds(time)} "
+                f"but the earliest data is at time {format_seconds(stamps[0])}"
             )
-        return self._between(time)
+        return self._interpolate(time)
 
-    def _between(self, time: Nanoseconds) -> Known:
+    def _interpolate(self, time: Nanoseconds) -> StoredTransform:
         at = bisect_right(self._stamps, time)
-        before, after = self._known[at - 1], self._known[at]
+        before, after = self._stored[at - 1], self._stored[at]
         if before.stamp == time or before.parent != after.parent:
             return before
         ratio = (time - before.stamp) / (after.stamp - before.stamp)
-        return Known(time, before.parent, between(before.motion, after.motion, ratio))
+        transform = interpolate(before.transform, after.transform, ratio)
+        return StoredTransform(time, before.parent, transform)
 
     def clear(self) -> None:
-        """Forget all."""
-        self._known.clear()
+        """Remove all transforms."""
+        self._stored.clear()
         self._stamps.clear()
 
 
-class StaticFrame:
-    """A frame that never moves in its parent: the last word holds for all times."""
+class StaticCache:
+    """The transform of a static frame: the one that was inserted last, valid at any time."""
 
-    newest: Known | None = None
+    latest: StoredTransform | None = None
     span = 0, 0
 
     def __len__(self) -> int:
         return 1
 
-    def insert(self, known: Known) -> bool:
-        """Remember it in place of what was said before."""
-        self.newest = known._replace(stamp=0)
+    def insert(self, transform: StoredTransform) -> bool:
+        """Replace the transform."""
+        self.latest = transform._replace(stamp=0)
         return True
 
-    def at(self, time: Nanoseconds) -> Known:
-        """Where the frame is, at all times."""
-        return self.newest
+    def lookup(self, time: Nanoseconds) -> StoredTransform:
+        """The transform."""
+        return self.latest
 
     def clear(self) -> None:
-        """Forget nothing: it is published once, and would never come again."""
+        """Keep the transform: static transforms are published once, and would never be received again."""
 
 
-Frame = MovingFrame | StaticFrame
+FrameCache = TimeCache | StaticCache
 
 
-def seconds(time: Nanoseconds) -> str:
-    """A time as upstream writes it."""
+def format_seconds(time: Nanoseconds) -> str:
+    """A time as upstream prints it."""
     return f"{time / 1e9:.6f}"

@@ -1,33 +1,33 @@
-"""Why a transform can't be had.
+"""The exceptions of tf2.
 
 TransformException
-├── LookupException             a frame of that name is not known
-├── ConnectivityException       no way leads from one frame to the other
-├── ExtrapolationException      for that moment there is no data, or none yet
-├── InvalidArgumentException    that can't be the name of a frame
-└── TimeoutException            it did not come in time
+├── LookupException             the frame does not exist
+├── ConnectivityException       the frames are not in the same tree
+├── ExtrapolationException      there is no data for that time, or not yet
+├── InvalidArgumentException    the frame id is not valid
+└── TimeoutException            the transform did not become available in time
 """
 
 
 class TransformException(Exception):
-    """A transform can't be had; the others tell why."""
+    """The transform is not available; the subclass says why."""
 
 
 class LookupException(TransformException):
-    """A frame of that name is not known."""
+    """The frame does not exist."""
 
 
 class ConnectivityException(TransformException):
-    """No way leads from one frame to the other."""
+    """The frames are not in the same tree."""
 
 
 class ExtrapolationException(TransformException):
-    """For that moment there is no data, or none yet."""
+    """There is no data for that time, or not yet."""
 
 
 class InvalidArgumentException(TransformException):
-    """That can't be the name of a frame."""
+    """The frame id is not valid."""
 
 
 class TimeoutException(TransformException):
-    """The transform did not come in time."""
+    """The transform did not become available in time."""

@@ -1,75 +1,78 @@
-"""The frames that are known, and the ways between them."""
+"""The tree of frames."""
 
 import itertools
 
-from tf2_py.cache import Frame, Known, Nanoseconds
+from tf2_py.cache import FrameCache, Nanoseconds, StoredTransform
 from tf2_py.errors import LookupException, TransformException
-from tf2_py.rigid import STAY, Motion
-from tf2_py.words import unconnected
+from tf2_py.formatting import connectivity_error
+from tf2_py.rigid_transform import IDENTITY, RigidTransform
 
-DEEPEST = 1000  # frames on the way to the root: more of them go round in a circle
+MAX_GRAPH_DEPTH = 1000  # a longer path to the root contains a loop
 
 
-class Frames(dict[str, Frame | None]):
-    """Each frame by its name; None: a root, of which nothing is known."""
+class Frames(dict[str, FrameCache | None]):
+    """The cache of each frame by its name; None for a root, which has no transforms."""
 
-    def climb(
+    def walk_up(
         self, frame: str, ends: tuple[str, ...], time: Nanoseconds
-    ) -> tuple[str, list[Known], TransformException | None]:
-        """From a frame towards the root: where it ends, all steps, and why it could not go on."""
-        steps: list[Known] = []
+    ) -> tuple[str, list[StoredTransform], TransformException | None]:
+        """Walk from a frame towards the root, until a frame in `ends`.
+
+        Returns the last frame, the transforms on the path, and the error that stopped the walk.
+        """
+        path: list[StoredTransform] = []
         while frame not in ends and (cache := self[frame]) is not None:
             try:
-                steps.append(cache.at(time))
-            except TransformException as broken:
-                return frame, steps, broken
-            frame = steps[-1].parent
-            if len(steps) > DEEPEST:
-                raise self._loop()
-        return frame, steps, None
+                path.append(cache.lookup(time))
+            except TransformException as error:
+                return frame, path, error
+            frame = path[-1].parent
+            if len(path) > MAX_GRAPH_DEPTH:
+                raise self._loop_error()
+        return frame, path, None
 
-    def common_time(self, target: str, source: str) -> Nanoseconds:
-        """The newest time for which the whole way is known; 0 if it is all static."""
-        above_source, above_target = self._newest(source), self._newest(target)
-        meeting = next((name for name in above_target if name in above_source), None)
-        if meeting is None:
-            raise unconnected(target, source)
+    def latest_common_time(self, target: str, source: str) -> Nanoseconds:
+        """The latest time at which all transforms between two frames are available; 0 if all are static."""
+        above_source, above_target = self._latest_stamps(source), self._latest_stamps(target)
+        common_parent = next((name for name in above_target if name in above_source), None)
+        if common_parent is None:
+            raise connectivity_error(target, source)
         stamps: list[Nanoseconds] = []
-        for way in (above_source, above_target):
-            stamps += filter(None, itertools.islice(way.values(), list(way).index(meeting)))
+        for path in (above_source, above_target):
+            stamps += filter(None, itertools.islice(path.values(), list(path).index(common_parent)))
         return min(stamps, default=0)
 
-    def _newest(self, frame: str) -> dict[str, Nanoseconds]:
-        """The frames from this one to the root, each with its newest stamp."""
+    def _latest_stamps(self, frame: str) -> dict[str, Nanoseconds]:
+        """The latest stamp of each frame from this one to the root."""
         found: dict[str, Nanoseconds] = {}
         while True:
             cache = self[frame]
-            known = cache.newest if cache is not None else None
+            latest = cache.latest if cache is not None else None
             if frame in found:
-                raise self._loop()
-            found[frame] = known.stamp if known is not None else 0
-            if known is None:
+                raise self._loop_error()
+            found[frame] = latest.stamp if latest is not None else 0
+            if latest is None:
                 return found
-            frame = known.parent
+            frame = latest.parent
 
-    def _loop(self) -> LookupException:
-        frames = self.words()
+    def _loop_error(self) -> LookupException:
+        frames = self.as_string()
         return LookupException(f"The tf tree is invalid because it contains a loop.\n{frames}\n")
 
-    def words(self) -> str:
-        """Each frame and its parent, a line for each."""
+    def as_string(self) -> str:
+        """Each frame and its parent, one per line."""
         return "".join(
-            f"Frame {name} exists with parent {frame.newest.parent if frame.newest else 'NO_PARENT'}.\n"
-            for name, frame in self.items()
-            if frame is not None
+            f"Frame {name} exists with parent {cache.latest.parent if cache.latest else 'NO_PARENT'}.\n"
+            for name, cache in self.items()
+            if cache is not None
         )
 
 
-def whole(steps: list[Known]) -> Motion:
-    """The motion of all these steps, one after the other."""
-    if not steps:
-        return STAY
-    motion = steps[0].motion
-    for step in steps[1:]:
-        motion = step.motion.after(motion)
-    return motion
+def compose(path: list[StoredTransform]) -> RigidTransform:
+    """The composition of the transforms on a path."""
+    if not path:
+        return IDENTITY
+    transform = path[0].transform
+    for step in path[1:]:
+        transform = step.transform.after(transform)
+    return transform

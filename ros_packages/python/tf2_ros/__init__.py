@@ -1,6 +1,6 @@
-"""Transforms between frames, by the names of upstream's tf2_ros, in Python alone.
+"""Transforms between frames, in pure Python, with the names of upstream's tf2_ros.
 
-It lacks BufferClient, which asks a buffer in another process.
+It lacks BufferClient, which looks up transforms in another process.
 """
 
 from tf2_py import (

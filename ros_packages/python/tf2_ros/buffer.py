@@ -1,4 +1,4 @@
-"""The buffer that nodes use: it waits for transforms, and says when new ones came."""
+"""The buffer that nodes use. It can wait for transforms."""
 
 import threading
 from collections.abc import Callable
@@ -17,67 +17,69 @@ from tf2_py import BufferCore
 
 from tf2_ros.buffer_interface import BufferInterface
 
-AT_ONCE = Duration()
-PAUSE = 0.02  # s, from one look to the next
+NO_TIMEOUT = Duration()
+POLLING_PERIOD = 0.02  # s
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Remembers the transforms that a TransformListener hears, for 10 s or cache_time."""
+    """Stores the transforms that a TransformListener receives, for 10 s or cache_time."""
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
-        """node: offers the service tf2_frames there, and forgets all when this node's clock jumps back."""
+        """node: gets a service tf2_frames; if its clock jumps back, the buffer is cleared."""
         BufferCore.__init__(self, cache_time)
         BufferInterface.__init__(self)
-        self._waiting: list[Callable[[], None]] = []
-        self._waiting_lock = threading.RLock()
+        self._callbacks: list[Callable[[], None]] = []
+        self._callbacks_lock = threading.RLock()
         if node is not None:
-            self.srv = node.create_service(FrameGraph, "tf2_frames", self._tell_frames)
+            self.srv = node.create_service(FrameGraph, "tf2_frames", self._on_frames_request)
         self.clock = node.get_clock() if node is not None else Clock()
-        back = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
-        self.jump_handle = self.clock.create_jump_callback(back, post_callback=self.time_jump_callback)
+        backward = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
+        self.jump_handle = self.clock.create_jump_callback(backward, post_callback=self.time_jump_callback)
 
-    def _tell_frames(self, request: FrameGraph.Request, response: FrameGraph.Response) -> FrameGraph.Response:
+    def _on_frames_request(
+        self, request: FrameGraph.Request, response: FrameGraph.Response
+    ) -> FrameGraph.Response:
         response.frame_yaml = self.all_frames_as_yaml()
         return response
 
     def time_jump_callback(self, time_jump: TimeJump) -> None:
-        """Forget all: what was known belongs to another time."""
+        """Clear the buffer, because its transforms belong to another time."""
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Remember where a moving frame is, and tell those who wait."""
+        """Store a transform of a moving frame, and complete the futures that wait for it."""
         super().set_transform(transform, authority)
-        self._tell_waiting()
+        self._call_callbacks()
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Remember where a frame is for all times, and tell those who wait."""
+        """Store a transform that is valid at any time, and complete the futures that wait for it."""
         super().set_transform_static(transform, authority)
-        self._tell_waiting()
+        self._call_callbacks()
 
     def lookup_transform(
         self,
         target_frame: str,
         source_frame: str,
         time: Time,
-        timeout: Duration = AT_ONCE,
+        timeout: Duration = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform that takes what is given in source_frame into target_frame.
+        """The transform that converts data in source_frame to target_frame.
 
-        time: for which moment; Time() is the newest one that is known of the whole way.
-        timeout: how long to wait for it. Without a second thread nothing new is heard meanwhile.
+        time: the time of the transform; Time() is the latest time at which it is available.
+        timeout: how long to wait for it. Without a second thread, nothing is received in the meantime.
 
         Raises:
-            TransformException: it can't be had; its kind and words tell why.
+            TransformException: it is not available; the subclass and the message say why.
         """
-        if timeout != AT_ONCE:  # else it would be looked up twice
+        if timeout != NO_TIMEOUT:  # without a time-out, this would be a second lookup
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
-        """The same, with await: it goes on when the transform has come."""
+        """As `lookup_transform`, but awaits the transform."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -88,32 +90,32 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = AT_ONCE,
+        timeout: Duration = NO_TIMEOUT,
     ) -> TransformStamped:
-        """From source_frame at one time to target_frame at another, while fixed_frame stood still."""
-        way = target_frame, target_time, source_frame, source_time, fixed_frame
-        if timeout != AT_ONCE:
-            self.can_transform_full(*way, timeout)
-        return self.lookup_transform_full_core(*way)
+        """The transform from source_frame at one time to target_frame at another, by way of fixed_frame."""
+        query = target_frame, target_time, source_frame, source_time, fixed_frame
+        if timeout != NO_TIMEOUT:
+            self.can_transform_full(*query, timeout)
+        return self.lookup_transform_full_core(*query)
 
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """The same, with await."""
-        way = target_frame, target_time, source_frame, source_time, fixed_frame
-        await self.wait_for_transform_full_async(*way)
-        return self.lookup_transform_full_core(*way)
+        """As `lookup_transform_full`, but awaits the transform."""
+        query = target_frame, target_time, source_frame, source_time, fixed_frame
+        await self.wait_for_transform_full_async(*query)
+        return self.lookup_transform_full_core(*query)
 
     def can_transform(
         self,
         target_frame: str,
         source_frame: str,
         time: Time,
-        timeout: Duration = AT_ONCE,
+        timeout: Duration = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether lookup_transform would find it within timeout; return_debug_tuple: and if not, why."""
-        return _patient(
+        """Whether lookup_transform would succeed within timeout. return_debug_tuple: also return why not."""
+        return _poll(
             lambda: self.can_transform_core(target_frame, source_frame, time), timeout, return_debug_tuple
         )
 
@@ -124,60 +126,64 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = AT_ONCE,
+        timeout: Duration = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether lookup_transform_full would find it within timeout."""
-        way = target_frame, target_time, source_frame, source_time, fixed_frame
-        return _patient(lambda: self.can_transform_full_core(*way), timeout, return_debug_tuple)
+        """Whether lookup_transform_full would succeed within timeout."""
+        query = target_frame, target_time, source_frame, source_time, fixed_frame
+        return _poll(lambda: self.can_transform_full_core(*query), timeout, return_debug_tuple)
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
-        """A future that has the transform as its result, once it can be had."""
-        way = target_frame, source_frame, time
-        return self._future(lambda: self.can_transform_core(*way), lambda: self.lookup_transform_core(*way))
+        """A future that completes when the transform is available; its result is the transform."""
+        query = target_frame, source_frame, time
+        return self._future(
+            lambda: self.can_transform_core(*query), lambda: self.lookup_transform_core(*query)
+        )
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future:
-        """The same for two moments."""
-        way = target_frame, target_time, source_frame, source_time, fixed_frame
+        """As `wait_for_transform_async`, for `lookup_transform_full`."""
+        query = target_frame, target_time, source_frame, source_time, fixed_frame
         return self._future(
-            lambda: self.can_transform_full_core(*way), lambda: self.lookup_transform_full_core(*way)
+            lambda: self.can_transform_full_core(*query), lambda: self.lookup_transform_full_core(*query)
         )
 
-    def _future(self, can: Callable[[], tuple[bool, str]], look_up: Callable[[], Any]) -> Future:
+    def _future(
+        self, can_transform: Callable[[], tuple[bool, str]], lookup: Callable[[], Any]
+    ) -> Future:
         future = Future()
 
         def on_new_data() -> None:
-            if not future.done() and can()[0]:
-                future.set_result(look_up())
+            if not future.done() and can_transform()[0]:
+                future.set_result(lookup())
 
         on_new_data()
         if not future.done():
-            with self._waiting_lock:
-                self._waiting.append(on_new_data)
-            future.add_done_callback(lambda _: self._forget(on_new_data))
+            with self._callbacks_lock:
+                self._callbacks.append(on_new_data)
+            future.add_done_callback(lambda _: self._remove_callback(on_new_data))
         return future
 
-    def _tell_waiting(self) -> None:
-        with self._waiting_lock:
-            for callback in list(self._waiting):
+    def _call_callbacks(self) -> None:
+        with self._callbacks_lock:
+            for callback in list(self._callbacks):
                 callback()
 
-    def _forget(self, callback: Callable[[], None]) -> None:
-        with self._waiting_lock:
-            self._waiting.remove(callback)
+    def _remove_callback(self, callback: Callable[[], None]) -> None:
+        with self._callbacks_lock:
+            self._callbacks.remove(callback)
 
 
-def _patient(
-    can: Callable[[], tuple[bool, str]], timeout: Duration, with_reason: bool
+def _poll(
+    can_transform: Callable[[], tuple[bool, str]], timeout: Duration, with_reason: bool
 ) -> bool | tuple[bool, str]:
-    """Ask until it can, or the time is over."""
-    answer = can()
-    if timeout != AT_ONCE:
+    """Call a function until it returns True or the time-out has passed."""
+    answer = can_transform()
+    if timeout != NO_TIMEOUT:
         clock = Clock()
         end = clock.now() + timeout
         while not answer[0] and clock.now() < end:
-            sleep(PAUSE)
-            answer = can()
+            sleep(POLLING_PERIOD)
+            answer = can_transform()
     return answer if with_reason else answer[0]

@@ -1,4 +1,4 @@
-"""What every buffer can do, and which types of messages can be taken into another frame."""
+"""The interface of buffers, and the types of messages that they can transform."""
 
 from collections.abc import Callable
 from copy import deepcopy
@@ -11,7 +11,7 @@ from std_msgs.msg import Header
 
 
 class TypeException(Exception):
-    """Nothing is registered for a type, so it can't be transformed or converted."""
+    """No function is registered that transforms or converts a type."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -27,7 +27,7 @@ class NotImplementedException(Exception):
 
 
 class BufferInterface:
-    """Takes messages into other frames; where these are, a subclass knows."""
+    """Transforms messages to other frames. Subclasses look up the transforms."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -39,18 +39,18 @@ class BufferInterface:
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
         new_type: type | None = None,
     ) -> Any:
-        """A message with a header, seen from target_frame at its own stamp; timeout: how long to wait.
+        """A message with a header, transformed to target_frame at its own stamp.
 
-        new_type: what it becomes then, if this has been registered.
+        timeout: how long to wait for the transform. new_type: convert the result to this type.
 
         Raises:
-            TransformException: the transform can't be had.
-            TypeException: nothing is registered for the type; tf2_geometry_msgs registers its own on import.
+            TransformException: the transform is not available.
+            TypeException: the type isn't registered; importing tf2_geometry_msgs registers its types.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
-        return _as(do_transform(object_stamped, transform), new_type)
+        return _converted(do_transform(object_stamped, transform), new_type)
 
     def transform_full(
         self,
@@ -61,13 +61,13 @@ class BufferInterface:
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
         new_type: type | None = None,
     ) -> Any:
-        """The same, seen from where target_frame is at target_time, while fixed_frame stands still."""
+        """As `transform`, but to target_frame at target_time, assuming that fixed_frame doesn't move."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform_full(
             target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
         )
-        return _as(do_transform(object_stamped, transform), new_type)
+        return _converted(do_transform(object_stamped, transform), new_type)
 
     def lookup_transform(
         self,
@@ -76,7 +76,7 @@ class BufferInterface:
         time: Time,
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
     ) -> TransformStamped:
-        """A subclass looks it up."""
+        """Implemented by subclasses."""
         raise NotImplementedException()
 
     def lookup_transform_full(
@@ -88,7 +88,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
     ) -> TransformStamped:
-        """A subclass looks it up."""
+        """Implemented by subclasses."""
         raise NotImplementedException()
 
     def can_transform(
@@ -98,7 +98,7 @@ class BufferInterface:
         time: Time,
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
     ) -> bool:
-        """A subclass knows."""
+        """Implemented by subclasses."""
         raise NotImplementedException()
 
     def can_transform_full(
@@ -110,18 +110,18 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = Duration(),  # noqa: B008 - upstream's default
     ) -> bool:
-        """A subclass knows."""
+        """Implemented by subclasses."""
         raise NotImplementedException()
 
 
 def Stamped(obj: Any, stamp: Time, frame_id: str) -> Any:
-    """Give an object a header; stamp is that of a message."""
+    """Set the header of an object; stamp is a message."""
     obj.header = Header(frame_id=frame_id, stamp=stamp)
     return obj
 
 
 class TransformRegistration:
-    """Which function takes a type into another frame; one table for all."""
+    """The functions that transform messages, by type. All instances share one table."""
 
     _transforms: ClassVar[dict[type, Callable[[Any, TransformStamped], Any]]] = {}
 
@@ -130,66 +130,66 @@ class TransformRegistration:
         print(self._transforms)
 
     def add(self, key: type, callback: Callable[[Any, TransformStamped], Any]) -> None:
-        """Register a type: callback(message, transform) gives the transformed message."""
+        """Register callback(message, transform), which returns the transformed message, for a type."""
         self._transforms[key] = callback
 
     def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
-        """The function of a type. Raises TypeException."""
-        return _found(self._transforms, key)
+        """The function for a type. Raises TypeException."""
+        return _get(self._transforms, key)
 
 
 class ConvertRegistration:
-    """Which function makes one type of another; one table for all."""
+    """The functions that convert between types. All instances share one table."""
 
     _to_msg: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
     _from_msg: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
     _convert: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register what makes this type of a message."""
+        """Register a function that converts a message to this type."""
         self._from_msg[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register what makes a message of this type."""
+        """Register a function that converts this type to a message."""
         self._to_msg[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
-        """Register what makes the second type of the first."""
+        """Register a function that converts the first type to the second."""
         self._convert[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """What makes this type of a message. Raises TypeException."""
-        return _found(self._from_msg, key)
+        """The function that converts a message to this type. Raises TypeException."""
+        return _get(self._from_msg, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """What makes a message of this type. Raises TypeException."""
-        return _found(self._to_msg, key)
+        """The function that converts this type to a message. Raises TypeException."""
+        return _get(self._to_msg, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """What makes the second type of the first. Raises TypeException."""
-        return _found(self._convert, key)
+        """The function that converts the first type to the second. Raises TypeException."""
+        return _get(self._convert, key)
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """An object as another type: directly, or by way of a message.
+    """An object converted to another type, directly or through a message.
 
     Raises:
-        TypeException: nobody registered how.
+        TypeException: no function is registered for it.
     """
-    known = ConvertRegistration()
+    registration = ConvertRegistration()
     try:
-        return known.get_convert((type(a), b_type))(a)
+        return registration.get_convert((type(a), b_type))(a)
     except TypeException:
         if type(a) is b_type:
             return deepcopy(a)
-        return known.get_from_msg(b_type)(known.get_to_msg(type(a))(a))
+        return registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
 
 
-def _found(table: dict[Any, Callable], key: Any) -> Callable:
+def _get(table: dict[Any, Callable], key: Any) -> Callable:
     if key not in table:
         raise TypeException(f"Type {key} is not loaded or supported")
     return table[key]
 
 
-def _as(result: Any, new_type: type | None) -> Any:
+def _converted(result: Any, new_type: type | None) -> Any:
     return result if new_type is None else convert(result, new_type)

@@ -1,4 +1,4 @@
-"""Tells all nodes where frames are that never move."""
+"""Broadcasts the transforms of static frames."""
 
 from collections.abc import Iterable
 
@@ -7,14 +7,14 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
-from tf2_ros.transform_broadcaster import listed
+from tf2_ros.transform_broadcaster import as_list
 
 
 class StaticTransformBroadcaster:
-    """Publishes transforms on /tf_static. They are kept for all who come later, so once is enough."""
+    """Publishes transforms on /tf_static. They are latched for later subscribers, so publish each once."""
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
-        """qos: a profile or a depth; without it, the last message is kept for latecomers."""
+        """qos: a profile or a depth; by default, the last message is latched."""
         latched = QoSProfile(
             depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST
         )
@@ -23,11 +23,11 @@ class StaticTransformBroadcaster:
         self._children: set[str] = set()
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
-        """Send one or several transforms, with all that were sent before: only the last message is kept.
+        """Publish one or several transforms together with all earlier ones: only the last message is latched.
 
-        A frame that was sent before stays where it was, as upstream has it.
+        A frame that was published before keeps its first transform, as with upstream.
         """
-        for one in listed(transform):
+        for one in as_list(transform):
             if one.child_frame_id not in self._children:
                 self._children.add(one.child_frame_id)
                 self.net_message.transforms.append(one)

@@ -1,4 +1,4 @@
-"""The program that tells where one frame is that never moves: static_transform_publisher."""
+"""The program static_transform_publisher: publishes one static transform."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from tf_transformations import quaternion_from_euler
 
 from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 
-PLACE, ANGLES, QUATERNION = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
-# Without options: how many words there are, and what those before both frames mean.
-OLD = {8: (*PLACE, "yaw", "pitch", "roll"), 9: (*PLACE, *QUATERNION)}
+TRANSLATION, ANGLES, QUATERNION = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
+# Positional arguments, deprecated upstream: their number, and the names of those before the two frames.
+POSITIONAL = {8: (*TRANSLATION, "yaw", "pitch", "roll"), 9: (*TRANSLATION, *QUATERNION)}
 
 
 def main() -> None:
@@ -26,12 +26,12 @@ def main() -> None:
     try:
         transform = _transform(remove_ros_args(sys.argv)[1:])
         frames = f"{transform.header.frame_id} {transform.child_frame_id}"
-        # Upstream draws the end of the name; here equal runs shall have equal names.
+        # Upstream draws a random suffix; here equal runs have equal names.
         node = Node(f"static_transform_publisher_{hashlib.md5(frames.encode()).hexdigest()[:16]}")
         transform.header.stamp = node.get_clock().now().to_msg()
         broadcaster = StaticTransformBroadcaster(node)
         broadcaster.sendTransform(transform)
-        node.get_logger().info(_told(transform))
+        node.get_logger().info(_format(transform))
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
@@ -39,50 +39,50 @@ def main() -> None:
         rclpy.try_shutdown()
 
 
-def _transform(words: list[str]) -> TransformStamped:
-    """What the words say. Ends the program where they can't be read."""
-    asked = _options(words)
-    transform = TransformStamped(child_frame_id=asked["child_frame_id"])
-    transform.header.frame_id = asked["frame_id"]
-    place, turn = transform.transform.translation, transform.transform.rotation
-    place.x, place.y, place.z = (asked[name] or 0.0 for name in PLACE)
-    if any(asked[name] is not None for name in QUATERNION):
-        turn.x, turn.y, turn.z = (asked[name] or 0.0 for name in QUATERNION[:3])
-        turn.w = 1.0 if asked["qw"] is None else asked["qw"]
+def _transform(arguments: list[str]) -> TransformStamped:
+    """The transform of the command line. Exits if it can't be parsed."""
+    options = _parse(arguments)
+    transform = TransformStamped(child_frame_id=options["child_frame_id"])
+    transform.header.frame_id = options["frame_id"]
+    translation, rotation = transform.transform.translation, transform.transform.rotation
+    translation.x, translation.y, translation.z = (options[name] or 0.0 for name in TRANSLATION)
+    if any(options[name] is not None for name in QUATERNION):
+        rotation.x, rotation.y, rotation.z = (options[name] or 0.0 for name in QUATERNION[:3])
+        rotation.w = 1.0 if options["qw"] is None else options["qw"]
     else:
-        turn.x, turn.y, turn.z, turn.w = map(
-            float, quaternion_from_euler(*(asked[name] or 0.0 for name in ANGLES))
+        rotation.x, rotation.y, rotation.z, rotation.w = map(
+            float, quaternion_from_euler(*(options[name] or 0.0 for name in ANGLES))
         )
     return transform
 
 
-def _options(words: list[str]) -> dict[str, object]:
+def _parse(arguments: list[str]) -> dict[str, object]:
     parser = argparse.ArgumentParser(
-        "static_transform_publisher", description="Tell where a frame is that never moves, in m and rad."
+        "static_transform_publisher", description="Publish a static transform, in m and rad."
     )
-    if len(words) in OLD and not any(word.startswith("--") for word in words):
-        for name in OLD[len(words)]:
+    if len(arguments) in POSITIONAL and not any(argument.startswith("--") for argument in arguments):
+        for name in POSITIONAL[len(arguments)]:
             parser.add_argument(name, type=float)
         parser.add_argument("frame_id")
         parser.add_argument("child_frame_id")
-        nothing = dict.fromkeys((*PLACE, *ANGLES, *QUATERNION))
-        return nothing | vars(parser.parse_args(words))
-    for name in (*PLACE, *ANGLES, *QUATERNION):
+        unset = dict.fromkeys((*TRANSLATION, *ANGLES, *QUATERNION))
+        return unset | vars(parser.parse_args(arguments))
+    for name in (*TRANSLATION, *ANGLES, *QUATERNION):
         parser.add_argument(f"--{name}", type=float)
     parser.add_argument("--frame-id", required=True, help="the parent")
     parser.add_argument("--child-frame-id", required=True)
-    asked = vars(parser.parse_args(words))
-    if all(any(asked[name] is not None for name in names) for names in (QUATERNION, ANGLES)):
+    options = vars(parser.parse_args(arguments))
+    if all(any(options[name] is not None for name in names) for names in (QUATERNION, ANGLES)):
         parser.error("Cannot mix euler angles and quaternions")
-    return asked
+    return options
 
 
-def _told(transform: TransformStamped) -> str:
-    place, turn = transform.transform.translation, transform.transform.rotation
+def _format(transform: TransformStamped) -> str:
+    translation, rotation = transform.transform.translation, transform.transform.rotation
     return (
         "Spinning until stopped - publishing transform\n"
-        f"translation: ('{place.x:f}', '{place.y:f}', '{place.z:f}')\n"
-        f"rotation: ('{turn.x:f}', '{turn.y:f}', '{turn.z:f}', '{turn.w:f}')\n"
+        f"translation: ('{translation.x:f}', '{translation.y:f}', '{translation.z:f}')\n"
+        f"rotation: ('{rotation.x:f}', '{rotation.y:f}', '{rotation.z:f}', '{rotation.w:f}')\n"
         f"from '{transform.header.frame_id}' to '{transform.child_frame_id}'"
     )
 

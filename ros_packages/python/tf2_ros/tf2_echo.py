@@ -1,4 +1,4 @@
-"""The program that prints where one frame is in another, again and again: tf2_echo."""
+"""The program tf2_echo: prints the transform between two frames repeatedly."""
 
 from __future__ import annotations
 
@@ -21,24 +21,25 @@ from tf2_ros.transform_listener import TransformListener
 USAGE = """\
 Usage: tf2_echo source_frame target_frame [echo_rate]
 
-Prints where target_frame is in source_frame, echo_rate times a second (default: 1)."""
-NO_NUMBER = 2  # exit status
+Prints the pose of target_frame in source_frame, echo_rate times a second (default: 1)."""
+INVALID_RATE = 2  # exit status
 
 
 def main() -> int:
-    """Print until Ctrl-C; the exit status."""
+    """Print until Ctrl-C; returns the exit status."""
     rclpy.init()
     try:
-        words = remove_ros_args(sys.argv)[1:]
-        if len(words) not in (2, 3):
+        arguments = remove_ros_args(sys.argv)[1:]
+        if len(arguments) not in (2, 3):
             print(USAGE)
             return 1
         try:
-            rate = float(words[2]) if words[2:] else 1.0
+            rate = float(arguments[2]) if arguments[2:] else 1.0
         except ValueError:
-            print(f"Failed to convert rate argument '{words[2]}' to a floating-point number", file=sys.stderr)
-            return NO_NUMBER
-        node = _Echo(words[0], words[1])
+            text = f"Failed to convert rate argument '{arguments[2]}' to a floating-point number"
+            print(text, file=sys.stderr)
+            return INVALID_RATE
+        node = _Echo(arguments[0], arguments[1])
         node.create_timer(1 / rate, node.echo)
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
@@ -55,7 +56,7 @@ class _Echo(Node):
         self._listener = TransformListener(self._buffer, self)
 
     def echo(self) -> None:
-        """Print the newest transform, or what it waits for."""
+        """Print the latest transform, or why it is not available."""
         source, target = self._frames
         try:
             found = self._buffer.lookup_transform(source, target, Time())
@@ -67,34 +68,35 @@ class _Echo(Node):
                 self.get_logger().info(f"Waiting for transform {source} ->  {target}: {error}")
             return
         self._found = True
-        print(_shown(found), flush=True)
+        print(_format(found), flush=True)
 
 
-def _shown(found: TransformStamped) -> str:
-    place, turn, stamp = found.transform.translation, found.transform.rotation, found.header.stamp
-    quaternion = (turn.x, turn.y, turn.z, turn.w)
+def _format(message: TransformStamped) -> str:
+    stamp, transform = message.header.stamp, message.transform
+    position = (transform.translation.x, transform.translation.y, transform.translation.z)
+    quaternion = (transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w)
     angles = euler_from_quaternion(quaternion)
     matrix = quaternion_matrix(quaternion)
-    matrix[:3, 3] = place.x, place.y, place.z
+    matrix[:3, 3] = position
     return "\n".join(
         [
             f"At time {stamp.sec}.{stamp.nanosec}",
-            f"- Translation: {_row((place.x, place.y, place.z))}",
-            f"- Rotation: in Quaternion {_row(quaternion)}",
-            f"- Rotation: in RPY (radian) {_row(angles)}",
-            f"- Rotation: in RPY (degree) {_row(map(math.degrees, angles))}",
+            f"- Translation: {_format_numbers(position)}",
+            f"- Rotation: in Quaternion {_format_numbers(quaternion)}",
+            f"- Rotation: in RPY (radian) {_format_numbers(angles)}",
+            f"- Rotation: in RPY (degree) {_format_numbers(map(math.degrees, angles))}",
             "- Matrix:",
-            *("".join(f" {_rounded(number):6.3f}" for number in row) for row in matrix),
+            *("".join(f" {_round(number):6.3f}" for number in row) for row in matrix),
         ]
     )
 
 
-def _row(numbers: Iterable[float]) -> str:
-    return "[" + ", ".join(f"{_rounded(number):.3f}" for number in numbers) + "]"
+def _format_numbers(numbers: Iterable[float]) -> str:
+    return "[" + ", ".join(f"{_round(number):.3f}" for number in numbers) + "]"
 
 
-def _rounded(number: float) -> float:
-    return round(number, 3) + 0.0  # not -0
+def _round(number: float) -> float:
+    return round(number, 3) + 0.0  # 0 instead of -0
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Fills a buffer with what comes on /tf and /tf_static."""
+"""Fills a buffer with the transforms on /tf and /tf_static."""
 
 from threading import Thread
 
@@ -12,11 +12,11 @@ from tf2_ros.buffer import Buffer
 
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
-WHO = "default_authority"  # a message doesn't say who sent it
+AUTHORITY = "default_authority"  # a message doesn't name its publisher
 
 
 class TransformListener:
-    """Listens to transforms, until unregister is called."""
+    """Subscribes to transforms, until unregister is called."""
 
     def __init__(
         self,
@@ -35,7 +35,7 @@ class TransformListener:
         static = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=last)
         self.buffer = buffer
         self.node = node
-        # In the node's own group, a callback that waits for a transform would keep it from coming.
+        # In the node's default group, a callback that waits for a transform would block its reception.
         self.group = ReentrantCallbackGroup()
         self.tf_sub = node.create_subscription(
             TFMessage, tf_topic, self.callback, moving if qos is None else qos, callback_group=self.group
@@ -65,16 +65,16 @@ class TransformListener:
             self.unregister()
 
     def unregister(self) -> None:
-        """Listen no more."""
+        """Destroy the subscriptions."""
         self.node.destroy_subscription(self.tf_sub)
         self.node.destroy_subscription(self.tf_static_sub)
 
     def callback(self, data: TFMessage) -> None:
-        """Remember moving frames."""
+        """Store the transforms of moving frames."""
         for transform in data.transforms:
-            self.buffer.set_transform(transform, WHO)
+            self.buffer.set_transform(transform, AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Remember frames that never move."""
+        """Store the transforms of static frames."""
         for transform in data.transforms:
-            self.buffer.set_transform_static(transform, WHO)
+            self.buffer.set_transform_static(transform, AUTHORITY)
