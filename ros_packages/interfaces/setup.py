@@ -18,14 +18,14 @@ PACKAGES = sorted(path.name for path in (HERE / "definitions").iterdir())
 
 
 class BuildInterfaces(build_ext):
-    """Builds each package with build_tools and hands its files to the wheel."""
+    """Builds each package with build_tools and adds its files to the wheel."""
 
     def run(self) -> None:
         """Build all packages; their share/ goes where the ROS wheels put theirs."""
         output = Path(self.build_temp).resolve()
         shutil.rmtree(output, ignore_errors=True)
         output.mkdir(parents=True)
-        # A process of its own, because a fixed hash seed is what makes two builds equal.
+        # A separate process, because only a fixed hash seed makes builds reproducible.
         command = [sys.executable, "-m", "build_tools", "definitions", str(output)]
         done = subprocess.run(command, cwd=HERE, env={**os.environ, "PYTHONHASHSEED": "0"}, check=False)
         if done.returncode:

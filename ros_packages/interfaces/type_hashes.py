@@ -14,7 +14,7 @@ from build_tools.toolchain import ros_prefix
 
 
 def installed() -> dict[str, str]:
-    """Return {type name: hash} for every interface that definitions/ describes, and for its parts."""
+    """Return {type name: hash} for every interface in definitions/, and for its parts."""
     hashes = {}
     for package in sorted(path.name for path in (ROOT / "definitions").iterdir()):
         for file in sorted(ros_prefix().glob(f"share/{package}/*/*.json")):
@@ -25,25 +25,25 @@ def installed() -> dict[str, str]:
 
 
 def upstream() -> dict[str, str]:
-    """Return {type name: hash} for the interfaces whose upstream hash is known."""
+    """Return {type name: hash} for the interfaces whose upstream hash is recorded."""
     return tomllib.loads((ROOT / "upstream_hashes.toml").read_text(encoding="utf-8"))
 
 
-def verdict(found: str, wanted: str | None) -> str:
-    """Return in words how a hash compares with upstream's (None: not recorded)."""
-    if wanted is None:
+def compare(found: str, expected: str | None) -> str:
+    """Return how a hash compares with upstream's (None: not recorded)."""
+    if expected is None:
         return "no upstream hash recorded"
-    return "as upstream" if found == wanted else f"upstream has {wanted}"
+    return "as upstream" if found == expected else f"upstream has {expected}"
 
 
 def main() -> int:
     """Print one line per interface and per recorded part; return 1 if one differs from upstream's."""
-    found, wanted = installed(), upstream()
+    found, expected = installed(), upstream()
     for name, type_hash in sorted(found.items()):
         # The hash of a service or action covers its parts, such as Spin_Goal.
-        if "_" not in name.split("/")[2] or name in wanted:
-            print(f"{name}  {type_hash}  {verdict(type_hash, wanted.get(name))}")
-    return int(not wanted.items() <= found.items())
+        if "_" not in name.split("/")[2] or name in expected:
+            print(f"{name}  {type_hash}  {compare(type_hash, expected.get(name))}")
+    return int(not expected.items() <= found.items())
 
 
 if __name__ == "__main__":

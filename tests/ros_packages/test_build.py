@@ -186,7 +186,7 @@ def test_two_builds_in_two_places_are_equal(tmp_path, definitions, name):
 
 
 def test_what_is_read_once_changes_nothing_that_is_written(tmp_path, definitions):
-    upstream = written(definitions / "tf2_msgs", tmp_path / "output", "generate.read_once = lambda: None")
+    upstream = written(definitions / "tf2_msgs", tmp_path / "output", "generate.cache_parsing = lambda: None")
     assert len(upstream) > 60
     assert written(definitions / "tf2_msgs", tmp_path / "output") == upstream
 

@@ -121,7 +121,7 @@ def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
 
     lets_go_when_told.times = 0
     process.wait = lets_go_when_told
-    assert install.tell_packages(process, tmp_path) == 3
+    assert install.print_progress(process, tmp_path) == 3
     assert said == "  1 of 3: b_msgs\n  2 of 3: a_msgs\n"
 
 

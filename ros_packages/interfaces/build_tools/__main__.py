@@ -1,4 +1,4 @@
-"""Build all packages of a folder, in the alphabet's order: python -m build_tools DEFINITIONS OUTPUT"""
+"""Build all packages of a folder in alphabetical order: python -m build_tools DEFINITIONS OUTPUT"""
 
 import gc
 import os
@@ -16,7 +16,7 @@ from build_tools.toolchain import BuildError, require_compilers
 
 def main(definitions: str, output: str) -> None:
     """Build each package of the folder DEFINITIONS into OUTPUT, or stop with the reason."""
-    # What is read is kept to the end: looking through it for garbage takes a tenth of the time.
+    # Nearly everything is needed until the end, and garbage collection would take a tenth of the time.
     gc.disable()
     sources = sorted(Path(definitions).resolve().iterdir())
     try:
@@ -29,7 +29,7 @@ def main(definitions: str, output: str) -> None:
 
 
 def build(packages: Iterable[Package]) -> None:
-    """Build packages, each of which may use those before it: while one is written, those are compiled.
+    """Build packages, each of which may use earlier ones. Earlier ones are compiled while one is generated.
 
     Raises:
         BuildError: see generate() and link(); the message ends with the package's name.
@@ -38,18 +38,18 @@ def build(packages: Iterable[Package]) -> None:
     with _compilers() as pool:
         for package in packages:
             for earlier, _, compiled in started:
-                with _named(earlier):
-                    [unit.result() for unit in compiled if unit.done()]  # one that failed is told of at once
-            with _named(package):
+                with _naming(earlier):
+                    [unit.result() for unit in compiled if unit.done()]  # raises the error of one that failed
+            with _naming(package):
                 started.append((package, generate(package), compiling(package, pool)))
         for package, dependencies, compiled in started:
-            with _named(package):
+            with _naming(package):
                 link(package, dependencies, compiled)
 
 
 @contextmanager
 def _compilers() -> Iterator[Executor]:
-    """As many as there are cores. After an error or Ctrl-C they end what they do, and begin nothing more."""
+    """A thread per core. After an error or Ctrl-C, running compilations finish and no others begin."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         try:
             yield pool
@@ -59,14 +59,14 @@ def _compilers() -> Iterator[Executor]:
 
 
 @contextmanager
-def _named(package: Package) -> Iterator[None]:
+def _naming(package: Package) -> Iterator[None]:
     try:
         yield
     except (Exception, SystemExit) as error:
-        # The generators tell of a definition's mistakes by errors of many types, or say it and exit.
+        # The generators report mistakes in a definition by errors of many types, or print them and exit.
         reason = error if isinstance(error, (BuildError, SystemExit)) else traceback.format_exc()
-        said = f"The interface package {package.name} could not be built; the reason is above."
-        raise BuildError(f"{reason}\n{said}") from None
+        summary = f"The interface package {package.name} could not be built; the reason is above."
+        raise BuildError(f"{reason}\n{summary}") from None
 
 
 main(*sys.argv[1:])

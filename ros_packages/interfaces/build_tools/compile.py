@@ -1,4 +1,4 @@
-"""Compile generated packages, each into the one shared object that rclpy imports."""
+"""Compiles each generated package into one shared object, which rclpy imports."""
 
 import re
 import shlex
@@ -13,18 +13,18 @@ from build_tools.generate import DISPATCHER, FASTRTPS, GENERATOR_C, GENERATOR_PY
 from build_tools.toolchain import BuildError, ros_prefix
 
 HERE = Path(__file__).resolve().parent
-# As colcon builds a student's own: what a message takes is mostly making Python's objects.
+# -O0, as colcon builds students' packages: the time of a message is mostly spent on Python objects.
 # NDEBUG as in the released ROS wheels: without it a wrong field type aborts the interpreter.
 FLAGS = ("-O0", "-g0", "-fPIC", "-w", "-DNDEBUG")
 STABLE_ABI = ("-DPy_LIMITED_API=0x030B0000", "-include", str(HERE / "stable_abi.h"))
 PARTS = (GENERATOR_C, FASTRTPS, INTROSPECTION, DISPATCHER, GENERATOR_PY)  # one library each in a ROS wheel
 STATIC = re.compile(r"^static .*?\b(\w+)(?:\[\])? =", re.MULTILINE)
-TOGETHER = 12  # interfaces in one compiler run: enough to share headers, and enough runs for some cores
+INTERFACES_PER_UNIT = 12  # few enough to use several cores, many enough to share the parsing of headers
 RUNTIME = (*PARTS[1:4], f"{FASTRTPS}pp", "rosidl_runtime_c", "rcutils", "rmw", "fastcdr")
 
 
 def compiling(package: Package, pool: Executor) -> list[Future[Path]]:
-    """Begin to compile a package that generate() has written."""
+    """Start to compile a package that generate() has written."""
     objects = package.output / "objects" / package.name
     objects.mkdir(parents=True, exist_ok=True)
     entry_point = package.python / f"_{package.name}_s.ep.{DISPATCHER}.c"
@@ -34,15 +34,15 @@ def compiling(package: Package, pool: Executor) -> list[Future[Path]]:
 
 
 def link(package: Package, dependencies: Iterable[str], compiled: Iterable[Future[Path]]) -> Path:
-    """Link what was compiled of a package, check that it loads, and return the shared object.
+    """Link a compiled package, check that it can be loaded, and return the shared object.
 
     Args:
         package: a package that generate() has written.
         dependencies: the packages to link with, as generate() returned them.
-        compiled: what compiling() returned.
+        compiled: the result of compiling().
 
     Raises:
-        BuildError: the compiler, the linker or the loader refused; the message holds their words.
+        BuildError: the compiler, the linker or the loader failed; the message contains its output.
     """
     objects = [unit.result() for unit in compiled]
     _run(["g++", "-shared", "-s", "-o", package.library, *objects, *_link_flags(package, dependencies)])
@@ -51,7 +51,7 @@ def link(package: Package, dependencies: Iterable[str], compiled: Iterable[Futur
 
 
 def _units(package: Package, directory: Path) -> list[Path]:
-    """Write the files to compile: they include the generated ones, each of which reads the same headers."""
+    """Write the files to compile. Each includes several generated files, which share the same headers."""
     from rosidl_pycommon import convert_camel_case_to_lower_case_underscore
 
     units: dict[str, str] = {}
@@ -65,25 +65,25 @@ def _units(package: Package, directory: Path) -> list[Path]:
             package.python / kind / f"_{name}_s.c",
         ]
         cpp = [detail / f"{name}__type_support_c.cpp", package.include / kind / f"{name}__type_support.cpp"]
-        described = _with_names_of_its_own(detail / f"{name}__description.c", number)
-        for suffix, text in (("c", _included(*c) + described), ("cpp", _included(*cpp))):
-            unit = f"{number // TOGETHER}.{suffix}"
+        described = _include_with_unique_names(detail / f"{name}__description.c", number)
+        for suffix, text in (("c", _include(*c) + described), ("cpp", _include(*cpp))):
+            unit = f"{number // INTERFACES_PER_UNIT}.{suffix}"
             units[unit] = units.get(unit, "") + text
     for unit, text in units.items():
         (directory / unit).write_text(text, encoding="utf-8")
-    # The long ones first: no core waits for the last of them.
+    # The longest first, so that no core idles at the end.
     return [directory / unit for unit in sorted(units, key=lambda unit: -len(units[unit]))]
 
 
-def _included(*files: Path) -> str:
+def _include(*files: Path) -> str:
     return "".join(f'#include "{file}"\n' for file in files)
 
 
-def _with_names_of_its_own(description: Path, number: int) -> str:
-    """Include the description of a type; it has static names that those of other types have, too."""
+def _include_with_unique_names(description: Path, number: int) -> str:
+    """Include the description of a type, with its static names made unique within the unit."""
     names = STATIC.findall(description.read_text(encoding="utf-8"))
     defined = "".join(f"#define {name} {name}__{number}\n" for name in names)
-    return defined + _included(description) + "".join(f"#undef {name}\n" for name in names)
+    return defined + _include(description) + "".join(f"#undef {name}\n" for name in names)
 
 
 def _flags(package: Package) -> list[str]:
@@ -98,9 +98,9 @@ def _flags(package: Package) -> list[str]:
         sysconfig.get_path("include"),
         numpy.get_include(),
     ]
-    stock = f"-D{DISPATCHER}__get_{{0}}_typesupport_handle_function=dispatch_{{0}}"
-    redirect = [stock.format(kind) for kind in ("message", "service")]
-    # Error messages hold source file names; the map keeps the build directory out of them.
+    dispatcher = f"-D{DISPATCHER}__get_{{0}}_typesupport_handle_function=dispatch_{{0}}"
+    redirect = [dispatcher.format(kind) for kind in ("message", "service")]
+    # Error messages contain source paths; the map removes the build directory from them.
     return [*FLAGS, *redirect, f"-ffile-prefix-map={package.output}=.", *(f"-I{path}" for path in includes)]
 
 
@@ -112,16 +112,16 @@ def _compile(unit: Path, directory: Path, flags: list[str]) -> Path:
 
 
 def _link_flags(package: Package, dependencies: Iterable[str]) -> list[str]:
-    beside = [other for other in map(package.beside, dependencies) if other.library.exists()]
-    in_wheels = set(dependencies) - {other.name for other in beside}
+    built = [other for other in map(package.beside, dependencies) if other.library.exists()]
+    in_wheels = set(dependencies) - {other.name for other in built}
     libraries = [f"{name}__{part}" for name in sorted(in_wheels) for part in PARTS]
     lib = ros_prefix() / "lib"
     return [
         f"-Wl,-soname,{package.library.name}",
         "-Wl,--as-needed",
-        *(str(other.library) for other in beside),
-        *(f"-Wl,-rpath,$ORIGIN/../{other.name}" for other in beside),
-        # From site-packages/PACKAGE up to the environment's lib/, wherever the environment is.
+        *(str(other.library) for other in built),
+        *(f"-Wl,-rpath,$ORIGIN/../{other.name}" for other in built),
+        # From site-packages/PACKAGE to lib/ of the environment, which may be moved.
         "-Wl,-rpath,$ORIGIN/../../..",
         f"-L{lib}",
         *(f"-l{library}" for library in (*libraries, *RUNTIME)),
@@ -130,13 +130,13 @@ def _link_flags(package: Package, dependencies: Iterable[str]) -> list[str]:
 
 
 def _check_loads(library: Path) -> None:
-    """Load the shared object in another process; a missing symbol would show only later, without its name."""
+    """Load the shared object in another process, to report a missing symbol now and by its name."""
     _run([sys.executable, "-c", "import ctypes, os, sys; ctypes.CDLL(sys.argv[1], os.RTLD_NOW)", library])
 
 
 def _run(command: Iterable[object]) -> None:
-    words = [str(word) for word in command]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    arguments = [str(argument) for argument in command]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
     if done.returncode:
-        command = shlex.join(words)
-        raise BuildError(f"This step of the interface build failed:\n{command}\n{done.stderr.strip()}")
+        shown = shlex.join(arguments)
+        raise BuildError(f"This step of the interface build failed:\n{shown}\n{done.stderr.strip()}")

@@ -1,4 +1,4 @@
-"""Names a build by what goes into it, so that nothing is built or installed twice."""
+"""Computes the version of a build from its inputs, so that nothing is built or installed twice."""
 
 import hashlib
 from pathlib import Path

@@ -1,8 +1,8 @@
 // Finds the type support of a message or service inside this shared object.
 //
 // The stock dispatcher opens lib<package>__<typesupport>.so by its bare name. Here all type supports of a
-// package are in one file, so looking the symbol up in that file is enough. compile.py makes the generated code
-// call these two functions in place of the stock ones.
+// package are in one file, so it is enough to look up the symbol in that file. compile.py makes the generated code
+// call these two functions instead of the stock ones.
 
 #include <dlfcn.h>
 

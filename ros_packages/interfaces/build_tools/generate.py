@@ -1,6 +1,6 @@
-"""Turn .msg, .srv and .action files into C, C++ and Python sources, with the generators of the ROS wheels.
+"""Generates C, C++ and Python sources from .msg, .srv and .action files by the generators of the ROS wheels.
 
-This is the part that upstream leaves to rosidl_generate_interfaces() in CMake.
+Upstream does this in CMake, in rosidl_generate_interfaces().
 """
 
 import json
@@ -9,7 +9,7 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from build_tools.rosidl import read_once
+from build_tools.rosidl import cache_parsing
 from build_tools.toolchain import BuildError, ros_prefix
 
 KINDS = ("msg", "srv", "action")
@@ -23,13 +23,13 @@ DESCRIPTION = "rosidl_generator_type_description"
 
 @dataclass(frozen=True)
 class Package:
-    """One interface package and where its files are made.
+    """An interface package and the directories of its generated files.
 
     Attributes:
         name: the ROS package name.
         source: the directory with msg/, srv/ and action/.
-        output: the directory that receives share/, include/, introspection/ and python/. A package may use
-            those that were built into the same directory before it.
+        output: the directory for share/, include/, introspection/ and python/. A package may use those that
+            were built into the same directory before it.
     """
 
     name: str
@@ -49,26 +49,26 @@ class Package:
 
     @property
     def share(self) -> Path:
-        """Where the definitions, .idl files and type descriptions go."""
+        """The directory of the definitions, .idl files and type descriptions."""
         return self.output / "share" / self.name
 
     def description(self, idl: str) -> Path:
-        """Where the type description (JSON, with the type hashes) of an interface goes."""
+        """The file with the type description (JSON, with the type hashes) of an interface."""
         return self.share / Path(idl).with_suffix(".json")
 
     @property
     def include(self) -> Path:
-        """Where the C and C++ sources go."""
+        """The directory of the C and C++ sources."""
         return self.output / "include" / self.name
 
     @property
     def introspection(self) -> Path:
-        """Where the introspection sources go: some have the file names of those in include."""
+        """The directory of the introspection sources: some have the same file names as those in include."""
         return self.output / "introspection" / self.name
 
     @property
     def python(self) -> Path:
-        """Where the importable package goes."""
+        """The directory of the importable package."""
         return self.output / "python" / self.name
 
     @property
@@ -77,7 +77,7 @@ class Package:
         return self.python / f"{self.name}_s__{DISPATCHER}.so"
 
     def beside(self, name: str) -> "Package":
-        """Another package of the same output directory; whether it was written, its share/ tells."""
+        """Another package in the same output directory. It has been generated if its share/ exists."""
         return Package(name, self.source.parent / name, self.output)
 
 
@@ -89,7 +89,7 @@ def generate(package: Package) -> list[str]:
     """
     if not package.interfaces:
         raise BuildError(f"{package.name} has no .msg, .srv or .action file under {package.source}.")
-    read_once()
+    cache_parsing()
     _write_idls(package)
     _require_used_packages(package)
     _write_descriptions(package)
@@ -116,7 +116,7 @@ def _used_packages(package: Package) -> set[str]:
 
 def _require_used_packages(package: Package) -> None:
     lib = ros_prefix() / "lib"
-    # Of wheels the libraries are asked for: what was built and installed here has definitions there, too.
+    # A wheel provides a library; packages that were built here and installed have definitions there as well.
     used = sorted(_used_packages(package))
     in_wheels = {name for name in used if (lib / f"lib{name}__{GENERATOR_C}.so").exists()}
     missing = [name for name in used if name not in in_wheels and not package.beside(name).share.exists()]
@@ -148,7 +148,7 @@ def _write_descriptions(package: Package) -> None:
 
     shares = (ros_prefix() / "share", package.share.parent)
     found = (path.parent for share in shares for kind in KINDS for path in share.glob(f"*/{kind}"))
-    # The later ones count: an installed build of a package must not stand in for the files at hand.
+    # Later ones replace earlier ones: the current files come before an installed build of the package.
     described = {path.name: path for path in found}
     include_paths = [f"{name}:{described[name]}" for name in sorted(described) if name != package.name]
     generate_type_hash(_arguments(package, DESCRIPTION, package.share, include_paths=include_paths))
@@ -191,7 +191,7 @@ def _write_visibility_headers(package: Package) -> None:
 
 
 def _write_index(package: Package) -> None:
-    """Register the package in the ament index, where get_package_share_directory() and tools look."""
+    """Register the package in the ament index, which get_package_share_directory() and other tools read."""
     index = package.output / "share" / "ament_index" / "resource_index"
     content = {"packages": "", "rosidl_interfaces": "\n".join(sorted(package.interfaces + package.idls))}
     for kind, text in content.items():
@@ -201,7 +201,7 @@ def _write_index(package: Package) -> None:
 
 def _dependencies(package: Package) -> list[str]:
     used = _used_packages(package)
-    # Every service carries events, every action goals and cancelling: these are not named in the definitions.
+    # Services have events, and actions have goal ids and cancellation, which the definitions don't mention.
     kinds = {idl.split("/")[0] for idl in package.idls}
     if kinds & {"srv", "action"}:
         used |= {"service_msgs", "builtin_interfaces"}

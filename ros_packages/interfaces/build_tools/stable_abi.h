@@ -1,8 +1,8 @@
-/* Included before every generated C file, so that one build serves every Python from 3.11 on.
+/* Included before every generated C file, so that one build works with every Python from 3.11 on.
  *
- * The generated code reads objects with unchecked macros that Python's stable ABI does not have; each is replaced
- * by the function that does the same with a check. PyFloat_AsDouble also reads an int rightly, where the macro
- * would send 5e-324 for `point.x = 1`.
+ * The generated code reads objects with unchecked macros that Python's stable ABI lacks. Each is replaced by the
+ * function that does the same with a check. PyFloat_AsDouble also converts an int correctly, for which the macro
+ * would send 5e-324, as in `point.x = 1`.
  */
 #include <assert.h>
 #include <stdio.h>

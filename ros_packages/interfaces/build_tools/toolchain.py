@@ -1,4 +1,4 @@
-"""What a build needs from the machine: compilers, Python's headers and the ROS wheels."""
+"""The requirements of a build: compilers, Python's headers and the ROS wheels."""
 
 import importlib.util
 import os
@@ -10,11 +10,11 @@ GENERATOR = "rosidl_generator_c"
 
 
 class BuildError(RuntimeError):
-    """A build cannot go on; the message says what to do."""
+    """A build can't continue; the message says what to do."""
 
 
 def require_compilers() -> None:
-    """Raise BuildError unless gcc, g++ and Python.h are here."""
+    """Raise BuildError unless gcc, g++ and Python.h are installed."""
     header = Path(sysconfig.get_path("include"), "Python.h")
     missing = [tool for tool in ("gcc", "g++") if not shutil.which(tool)]
     missing += [] if header.is_file() else ["Python.h"]
@@ -29,7 +29,7 @@ def require_compilers() -> None:
 
 
 def ros_prefix() -> Path:
-    """Return the directory whose share/, include/ and lib/ the ROS wheels filled.
+    """Return the directory whose share/, include/ and lib/ contain the files of the ROS wheels.
 
     Raises:
         BuildError: the ROS wheels are not installed.

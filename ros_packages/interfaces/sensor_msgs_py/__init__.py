@@ -1,1 +1,1 @@
-"""Upstream's sensor_msgs_py, as far as the course uses it: point clouds as numpy arrays and back."""
+"""The part of upstream's sensor_msgs_py that the course uses: point clouds as numpy arrays and back."""

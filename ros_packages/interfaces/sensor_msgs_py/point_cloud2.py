@@ -1,8 +1,8 @@
 """Read and write sensor_msgs/PointCloud2 with upstream's functions of the same names and arguments.
 
-A point is a row of bytes; its fields say where each number is and of which type. The arrays here are
-structured as the point is, one named column per field: ``read_points(cloud)["x"]`` holds all x. A field that
-holds several numbers gives a column for each: ``name_0``, ``name_1`` and so on.
+A point is a row of bytes, and its fields define the position and the type of each number. The arrays here are
+structured in the same way, with a named column per field: ``read_points(cloud)["x"]`` has all x. A field with
+several numbers has a column for each: ``name_0``, ``name_1`` and so on.
 """
 
 import sys
@@ -29,7 +29,7 @@ _CODES = {
 
 
 def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = None) -> np.dtype:
-    """Return the type of a point as numpy sees it.
+    """Return the numpy dtype of a point.
 
     Args:
         fields: the fields of the point.
@@ -64,7 +64,7 @@ def read_points(
         cloud: the message.
         field_names: the columns to return, in this order; None for all.
         skip_nans: leave out points with a NaN in a returned column, unless the cloud says that it has none.
-        uvs: the places of the points to return; None for all.
+        uvs: the indices of the points to return; None for all.
         reshape_organized_cloud: return a cloud of several rows as an array of shape (width, height).
 
     Raises:
@@ -129,10 +129,10 @@ def create_cloud(
 
     Args:
         header: frame and time of the cloud.
-        fields: where each number of a point goes, and of which type it is.
+        fields: the position and the type of each number of a point.
         points: the points, each a sequence of numbers in the order of the fields; or a structured array with
-            the dtype of the fields; or a plain array whose last axis holds the fields, all of one type. An
-            array of points with two axes gives a cloud of (width, height).
+            the dtype of the fields; or a plain array whose last axis has the fields, all of one type. An
+            array of points with two axes makes a cloud of (width, height).
         point_step: size of a point in bytes; None for no bytes after the last field.
 
     Raises:
@@ -164,7 +164,7 @@ def create_cloud(
 def create_cloud_xyz32(header: Header, points: Iterable) -> PointCloud2:
     """Return points of (x, y, z), in metres, as a message with these three fields of float32."""
     fields = [
-        PointField(name=name, offset=4 * place, datatype=PointField.FLOAT32, count=1)
-        for place, name in enumerate("xyz")
+        PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
+        for index, name in enumerate("xyz")
     ]
     return create_cloud(header, fields, points)
