@@ -16,7 +16,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from time import monotonic
 
-from grader.marking.building import builder
+from grader.marking.build_process import builder
 from grader.marking.cores import Cores
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result

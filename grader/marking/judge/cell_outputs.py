@@ -12,18 +12,25 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from grader.marking.outputs import LEFT_OUT, MOST, SHOWN, output_size, picture_settings, writable_text
+from grader.marking.outputs import (
+    MAX_CELL_CHARS,
+    MIME_TYPES,
+    TRUNCATED,
+    image_metadata,
+    output_size,
+    writable_text,
+)
 
-MOST_OF_ALL = 20_000_000  # that all cells of a submission show
-MOST_OUTPUTS = 1_000  # of one cell
-MOST_OUTPUTS_OF_ALL = 10_000  # of all cells: nbconvert looks at each again and again
-MOST_LINES = 1_000  # of a traceback
-MOST_NAME = 200  # characters of a display_id
+MAX_SUBMISSION_CHARS = 20_000_000  # that all cells of a submission show
+MAX_OUTPUTS = 1_000  # of one cell
+MAX_SUBMISSION_OUTPUTS = 10_000  # of all cells: nbconvert looks at each again and again
+MAX_TRACEBACK_LINES = 1_000  # of a traceback
+MAX_DISPLAY_ID = 200  # characters of a display_id
 
 # Of Python's libraries and of the course. A longer one comes first, for one may lie in another.
 COURSE = str(Path(__file__).parents[3])
-PLACES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
-FOLDERS = sorted({f"{place}/" for place in PLACES if len(place) > 1}, key=len, reverse=True)
+PREFIXES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
+INSTALL_FOLDERS = sorted({f"{place}/" for place in PREFIXES if len(place) > 1}, key=len, reverse=True)
 
 
 class CellOutputs:
@@ -60,7 +67,7 @@ class CellOutputs:
 
     def grow(self, more: int) -> bool:
         """Take so much more room for an output of the cell, or give it back; whether there is that much."""
-        if self._used + more > MOST or more > self._displays.room:
+        if self._used + more > MAX_CELL_CHARS or more > self._displays.room:
             return False
         self._used += more
         self._displays.room -= more
@@ -92,17 +99,17 @@ class CellOutputs:
         if self._full and not self._clear:
             return False
         self._begin()
-        room = min(MOST - self._used, self._displays.room)
+        room = min(MAX_CELL_CHARS - self._used, self._displays.room)
         used = min(output_size(output), room)
         self._used += used
         self._displays.room -= used
-        many = len(self.list) >= MOST_OUTPUTS or self._displays.outputs >= MOST_OUTPUTS_OF_ALL
+        many = len(self.list) >= MAX_OUTPUTS or self._displays.outputs >= MAX_SUBMISSION_OUTPUTS
         if output_size(output) <= room and not many:
             return True
         self._full = True
         if output["output_type"] == "stream":
             self._join({**output, "text": output["text"][: max(room, 0)]})
-        self.say(LEFT_OUT)
+        self.say(TRUNCATED)
         return False
 
 
@@ -110,17 +117,17 @@ class Displays:
     """What the cells of a submission share: room, and displays that later cells may update."""
 
     def __init__(self) -> None:
-        self.room, self.outputs = MOST_OF_ALL, 0
+        self.room, self.outputs = MAX_SUBMISSION_CHARS, 0
         self._displays: dict[str, list[tuple[CellOutputs, dict[str, Any]]]] = {}
 
     def remember(self, identity: str, cell: CellOutputs, output: dict[str, Any]) -> None:
         """Remember an output of a cell by its display_id."""
-        if len(self._displays) < MOST_OUTPUTS:
-            self._displays.setdefault(identity[:MOST_NAME], []).append((cell, output))
+        if len(self._displays) < MAX_OUTPUTS:
+            self._displays.setdefault(identity[:MAX_DISPLAY_ID], []).append((cell, output))
 
     def update(self, identity: Any, output: dict[str, Any]) -> None:
         """Let an output take the place of those with this display_id, if there are any."""
-        known = self._displays.get(identity[:MOST_NAME], ()) if isinstance(identity, str) else ()
+        known = self._displays.get(identity[:MAX_DISPLAY_ID], ()) if isinstance(identity, str) else ()
         for cell, old in known if "data" in output else ():
             if cell.grow(output_size(output) - output_size(old)):
                 old.update(data=output["data"], metadata=output["metadata"])
@@ -137,16 +144,16 @@ def make_output(output: Any) -> dict[str, Any] | None:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
             return {"output_type": "stream", "name": name, "text": without_folders(text)}
         case {"output_type": "error", "ename": str(name), "evalue": str(value), "traceback": [*lines]}:
-            lines = [without_folders(line) for line in lines[:MOST_LINES] if isinstance(line, str)]
+            lines = [without_folders(line) for line in lines[:MAX_TRACEBACK_LINES] if isinstance(line, str)]
             words = {"ename": without_folders(name), "evalue": without_folders(value)}
             return {"output_type": "error", **words, "traceback": lines}
         case {"output_type": "display_data" | "execute_result" as kind, "data": dict(data)}:
-            words = {mime: data[mime] for mime in SHOWN if isinstance(data.get(mime), str)}
+            words = {mime: data[mime] for mime in MIME_TYPES if isinstance(data.get(mime), str)}
             shown = {
                 mime: without_folders(it) if mime.startswith("text/") else writable_text(it)
                 for mime, it in words.items()
             }
-            new = {"output_type": kind, "data": shown, "metadata": picture_settings(output.get("metadata"))}
+            new = {"output_type": kind, "data": shown, "metadata": image_metadata(output.get("metadata"))}
             if kind == "execute_result":
                 count = output.get("execution_count")
                 new["execution_count"] = count if type(count) is int and 0 < count < 10**6 else None
@@ -156,7 +163,7 @@ def make_output(output: Any) -> dict[str, Any] | None:
 
 def without_folders(text: str) -> str:
     """The same without the folders of the machine that marks, which are no student's business."""
-    for folder in FOLDERS:
+    for folder in INSTALL_FOLDERS:
         text = text.replace(folder, "")
     return writable_text(text)
 

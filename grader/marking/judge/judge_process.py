@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import socket
 
-from grader.marking.building.asking import build_there
+from grader.marking.build_process.build_request import request_build
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.led_process import LedProcess
 from grader.marking.judge.mark_submission import mark_submission, result_text
@@ -37,7 +37,7 @@ def main(sock: socket.socket) -> None:
         return socket.socket(fileno=descriptor)
 
     def build(sources: Sources) -> Built:
-        return build_there(socket_to(build=True), sources, lambda: ending("build"))
+        return request_build(socket_to(build=True), sources, lambda: ending("build"))
 
     def start_process() -> LedProcess:
         to_student = socket_to(student=True)

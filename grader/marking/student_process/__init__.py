@@ -1,1 +1,1 @@
-"""The process that belongs to a student: it runs the cells of a notebook, and nobody trusts it."""
+"""The untrusted process of a student, which runs the cells of a notebook."""

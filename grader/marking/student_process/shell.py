@@ -1,7 +1,6 @@
-"""The shell that runs a student's cells: what they show goes to the judge instead of a browser.
+"""The IPython shell that runs a student's cells, without a kernel; their outputs are sent to the judge.
 
-It is IPython's own, without a kernel. Its event loop runs between awaits only, as in a notebook: a cell may
-await, and what it left running goes on while other cells wait.
+As in a notebook, a cell may await, and the tasks that it has started run while later cells await.
 """
 
 from __future__ import annotations
@@ -24,13 +23,13 @@ from traitlets.config import Config
 
 from grader.marking.outputs import mime_bundle
 from grader.marking.student_process.error_output import error_output
-from grader.marking.student_process.outlet import Outlet
+from grader.marking.student_process.output_sender import OutputSender
 
 INLINE = "module://matplotlib_inline.backend_inline"
 
 
 class DisplaySender(DisplayPublisher):
-    """Where `display` puts things."""
+    """Sends what `display` shows."""
 
     def publish(
         self,
@@ -41,18 +40,18 @@ class DisplaySender(DisplayPublisher):
         update: bool = False,
         **_: Any,
     ) -> None:
-        """Show it, or let it take the place of what has the same display_id."""
+        """Show it, or replace what has the same display_id."""
         output = {"output_type": "display_data", **mime_bundle(data, metadata)}
         identity = (transient or {}).get("display_id")
-        self.shell.outlet.show(output=output, display_id=identity, update=update)
+        self.shell.sender.show(output=output, display_id=identity, update=update)
 
     def clear_output(self, wait: bool = False) -> None:
-        """Empty the cell's output; with `wait`, when the next output comes."""
-        self.shell.outlet.show(clear=bool(wait))
+        """Clear the cell's output; with `wait`, when the next output comes."""
+        self.shell.sender.show(clear=bool(wait))
 
 
 class ValueHook(DisplayHook):
-    """Where the value of a cell's last line goes."""
+    """Sends the value of a cell's last line."""
 
     def write_output_prompt(self) -> None:
         """The number is part of the output."""
@@ -61,39 +60,39 @@ class ValueHook(DisplayHook):
         """Show it."""
         count = {"execution_count": self.prompt_count}
         output = {"output_type": "execute_result", **mime_bundle(format_dict, md_dict), **count}
-        self.shell.outlet.show(output=output)
+        self.shell.sender.show(output=output)
 
 
 class Shell(InteractiveShell):
-    """IPython as a notebook's kernel has it, as far as a cell can tell."""
+    """An IPython shell that behaves like that of a notebook's kernel."""
 
-    outlet: Outlet = AnyTrait()
+    sender: OutputSender = AnyTrait()
     display_pub_class = Type(DisplaySender)
     displayhook_class = Type(ValueHook)
 
     def ask_exit(self) -> None:
-        """`exit` and `quit`: as a kernel, it ends after this cell."""
+        """`exit` and `quit`: like a kernel, it ends after this cell."""
         self.exit_now = True
 
     def enable_gui(self, gui: Any = None) -> None:
-        """There is no window system."""
+        """Do nothing: there is no window system."""
 
     def showtraceback(self, exc_tuple: Any = None, *_: Any, **__: Any) -> None:
-        """Show an error as the student should read it."""
+        """Show an error in the form for students."""
         error = exc_tuple[1] if exc_tuple else sys.exc_info()[1]
         if error is not None:
-            self.outlet.show(output=error_output(error, self.compile._filename_map))
+            self.sender.show(output=error_output(error, self.compile._filename_map))
 
     def showsyntaxerror(self, *_: Any, **__: Any) -> None:
-        """The same for code that can't be read."""
+        """The same for invalid code."""
         self.showtraceback()
 
     def _format_exception_for_storage(self, *_: Any, **__: Any) -> list[str]:
-        """Nobody reads that, and to make it takes longer than most cells."""
+        """Store nothing: it is not used, and formatting takes longer than most cells."""
         return []
 
     async def execute(self, source: str) -> None:
-        """Run one cell; what comes out of it, errors too, goes to the outlet."""
+        """Run one cell; its outputs, errors too, are sent."""
         try:
             code, problem = self.transform_cell(source), None
         except Exception:
@@ -105,62 +104,62 @@ class Shell(InteractiveShell):
         self.events.trigger("post_run_cell", self.last_execution_result)
 
 
-def start_shell(outlet: Outlet) -> Shell:
-    """The shell of this process; Python's streams and matplotlib's figures lead to it from now on."""
+def start_shell(sender: OutputSender) -> Shell:
+    """Start the shell of this process; it shows Python's streams and matplotlib's figures from now on."""
     settings = Config()
-    settings.HistoryManager.enabled = False  # it would write to a database, from a thread
+    settings.HistoryManager.enabled = False  # it writes to a database, from a thread
     made = Shell.instance(config=settings)
-    made.outlet = outlet
-    sys.stdout, sys.stderr = Stream(outlet, "stdout", 1), Stream(outlet, "stderr", 2)
-    warnings.filterwarnings("ignore", "To exit: use")  # IPython's, for sys.exit(); it shows a path of ours
+    made.sender = sender
+    sys.stdout, sys.stderr = Stream(sender, "stdout", 1), Stream(sender, "stderr", 2)
+    warnings.filterwarnings("ignore", "To exit: use")  # IPython's, for sys.exit(); it shows a path
     activate_matplotlib(INLINE)
     configure_inline_support(made, INLINE)
     return made
 
 
 class Stream(io.TextIOBase):
-    """A text stream that is shown in the cell."""
+    """A text stream whose text is shown in the cell."""
 
     encoding, errors = "utf-8", "replace"
 
-    def __init__(self, outlet: Outlet, name: str, descriptor: int) -> None:
-        self._outlet, self.name, self._descriptor = outlet, f"<{name}>", descriptor
+    def __init__(self, sender: OutputSender, name: str, descriptor: int) -> None:
+        self._sender, self.name, self._descriptor = sender, f"<{name}>", descriptor
         self._channel = name
 
     def writable(self) -> bool:
-        """Yes."""
+        """True."""
         return True
 
     def fileno(self) -> int:
-        """Where C code writes the like."""
+        """The descriptor to which C code writes such text."""
         return self._descriptor
 
     def write(self, text: str) -> int:
         """As `TextIO.write`."""
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
-        self._outlet.write(self._channel, text)
+        self._sender.write(self._channel, text)
         return len(text)
 
 
-class Descriptors:
-    """Catches what is written to file descriptors 1 and 2 below Python, to be shown when the cell is over."""
+class DescriptorCapture:
+    """Captures what C code writes to file descriptors 1 and 2, and shows it when the cell is over."""
 
-    def __init__(self, outlet: Outlet) -> None:
-        self._outlet = outlet
-        self._files = {name: self._caught(number) for name, number in (("stdout", 1), ("stderr", 2))}
+    def __init__(self, sender: OutputSender) -> None:
+        self._sender = sender
+        self._files = {name: self._capture(number) for name, number in (("stdout", 1), ("stderr", 2))}
 
     def show(self) -> None:
-        """Show what has been caught since the last time."""
+        """Show what was captured since the last call."""
         for name, file in self._files.items():
-            file.seek(0)  # the writers' place, too: they share it
-            text = file.read(self._outlet.most).decode(errors="replace")
+            file.seek(0)  # also the position of the writers, which share it
+            text = file.read(self._sender.most).decode(errors="replace")
             file.seek(0)
             file.truncate()
-            self._outlet.write(name, text)
+            self._sender.write(name, text)
 
     @staticmethod
-    def _caught(number: int) -> BinaryIO:
+    def _capture(number: int) -> BinaryIO:
         file = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115  (as long as the process)
         os.dup2(file.fileno(), number)
         return file

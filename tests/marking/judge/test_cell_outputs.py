@@ -6,7 +6,7 @@ import pytest
 from grader.marking import outputs
 from grader.marking.judge import cell_outputs
 from grader.marking.judge.cell_outputs import CellOutputs, Displays, make_output
-from grader.marking.outputs import LEFT_OUT, MOST, mime_bundle
+from grader.marking.outputs import MAX_CELL_CHARS, TRUNCATED, mime_bundle
 from tests.marking.tiny import ROOT
 
 
@@ -53,19 +53,20 @@ def test_an_update_of_nothing_shows_nothing():
 def test_a_cell_that_shows_too_much_is_cut_and_says_so_once():
     cell = shown(*[{"output": stream("x" * 300_000)}] * 9)
     assert cell == [stream(cell[0]["text"])]
-    assert cell[0]["text"] == "x" * (MOST - 3 * 50) + LEFT_OUT or cell[0]["text"].endswith(LEFT_OUT)
+    assert cell[0]["text"].endswith(TRUNCATED)
     assert cell[0]["text"].count("left out") == 1
-    assert len(cell[0]["text"]) < MOST + 100
+    assert len(cell[0]["text"]) < MAX_CELL_CHARS + 100
 
 
 def test_a_picture_that_is_too_large_is_left_out():
-    assert shown({"output": picture("x" * MOST)}, {"output": picture("y")}) == [stream(LEFT_OUT[:-1] + "\n")]
+    large, small = picture("x" * MAX_CELL_CHARS), picture("y")
+    assert shown({"output": large}, {"output": small}) == [stream(TRUNCATED)]
 
 
 def test_a_cell_has_not_more_than_a_thousand_outputs():
     cell = shown(*({"output": picture(str(number))} for number in range(2000)))
-    assert len(cell) == cell_outputs.MOST_OUTPUTS + 1
-    assert cell[-1] == stream(LEFT_OUT)
+    assert len(cell) == cell_outputs.MAX_OUTPUTS + 1
+    assert cell[-1] == stream(TRUNCATED)
 
 
 def test_a_cell_that_clears_its_output_may_go_on_for_ever():
@@ -78,7 +79,7 @@ def test_all_cells_together_have_a_limit():
     displays.room = 1_500_000
     cells = [shown({"output": stream("x" * 900_000)}, displays=displays) for _ in range(3)]
     assert [round(len(cell[0]["text"]) / 100_000) for cell in cells] == [9, 6, 0]
-    assert cells[2] == [stream(LEFT_OUT)]
+    assert cells[2] == [stream(TRUNCATED)]
 
 
 def test_updates_have_the_same_limit():
@@ -95,7 +96,7 @@ def test_displays_that_were_cleared_are_forgotten():
     for number in range(3):
         cell.add({"output": picture(str(number)), "display_id": "x"})
         cell.add({"clear": False})
-    assert (displays.room, displays._displays) == (cell_outputs.MOST_OF_ALL, {})
+    assert (displays.room, displays._displays) == (cell_outputs.MAX_SUBMISSION_CHARS, {})
 
 
 def test_updates_win_no_room():
@@ -105,7 +106,7 @@ def test_updates_win_no_room():
         cell.add({"output": picture("x" * 900_000), "display_id": "x"})
         cell.add({"output": picture(""), "display_id": "x", "update": True})
         cell.add({"clear": False})
-    assert displays.room == cell_outputs.MOST_OF_ALL
+    assert displays.room == cell_outputs.MAX_SUBMISSION_CHARS
 
 
 def test_updates_can_t_fill_a_cell_beyond_its_limit():
@@ -122,7 +123,7 @@ def test_all_cells_together_have_a_limit_of_outputs():
             cell.add({"output": picture("p")})
     counts = [len(cell.list) for cell in cells]
     assert (counts[:10], counts[10:]) == ([995] * 10, [51, 1])
-    assert cells[-1].list == [stream(LEFT_OUT)]
+    assert cells[-1].list == [stream(TRUNCATED)]
     cells[0].add({"clear": False})
     cells[-1].add({"clear": False})
     cells[-1].add({"output": picture("p")})
@@ -144,9 +145,9 @@ def test_lines_of_an_error_and_words_of_a_picture_are_limited_and_counted():
 
 def test_words_of_ours_stand_even_in_a_full_cell():
     cell = CellOutputs(Displays())
-    cell.add({"output": stream("x" * 2 * MOST)})
+    cell.add({"output": stream("x" * 2 * MAX_CELL_CHARS)})
     cell.say("It stopped.")
-    assert cell.list[0]["text"].endswith(LEFT_OUT + "It stopped.\n")
+    assert cell.list[0]["text"].endswith(TRUNCATED + "It stopped.\n")
 
 
 def test_what_was_written_can_be_had_alone_as_stdout():

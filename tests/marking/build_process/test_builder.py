@@ -5,8 +5,8 @@ import socket
 
 import pytest
 
-from grader.marking.building import builder
-from grader.marking.building.asking import build_there
+from grader.marking.build_process import builder
+from grader.marking.build_process.build_request import request_build
 from grader.marking.sandbox import Sandbox
 from sim.ros.remote import Wire
 from tests.students.packages.greeter import RIGHT
@@ -54,7 +54,7 @@ def built(box, **other):
     ours, theirs = socket.socketpair()
     process = box.start(theirs)
     try:
-        return build_there(ours, files, lambda: process.wait(PATIENCE).detail)
+        return request_build(ours, files, lambda: process.wait(PATIENCE).detail)
     finally:
         process.kill()
         process.wait(PATIENCE)
@@ -119,7 +119,7 @@ def test_an_answer_that_makes_no_sense_is_no_build(answer):
     ours, theirs = socket.socketpair()
     with theirs:
         Wire(theirs).send(**answer)
-        made = build_there(ours, {}, lambda: "")
+        made = request_build(ours, {}, lambda: "")
     assert made.problem == "What was installed can't be taken. install could not be read."
 
 
@@ -127,11 +127,12 @@ def test_files_that_lie_outside_are_refused():
     ours, theirs = socket.socketpair()
     with theirs:
         Wire(theirs).send(files={"../a": b""}, programs=[], said="", problem="")
-        made = build_there(ours, {}, lambda: "")
+        made = request_build(ours, {}, lambda: "")
     assert made.problem.startswith("What was installed can't be taken. `install/../a`: a name may have")
 
 
 def test_a_process_that_is_gone_is_told_with_its_end():
     ours, theirs = socket.socketpair()
     theirs.close()
-    assert build_there(ours, {}, lambda: "It was killed.").problem == "colcon build broke off. It was killed."
+    problem = request_build(ours, {}, lambda: "It was killed.").problem
+    assert problem == "colcon build broke off. It was killed."

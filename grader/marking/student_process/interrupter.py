@@ -1,4 +1,4 @@
-"""How long a cell may take before it is interrupted, as by the notebook's Stop button."""
+"""Interrupts a cell that takes too long, like the notebook's Stop button."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ AGAIN = 3.0  # s of wall time; code may catch the first interrupt
 
 
 class Interrupter:
-    """Interrupts the main thread when it takes too long; at other times an interrupt does nothing.
+    """Interrupts the main thread when it takes too long; at other times SIGINT is ignored.
 
-    It is a thread's work, for a run inside the cell needs the timer signals.
+    A thread watches the time because a run inside the cell uses the timer signals.
     """
 
     def __init__(self) -> None:
@@ -22,7 +22,7 @@ class Interrupter:
 
     @contextlib.contextmanager
     def limit(self, seconds: float) -> Iterator[None]:
-        """So long, in seconds of wall time."""
+        """Interrupt what runs inside after so many seconds of wall time."""
         self._over = threading.Event()
         watch = threading.Thread(target=_watch, args=(self._over, seconds), daemon=True)
         signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -34,8 +34,8 @@ class Interrupter:
             self._over.set()
             watch.join()
 
-    def end(self) -> None:
-        """Somebody else minds the time from here on."""
+    def stop(self) -> None:
+        """Interrupt no more: the caller limits the time from here on."""
         self._over.set()
 
 

@@ -1,4 +1,4 @@
-"""What the cells of a student's process show, on its way to the judge."""
+"""Sends what the cells of a student's process show to the judge."""
 
 from __future__ import annotations
 
@@ -8,31 +8,28 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-from grader.marking.outputs import LEFT_OUT, MOST, output_size, writable_text
+from grader.marking.outputs import MAX_CELL_CHARS, TRUNCATED, output_size, writable_text
 from sim.ros.remote import Wire
 
-AT_ONCE = 500  # pieces of text of one cell that go out as they come: so a crash loses none of them
-PIECE = 20_000  # characters that are gathered after that
-SIGNALS = {signal.SIGINT, signal.SIGALRM}  # their handlers may raise; half a message would break the wire
+AT_ONCE = 500  # pieces of text of one cell that are sent at once, so that a crash loses none of them
+PIECE = 20_000  # characters that are buffered after that
+SIGNALS = {signal.SIGINT, signal.SIGALRM}  # their handlers may raise; a partial message would break the wire
 
 
-class Outlet:
-    """Sends outputs in order. Past what the judge takes from one cell, it sends no more.
+class OutputSender:
+    """Sends outputs in order, up to a limit for each cell. Thread-safe."""
 
-    Any thread may write.
-    """
-
-    most = 2 * MOST  # characters; the judge cuts, and says so
+    most = 2 * MAX_CELL_CHARS  # of one cell; the judge truncates earlier, and reports it
 
     def __init__(self, wire: Wire) -> None:
         self._wire = wire
         self._lock = threading.RLock()
         self._text, self._name = "", "stdout"
-        self._kept: list[dict[str, Any]] | None = None  # while the wire is somebody else's
+        self._kept: list[dict[str, Any]] | None = None  # the events while paused
         self.begin()
 
     def begin(self) -> None:
-        """A new cell."""
+        """Start a new cell."""
         self._sent = self._pieces = 0
 
     def write(self, name: str, text: str) -> None:
@@ -52,7 +49,7 @@ class Outlet:
             self._send(event)
 
     def flush(self) -> None:
-        """Send the text that was gathered."""
+        """Send the buffered text."""
         with self._lock:
             text, self._text = self._text, ""
             if text:
@@ -60,8 +57,8 @@ class Outlet:
                 self._send({"output": _stream(self._name, text)})
 
     @contextlib.contextmanager
-    def closed(self) -> Iterator[None]:
-        """For a while nothing goes out: the wire is needed for something else. Then all of it does."""
+    def paused(self) -> Iterator[None]:
+        """Keep events inside, because the wire is used otherwise, and send them afterwards."""
         with self._lock:
             self.flush()
             self._kept = []
@@ -74,15 +71,15 @@ class Outlet:
                     self._send(event)
 
     def done(self, **claims: Any) -> None:
-        """Say that the cell is over, behind all that it showed."""
+        """Report that the cell is over, after all its outputs."""
         with self._lock:
             self.flush()
             self._wire.send(done=True, **claims)
 
     def _send(self, event: dict[str, Any]) -> None:
         output = event.get("output", {})
-        if output_size(output) > MOST:
-            event = {**event, "output": _stream("stdout", LEFT_OUT)}
+        if output_size(output) > MAX_CELL_CHARS:
+            event = {**event, "output": _stream("stdout", TRUNCATED)}
         if self._sent > self.most:
             return
         self._sent += output_size(output)

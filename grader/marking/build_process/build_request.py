@@ -1,4 +1,4 @@
-"""What a judge asks for: a build in the sandbox. What comes back is looked at as any stranger's data."""
+"""Requests a build in the sandbox for a judge, and checks the answer, which is untrusted."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ SPARE_S = 60.0  # until the process is there, on a busy machine
 BROKE_OFF = "colcon build broke off."
 
 
-def build_there(sock: socket.socket, sources: Sources, ending: Callable[[], str]) -> Built:
-    """Let the process at the other end of the socket build. Raises nothing for the package's sake.
+def request_build(sock: socket.socket, sources: Sources, describe_end: Callable[[], str]) -> Built:
+    """Have the process at the other end of the socket build. Raises nothing, whatever the package does.
 
-    ending: asked when it breaks off; how it ended, as a sentence, or "".
+    describe_end: called when the process has died; returns how it ended, as a sentence, or "".
     """
     with sock:
         wire = Wire(sock, MESSAGE)
@@ -25,7 +25,7 @@ def build_there(sock: socket.socket, sources: Sources, ending: Callable[[], str]
             wire.send(sources=dict(sources))
             answer = wire.receive(SECONDS + SPARE_S)
         except WireError:
-            return Built(problem=f"{BROKE_OFF} {ending()}".strip())
+            return Built(problem=f"{BROKE_OFF} {describe_end()}".strip())
     try:
         return checked_built(*(answer.get(name) for name in ("files", "programs", "said", "problem")))
     except Refused as reason:
