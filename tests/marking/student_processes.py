@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from grader.marking.judge.cell_outputs import CellOutputs, Displays
-from grader.marking.judge.led_process import LedProcess
+from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry
+from grader.marking.judge.student_session import StudentSession
 from grader.marking.pool import PRELOAD
 from grader.marking.sandbox import ConfinedProcess, Sandbox
 from grader.marking.task import TimeLimits
@@ -22,8 +22,8 @@ class StartedStudent:
     def __init__(self, sandbox: Sandbox, time_limits: TimeLimits, files: dict[str, bytes] | None) -> None:
         ours, theirs = socket.socketpair()
         self.process: ConfinedProcess = sandbox.start(theirs)
-        self.student = LedProcess(ours, time_limits, lambda: self.process.wait(PATIENCE).detail, build)
-        self.displays = Displays()
+        self.student = StudentSession(ours, time_limits, lambda: self.process.wait(PATIENCE).detail, build)
+        self.displays = DisplayRegistry()
         self.outputs = CellOutputs(self.displays)
         if files is not None:
             self.student.begin(files)

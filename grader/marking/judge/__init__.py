@@ -1,1 +1,1 @@
-"""The judge: leads a student's process through a notebook, and judges what it hands over."""
+"""The judge: runs a notebook cell by cell in a student's process, and judges the nodes that it hands over."""

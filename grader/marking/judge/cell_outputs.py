@@ -1,7 +1,7 @@
-"""The outputs of a notebook's cells, put together from what a student's process says that they showed.
+"""The outputs of a notebook's cells, from the events that a student's process sends.
 
-That process is the student's and may say anything. So nothing of it is taken over as it comes: every output
-is made anew from the few fields that one has, with text of bounded size.
+That process is untrusted. So every output is made anew from the known fields of one, with text of bounded
+size.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ from grader.marking.outputs import (
     writable_text,
 )
 
-MAX_SUBMISSION_CHARS = 20_000_000  # that all cells of a submission show
+MAX_SUBMISSION_CHARS = 20_000_000  # of all cells of a submission
 MAX_OUTPUTS = 1_000  # of one cell
-MAX_SUBMISSION_OUTPUTS = 10_000  # of all cells: nbconvert looks at each again and again
+MAX_SUBMISSION_OUTPUTS = 10_000  # of all cells: nbconvert processes each many times
 MAX_TRACEBACK_LINES = 1_000  # of a traceback
 MAX_DISPLAY_ID = 200  # characters of a display_id
 
-# Of Python's libraries and of the course. A longer one comes first, for one may lie in another.
+# Of Python's libraries and of the course; longer paths first, because one may be inside another.
 COURSE = str(Path(__file__).parents[3])
 PREFIXES = (*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, COURSE)
 INSTALL_FOLDERS = sorted({f"{place}/" for place in PREFIXES if len(place) > 1}, key=len, reverse=True)
 
 
 class CellOutputs:
-    """What one cell showed, in order, as nbformat 4 has it. It shares `Displays` with the other cells."""
+    """The outputs of one cell, in order, in nbformat 4. All cells share one `DisplayRegistry`."""
 
-    def __init__(self, displays: Displays) -> None:
+    def __init__(self, displays: DisplayRegistry) -> None:
         self.list: list[dict[str, Any]] = []
         self._displays = displays
         self._used = 0  # characters
@@ -44,7 +44,7 @@ class CellOutputs:
         self._clear = False  # before the next output
 
     def add(self, event: Mapping[str, Any]) -> None:
-        """Add what the student's process says; whatever makes no sense is left out."""
+        """Add an event of the student's process; an invalid one is dropped."""
         if "clear" in event:
             self._clear = True
             if not event["clear"]:
@@ -60,13 +60,13 @@ class CellOutputs:
             if isinstance(identity, str) and "data" in output:
                 self._displays.remember(identity, self, output)
 
-    def say(self, text: str) -> None:
-        """Add a line of ours. It is there however much the cell showed."""
+    def add_line(self, text: str) -> None:
+        """Add a line of the judge's, however much the cell has shown."""
         self._begin()
         self._join({"output_type": "stream", "name": "stdout", "text": text.rstrip("\n") + "\n"})
 
-    def grow(self, more: int) -> bool:
-        """Take so much more room for an output of the cell, or give it back; whether there is that much."""
+    def reserve(self, more: int) -> bool:
+        """Reserve more characters for the cell's outputs, or free some; return whether there are enough."""
         if self._used + more > MAX_CELL_CHARS or more > self._displays.room:
             return False
         self._used += more
@@ -75,7 +75,7 @@ class CellOutputs:
 
     @property
     def printed_text(self) -> str:
-        """Only what was written as text."""
+        """Only the text of streams."""
         return "".join(output["text"] for output in self.list if output["output_type"] == "stream")
 
     def _begin(self) -> None:
@@ -95,7 +95,7 @@ class CellOutputs:
             self._displays.outputs += 1
 
     def _has_room(self, output: dict[str, Any]) -> bool:
-        """Whether it still fits. Says once that the rest is left out; text is cut where it has to be."""
+        """Whether it still fits. Otherwise its text is truncated, and one line says so."""
         if self._full and not self._clear:
             return False
         self._begin()
@@ -109,12 +109,12 @@ class CellOutputs:
         self._full = True
         if output["output_type"] == "stream":
             self._join({**output, "text": output["text"][: max(room, 0)]})
-        self.say(TRUNCATED)
+        self.add_line(TRUNCATED)
         return False
 
 
-class Displays:
-    """What the cells of a submission share: room, and displays that later cells may update."""
+class DisplayRegistry:
+    """Shared by the cells of a submission: the room for outputs, and displays that later cells may update."""
 
     def __init__(self) -> None:
         self.room, self.outputs = MAX_SUBMISSION_CHARS, 0
@@ -126,20 +126,20 @@ class Displays:
             self._displays.setdefault(identity[:MAX_DISPLAY_ID], []).append((cell, output))
 
     def update(self, identity: Any, output: dict[str, Any]) -> None:
-        """Let an output take the place of those with this display_id, if there are any."""
+        """Replace the outputs with this display_id, if there are any."""
         known = self._displays.get(identity[:MAX_DISPLAY_ID], ()) if isinstance(identity, str) else ()
         for cell, old in known if "data" in output else ():
-            if cell.grow(output_size(output) - output_size(old)):
+            if cell.reserve(output_size(output) - output_size(old)):
                 old.update(data=output["data"], metadata=output["metadata"])
 
     def forget(self, cell: CellOutputs) -> None:
-        """The outputs of a cell are gone."""
+        """Forget the displays of a cell whose outputs were cleared."""
         left = {name: [it for it in known if it[0] is not cell] for name, known in self._displays.items()}
         self._displays = {name: known for name, known in left.items() if known}
 
 
 def make_output(output: Any) -> dict[str, Any] | None:
-    """An output of nbformat 4 out of anything that claims to be one; None where that can't be."""
+    """Make an output of nbformat 4 from untrusted data; None if it is not one."""
     match output:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
             return {"output_type": "stream", "name": name, "text": without_folders(text)}
@@ -162,7 +162,7 @@ def make_output(output: Any) -> dict[str, Any] | None:
 
 
 def without_folders(text: str) -> str:
-    """The same without the folders of the machine that marks, which are no student's business."""
+    """The text without the install folders of the machine that marks."""
     for folder in INSTALL_FOLDERS:
         text = text.replace(folder, "")
     return writable_text(text)

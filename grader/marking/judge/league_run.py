@@ -11,9 +11,9 @@ from nbformat import NotebookNode
 from grader.diagnosis.fault import Fault
 from grader.exercise import Exercise
 from grader.marking.judge.cell_outputs import CellOutputs
-from grader.marking.judge.led_process import LedProcess
 from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
+from grader.marking.judge.student_session import StudentSession
 from grader.marking.league.contest import Contest, Game, game_of
 from grader.programs import ProgramSource
 from grader.quiet import quiet_stderr
@@ -55,7 +55,7 @@ class LeagueRun(NotebookRun):
         self._contest = contest
 
     def _test(
-        self, process: LedProcess, cell: NotebookNode, number: int, shown: CellOutputs
+        self, process: StudentSession, cell: NotebookNode, number: int, shown: CellOutputs
     ) -> list[dict[str, Any]]:
         if cell_name(cell) not in self._exercises:
             return []

@@ -1,6 +1,6 @@
-"""Marks one submission: leads the student's processes through the notebooks, and judges what they hand over.
+"""Marks one submission: runs its notebooks in the student's processes, and judges the nodes they hand over.
 
-This is the side that is trusted: simulator, companions, worlds from the secret and all judging are here.
+This is the trusted side: simulator, companions, worlds from the secret and all judging are here.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
 from grader.marking.judge.league_run import LeagueRun
-from grader.marking.judge.marking import Marking, StartStudentProcess, cell_name, no_points
+from grader.marking.judge.marking import Marking, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
 from grader.marking.outputs import writable_text
@@ -21,34 +21,34 @@ from grader.marking.submission.suspicious_code import find_suspicious_code
 from grader.marking.task import Task
 from grader.seeds import secret_of_student
 
-MOST_TRICKS = 20  # of a notebook are told
+MAX_SUSPICIOUS = 20  # of a notebook that are reported
 
 
 def rebuild_notebooks(marking: Marking) -> None:
-    """Put the student's answers into the release's notebooks. Raises Unusable if none can be marked."""
+    """Insert the student's answers into the release's notebooks. Raises Unusable if none can be marked."""
     marking.rebuilt = rebuild_submission(marking.task.submitted, marking.task.release)
     marking.flags += marking.rebuilt.flags
 
 
 def find_exercises(marking: Marking) -> None:
-    """See what the test cells grade. Raises UnknownTest for a release that can't be marked here."""
+    """Find the exercises of the test cells. Raises UnknownTest for a release that can't be marked here."""
     for name, released in marking.task.release.notebooks.items():
         names = exercise_names(released)
         marking.exercises[name] = {cell: find_exercise(full) for cell, full in names.items()}
 
 
-def name_tricks(marking: Marking) -> None:
-    """Flag each suspicious thing in a notebook that the release doesn't do itself."""
+def flag_suspicious_code(marking: Marking) -> None:
+    """Flag suspicious code in a notebook that is not in the release itself."""
     for name, rebuilt in marking.rebuilt.notebooks.items():
-        ours = set(find_suspicious_code(_sources(marking.task.release.notebooks[name])))
-        tricks = [trick for trick in find_suspicious_code(_sources(rebuilt.notebook)) if trick not in ours]
-        if len(tricks) > MOST_TRICKS:
-            tricks[MOST_TRICKS:] = [f"There are {len(tricks) - MOST_TRICKS} more such things in it."]
-        marking.flags += tricks
+        released = set(find_suspicious_code(_sources(marking.task.release.notebooks[name])))
+        found = [flag for flag in find_suspicious_code(_sources(rebuilt.notebook)) if flag not in released]
+        if len(found) > MAX_SUSPICIOUS:
+            found[MAX_SUSPICIOUS:] = [f"There are {len(found) - MAX_SUSPICIOUS} more such things in it."]
+        marking.flags += found
 
 
 def run_and_judge(marking: Marking) -> None:
-    """Run each notebook to its end, or as far as it goes."""
+    """Run each notebook to its end, or as far as its process lives."""
     for name in marking.task.release.notebooks:
         marking.cells[name] = []
         if name in marking.rebuilt.notebooks:
@@ -57,8 +57,8 @@ def run_and_judge(marking: Marking) -> None:
             marking.stops.append(marking.rebuilt.missing[name])
 
 
-def give_the_rest_nothing(marking: Marking) -> None:
-    """Tests that were not reached give no points."""
+def fill_in_missed_tests(marking: Marking) -> None:
+    """Give no points for tests that were not reached."""
     for name, results in marking.cells.items():
         done = {result.cell for result in results}
         tests = [cell for cell in marking.notebook(name).cells if is_test(cell)]
@@ -83,19 +83,18 @@ def run_and_play(marking: Marking) -> None:
             marking.stops.append(marking.rebuilt.missing[name])
 
 
-STEPS = (rebuild_notebooks, find_exercises, name_tricks, run_and_judge, give_the_rest_nothing)
-LEAGUE = (rebuild_notebooks, find_exercises, name_tricks, choose_last_exercise, run_and_play)
+STEPS = (rebuild_notebooks, find_exercises, flag_suspicious_code, run_and_judge, fill_in_missed_tests)
+LEAGUE = (rebuild_notebooks, find_exercises, flag_suspicious_code, choose_last_exercise, run_and_play)
 
 
-def mark_submission(task: Task, secret: str, start_process: StartStudentProcess) -> Result:
+def mark_submission(task: Task, secret: str, start_session: StartSession) -> Result:
     """Mark a submission with worlds and seeds from the secret and the student's name.
 
-    Where the secret is "", they are the public ones.
-
-    Raises nothing for anything that a student may have done, and UnknownTest for another release.
+    With the secret "", they are the public ones. Raises UnknownTest for a release that can't be marked here,
+    and nothing else, whatever the submission does.
     """
     began = monotonic()
-    marking = Marking(task, secret_of_student(secret, task.student), start_process)
+    marking = Marking(task, secret_of_student(secret, task.student), start_session)
     try:
         for step in LEAGUE if task.contest else STEPS:
             step(marking)
@@ -117,7 +116,7 @@ def mark_submission(task: Task, secret: str, start_process: StartStudentProcess)
 
 
 def result_text(result: Result) -> str:
-    """A result as JSON that every program can read, whatever characters the student used."""
+    """A result as JSON that every program can decode, whatever characters the student used."""
     return writable_text(result.to_json())
 
 

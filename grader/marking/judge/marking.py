@@ -1,4 +1,4 @@
-"""One submission while it is marked: what the judge's steps share."""
+"""The state of one submission while it is marked, which the judge's steps share."""
 
 from __future__ import annotations
 
@@ -8,43 +8,43 @@ from dataclasses import dataclass, field
 from nbformat import NotebookNode
 
 from grader.exercise import Exercise
-from grader.marking.judge.cell_outputs import Displays
-from grader.marking.judge.led_process import LedProcess
+from grader.marking.judge.cell_outputs import DisplayRegistry
+from grader.marking.judge.student_session import StudentSession
 from grader.marking.result import CellResult
 from grader.marking.submission.rebuild import RebuiltSubmission
 from grader.marking.task import Task
 
-StartStudentProcess = Callable[[], LedProcess]  # gives a fresh process, for one notebook
+StartSession = Callable[[], StudentSession]  # with a new process, for one notebook
 
 
 @dataclass
 class Marking:
-    """What the steps have made of a task so far.
+    """The results of the steps so far.
 
-    secret: where this student's worlds and seeds come from; "" for the public ones. exercises: what test
-    cells grade, by notebook and grade_id. cells: what these earned, by notebook. stops: why a notebook did
-    not come to its end. timings: see Result.
+    secret: this student's worlds and seeds are derived from it; "" for the public ones. exercises: those of
+    the test cells, by notebook and grade_id. cells: the results of test cells, by notebook. stops: why a
+    notebook did not run to its end. timings: see Result.
     """
 
     task: Task
     secret: str
-    start_process: StartStudentProcess
+    start_session: StartSession
     rebuilt: RebuiltSubmission = field(default_factory=RebuiltSubmission)
     exercises: dict[str, dict[str, Exercise]] = field(default_factory=dict)
     cells: dict[str, list[CellResult]] = field(default_factory=dict)
-    displays: Displays = field(default_factory=Displays)
+    displays: DisplayRegistry = field(default_factory=DisplayRegistry)
     flags: list[str] = field(default_factory=list)
     stops: list[str] = field(default_factory=list)
     timings: dict[str, float] = field(default_factory=lambda: {"judged": 0.0})
 
     @property
     def files(self) -> dict[str, bytes]:
-        """What lies beside the notebooks: the release's files, and the student's packages."""
+        """The files beside the notebooks: the release's, and the student's packages."""
         workspace = self.task.submitted.workspace
         return dict(self.task.release.files) | ({} if isinstance(workspace, str) else dict(workspace))
 
     def notebook(self, name: str) -> NotebookNode:
-        """What is run; of one that could not be rebuilt, the release's, which is not."""
+        """The notebook that is run; the release's for one that could not be rebuilt, which is not run."""
         rebuilt = self.rebuilt.notebooks.get(name)
         return self.task.release.notebooks[name] if rebuilt is None else rebuilt.notebook
 

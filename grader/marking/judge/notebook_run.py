@@ -1,4 +1,4 @@
-"""Leads a student's process through one notebook, cell by cell, and judges what its test cells hand over."""
+"""Runs one notebook cell by cell in a student's process, and judges the nodes of its test cells."""
 
 from __future__ import annotations
 
@@ -14,62 +14,62 @@ from nbformat import NotebookNode
 from grader.marking.errors import StudentProcessGone
 from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs
-from grader.marking.judge.led_process import LedProcess
-from grader.marking.judge.looking_cells import looking_cells
+from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking import Marking, cell_name, no_points
+from grader.marking.judge.student_session import StudentSession
 from grader.marking.judge.testcells import is_test
 from grader.marking.outputs import writable_text
 from grader.marking.submission.quoting import quote
 
-NOTHING = "pass"  # in place of a cell that is left out: the ones below keep their numbers
-LEFT_OUT = "Not run for marking, where the tests look at what your nodes do."
+EMPTY_CELL = "pass"  # in place of a cell that is skipped, so that the others keep their numbers
+NOT_RUN = "Not run for marking, where the tests look at what your nodes do."
 THREADS = "A thread of the notebook {} still ran when its last cell was over."
 
 
 class NotebookRun:
-    """The run of one notebook. `marking` gets its cells' results, outputs, flags and timings."""
+    """The run of one notebook. `marking` receives its cells' results, outputs, flags and timings."""
 
     def __init__(self, marking: Marking, name: str) -> None:
         self._marking, self._name = marking, name
         self._exercises, self._results = marking.exercises[name], marking.cells[name]
         self._cells = _code_cells(marking.notebook(name))
-        released = {
-            it.source for it in _code_cells(marking.task.release.notebooks[name]) if not cell_name(it)
-        }
-        ours = {at for at, it in enumerate(self._cells) if not cell_name(it) and it.source in released}
-        self._left_out = looking_cells([cell.source for cell in self._cells], ours)
+        released = _code_cells(marking.task.release.notebooks[name])
+        sources = {cell.source for cell in released if not cell_name(cell)}
+        plain = [(i, cell.source) for i, cell in enumerate(self._cells) if not cell_name(cell)]
+        unchanged = {i for i, source in plain if source in sources}
+        self._skipped = display_only_cells([cell.source for cell in self._cells], unchanged)
 
     def run_all(self) -> None:
         """Run all code cells in order, as far as the process lives."""
         began, number = monotonic(), 0
         where = "before its first cell"
-        process = self._marking.start_process()
+        session = self._marking.start_session()
         try:
-            process.begin(self._marking.files)
+            session.begin(self._marking.files)
             self._marking.timings["start"] = monotonic() - began
-            for place, cell in enumerate(self._cells):
+            for index, cell in enumerate(self._cells):
                 number += bool(cell.source.strip())  # as Jupyter counts
                 where = f"in {_cell_words(cell, number)}"
-                self._run(process, cell, number, place in self._left_out)
-            if process.threads:
+                self._run(session, cell, number, index in self._skipped)
+            if session.threads_left:
                 self._marking.flags.append(THREADS.format(quote(self._name)))
         except StudentProcessGone as gone:
             self._marking.stops.append(f"The notebook {quote(self._name)} stopped {where}. {gone}")
         finally:
-            process.hang_up()
+            session.close()
 
-    def _run(self, process: LedProcess, cell: NotebookNode, number: int, left_out: bool) -> None:
+    def _run(self, session: StudentSession, cell: NotebookNode, number: int, skipped: bool) -> None:
         outputs, began = CellOutputs(self._marking.displays), monotonic()
         try:
             if is_test(cell):
-                cell.outputs = self._test(process, cell, number, outputs)
+                cell.outputs = self._test(session, cell, number, outputs)
             else:
-                process.run(NOTHING if left_out else cell.source, outputs)
-                if left_out:
-                    outputs.say(LEFT_OUT)
+                session.run(EMPTY_CELL if skipped else cell.source, outputs)
+                if skipped:
+                    outputs.add_line(NOT_RUN)
                 cell.outputs = outputs.list
         except StudentProcessGone as gone:
-            outputs.say(f"The notebook stopped here. {gone} The cells below were not run.")
+            outputs.add_line(f"The notebook stopped here. {gone} The cells below were not run.")
             cell.outputs = outputs.list
             raise
         finally:
@@ -80,32 +80,32 @@ class NotebookRun:
             self._marking.timings[f"{self._name}/{cell.id}"] = monotonic() - began
 
     def _test(
-        self, process: LedProcess, cell: NotebookNode, number: int, shown: CellOutputs
+        self, session: StudentSession, cell: NotebookNode, number: int, shown: CellOutputs
     ) -> list[dict[str, Any]]:
-        """Judge what a test cell hands over; returns the cell's outputs, which are the judge's own."""
+        """Judge the nodes of a test cell; returns the cell's outputs, which are the judge's own."""
         exercise = self._exercises[cell_name(cell)]
-        tested = process.test(cell.source, exercise, shown, self._marking.secret)
+        tested = session.test(cell.source, exercise, shown, self._marking.secret)
         self._flag(cell, tested.flags)
         if tested.error is not None:
-            return self._course_mistake(cell, tested.error)
+            return self._course_error(cell, tested.error)
         if tested.problem:
             return self._not_judged(cell, tested.problem, shown)
         if tested.score is None:
             self._results.append(no_points(cell, exercise))
-            shown.say("No points: this cell ended before the nodes could be run.")
+            shown.add_line("No points: this cell ended before the nodes could be run.")
             return shown.list
         score, worth = tested.score, float(cell.metadata.nbgrader.points)
         self._marking.timings["judged"] += math.fsum(recording.stamp for recording in score.recordings)
         problems = score_outputs.alarms(score)
         if score.max != worth:
             problems.append(f"worth {worth:g} points in the notebook and {score.max:g} in its exercise")
-        self._flag(cell, [*problems, *score_outputs.staged(score)])
+        self._flag(cell, [*problems, *score_outputs.spoofed_topics(score)])
         shown_score = score_outputs.for_student(score)
         self._results.append(score_outputs.cell_result(cell_name(cell), shown_score, worth, bool(problems)))
         return [*score_outputs.outputs(shown_score, number), *self._written(shown)]
 
-    def _course_mistake(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
-        """Our own mistake: the instructor has to look."""
+    def _course_error(self, cell: NotebookNode, error: Exception) -> list[dict[str, Any]]:
+        """The result after an error of the course: the instructor has to look."""
         last = traceback.format_exception_only(error)[-1].strip()
         self._flag(cell, [f"could not be judged, by a mistake of the course: {last}"])
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
@@ -113,14 +113,14 @@ class NotebookRun:
         return _text(words)
 
     def _not_judged(self, cell: NotebookNode, problem: str, shown: CellOutputs) -> list[dict[str, Any]]:
-        """The student's process could not serve the nodes, and goes on: the cells below are run."""
+        """The result if the student's process could not serve the nodes; the cells below are run."""
         self._flag(cell, [f"not judged, and worth a look. {problem.rstrip('.')}"])
         self._results.append(replace(no_points(cell, self._exercises[cell_name(cell)]), needs_look=True))
         words = f"No points: this could not be judged. {problem} Your instructor will look at it."
         return [*_text(words), *self._written(shown)]
 
     def _written(self, shown: CellOutputs) -> list[dict[str, Any]]:
-        """What the nodes wrote: that of private worlds could tell them."""
+        """What the nodes printed; in private worlds for the instructor alone, as it may reveal them."""
         make = score_outputs.for_instructor if self._marking.secret else _text
         return make(shown.printed_text)
 

@@ -1,4 +1,4 @@
-"""What a score becomes in a mark: points, outputs and what the instructor has to see."""
+"""Turns a score into the points, the outputs and the instructor's flags of a mark."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from grader.score import Score
 
 
 def for_student(score: Score) -> Score:
-    """The score as the student's page shows it: what broke in a check of ours is for the instructor."""
+    """The score for the student's page: without the errors of the course's checks."""
     verdicts = [replace(verdict, alarm="") for verdict in score.verdicts]
     return Score(score.exercise, verdicts, score.recordings, title=score.title)
 
 
 def alarms(score: Score) -> list[str]:
-    """What the instructor has to know of each check that broke."""
+    """A flag for each check that raised an error."""
     return [
         f"the check {verdict.name!r} broke: {verdict.alarm.strip().splitlines()[-1]}"
         for verdict in score.broken
     ]
 
 
-def staged(score: Score) -> list[str]:
-    """What the instructor has to know of a topic or a service that two programs had."""
+def spoofed_topics(score: Score) -> list[str]:
+    """A flag for each topic or service of the course that the student's program also has."""
     return [
         f"{verdict.expected}; there were {verdict.saw.replace('of yours', 'of the student')}"
         for verdict in score.verdicts
@@ -43,7 +43,7 @@ def outputs(score: Score, count: int) -> list[dict[str, Any]]:
         for caption, picture in score.pictures:
             data, _ = _formatter.format(picture)
             bundles.append(mime_bundle(data, {"image/png": {"alt": caption}} if "image/png" in data else {}))
-    except Exception:  # a picture is an extra: without it the points still have to be told
+    except Exception:  # pictures are optional, the points are not
         bundles = []
     table = {"text/plain": repr(score), "text/html": score._repr_html_()}
     shown = [{"output_type": "display_data", **item} for item in bundles]
@@ -51,14 +51,14 @@ def outputs(score: Score, count: int) -> list[dict[str, Any]]:
 
 
 def for_instructor(text: str) -> list[dict[str, Any]]:
-    """An output with what was written while nodes were judged in private worlds; none for no text."""
-    said = f"Written in private worlds; not on the student's page:\n{text}"
-    shown = {"data": {"text/plain": said}, "metadata": {FOR_INSTRUCTOR: True}}
+    """An output with what nodes printed in private worlds, for the instructor alone; none for no text."""
+    text_for_instructor = f"Written in private worlds; not on the student's page:\n{text}"
+    shown = {"data": {"text/plain": text_for_instructor}, "metadata": {FOR_INSTRUCTOR: True}}
     return [{"output_type": "display_data", **shown}] if text else []
 
 
 def cell_result(cell: str, score: Score, worth: float, needs_look: bool) -> CellResult:
-    """The result of a test cell with this grade_id, of which the notebook says what it is `worth`."""
+    """The result of a test cell with this grade_id. worth: its points in the notebook."""
     digests = [recording.digest for recording in score.recordings]
     data = score.as_dict()
     points = min(float(score), worth)

@@ -1,4 +1,4 @@
-"""Which exercise a test cell grades, read from the instructor's notebook without running it."""
+"""Finds the exercise that a test cell grades in the instructor's notebook, without running it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def exercise_names(notebook: NotebookNode) -> dict[str, str]:
     """The full name of the exercise by the grade_id of the test cell, in order.
 
     `topics.square.grade(Driver)` after `from grader.exercises import topics` is
-    "grader.exercises.topics.square". Raises NotOurs for any other test cell.
+    "grader.exercises.topics.square". Raises UnknownTest for any other test cell.
     """
     names = course_imports(cell.source for cell in notebook.cells if cell.cell_type == "code")
     return {
@@ -36,7 +36,7 @@ def is_test(cell: Mapping[str, Any]) -> bool:
 
 
 def find_exercise(name: str) -> Any:
-    """The exercise of this full name. Raises NotOurs where there is none."""
+    """The exercise with this full name. Raises UnknownTest if there is none."""
     from grader.exercise import Exercise
 
     module, _, attribute = name.rpartition(".")
@@ -51,7 +51,7 @@ def find_exercise(name: str) -> Any:
 
 
 def course_imports(sources: Iterable[str]) -> dict[str, str]:
-    """What the cells import from grader.exercises: full names by the names they are given."""
+    """What the cells import from grader.exercises: full names by their local names."""
     found: dict[str, str] = {}
     for source in sources:
         for node in ast.walk(_parsed(source) or ast.Module([], [])):

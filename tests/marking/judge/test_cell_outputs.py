@@ -5,7 +5,7 @@ import pytest
 
 from grader.marking import outputs
 from grader.marking.judge import cell_outputs
-from grader.marking.judge.cell_outputs import CellOutputs, Displays, make_output
+from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry, make_output
 from grader.marking.outputs import MAX_CELL_CHARS, TRUNCATED, mime_bundle
 from tests.marking.tiny import ROOT
 
@@ -18,8 +18,8 @@ def picture(text: str) -> dict:
     return {"output_type": "display_data", "data": {"text/plain": text}, "metadata": {}}
 
 
-def shown(*events: dict, displays: Displays | None = None) -> list[dict]:
-    cell = CellOutputs(displays or Displays())
+def shown(*events: dict, displays: DisplayRegistry | None = None) -> list[dict]:
+    cell = CellOutputs(displays or DisplayRegistry())
     for event in events:
         cell.add(event)
     return cell.list
@@ -39,7 +39,7 @@ def test_clear_output_empties_the_cell_at_once_or_with_the_next_output():
 
 
 def test_a_display_is_updated_also_from_a_later_cell():
-    displays = Displays()
+    displays = DisplayRegistry()
     first = shown({"output": picture("a"), "display_id": "x"}, displays=displays)
     assert shown({"output": picture("b"), "display_id": "x", "update": True}, displays=displays) == []
     assert first == [picture("b")]
@@ -75,7 +75,7 @@ def test_a_cell_that_clears_its_output_may_go_on_for_ever():
 
 
 def test_all_cells_together_have_a_limit():
-    displays = Displays()
+    displays = DisplayRegistry()
     displays.room = 1_500_000
     cells = [shown({"output": stream("x" * 900_000)}, displays=displays) for _ in range(3)]
     assert [round(len(cell[0]["text"]) / 100_000) for cell in cells] == [9, 6, 0]
@@ -83,7 +83,7 @@ def test_all_cells_together_have_a_limit():
 
 
 def test_updates_have_the_same_limit():
-    displays = Displays()
+    displays = DisplayRegistry()
     displays.room = 1000
     first = shown({"output": picture("a"), "display_id": "x"}, displays=displays)
     shown({"output": picture("b" * 5000), "display_id": "x", "update": True}, displays=displays)
@@ -91,7 +91,7 @@ def test_updates_have_the_same_limit():
 
 
 def test_displays_that_were_cleared_are_forgotten():
-    displays = Displays()
+    displays = DisplayRegistry()
     cell = CellOutputs(displays)
     for number in range(3):
         cell.add({"output": picture(str(number)), "display_id": "x"})
@@ -100,7 +100,7 @@ def test_displays_that_were_cleared_are_forgotten():
 
 
 def test_updates_win_no_room():
-    displays = Displays()
+    displays = DisplayRegistry()
     cell = CellOutputs(displays)
     for _ in range(5):
         cell.add({"output": picture("x" * 900_000), "display_id": "x"})
@@ -116,7 +116,7 @@ def test_updates_can_t_fill_a_cell_beyond_its_limit():
 
 
 def test_all_cells_together_have_a_limit_of_outputs():
-    displays = Displays()
+    displays = DisplayRegistry()
     cells = [CellOutputs(displays) for _ in range(12)]
     for cell in cells:
         for _ in range(995):
@@ -144,18 +144,18 @@ def test_lines_of_an_error_and_words_of_a_picture_are_limited_and_counted():
 
 
 def test_words_of_ours_stand_even_in_a_full_cell():
-    cell = CellOutputs(Displays())
+    cell = CellOutputs(DisplayRegistry())
     cell.add({"output": stream("x" * 2 * MAX_CELL_CHARS)})
-    cell.say("It stopped.")
+    cell.add_line("It stopped.")
     assert cell.list[0]["text"].endswith(TRUNCATED + "It stopped.\n")
 
 
 def test_what_was_written_can_be_had_alone_as_stdout():
-    cell = CellOutputs(Displays())
+    cell = CellOutputs(DisplayRegistry())
     for output in (stream("a"), picture("p"), stream("b", "stderr")):
         cell.add({"output": output})
     assert cell.printed_text == "ab"
-    assert CellOutputs(Displays()).printed_text == ""
+    assert CellOutputs(DisplayRegistry()).printed_text == ""
 
 
 @pytest.mark.parametrize(

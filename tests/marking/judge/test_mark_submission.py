@@ -7,7 +7,7 @@ from grader import Exercise, check
 from grader.exercises import topics
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
-from grader.marking.judge.notebook_run import LEFT_OUT
+from grader.marking.judge.notebook_run import NOT_RUN
 from grader.marking.result import Result
 from grader.marking.task import TimeLimits
 from sim.ros.remote.events import MessagePublished
@@ -47,7 +47,7 @@ def test_right_answers_earn_everything(marked):
     assert (result.reason, result.verdict, result.repairs, result.flags) == ("", "marked", [], [])
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
     assert (result.student, result.assignment, result.key) == ("ann", "02_two", "0" * 64)
-    assert text(result, "greeting-see") == f"{LEFT_OUT}\n"
+    assert text(result, "greeting-see") == f"{NOT_RUN}\n"
 
 
 def test_the_secret_gives_other_seeds_and_the_same_points(marked):

@@ -2,7 +2,7 @@
 
 from grader import Score
 from grader.checks.judge import SPOOFED_TOPICS, Verdict
-from grader.marking.judge.score_outputs import staged
+from grader.marking.judge.score_outputs import spoofed_topics
 
 
 def test_a_topic_with_two_owners_is_flagged():
@@ -15,6 +15,6 @@ def test_a_topic_with_two_owners_is_flagged():
         "one publisher on /odom: /robot",
         "two, /robot and /square of yours",
     )
-    assert staged(Score("square", [line, Verdict("drives", "", 2.0, "passed", 1.0)])) == [
+    assert spoofed_topics(Score("square", [line, Verdict("drives", "", 2.0, "passed", 1.0)])) == [
         "one publisher on /odom: /robot; there were two, /robot and /square of the student"
     ]

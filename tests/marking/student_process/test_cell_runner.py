@@ -155,7 +155,7 @@ def test_code_that_catches_the_interrupt_gets_another(start_student):
 
 
 def test_a_cell_that_cant_be_interrupted_ends_the_notebook(start_student, monkeypatch):
-    monkeypatch.setattr("grader.marking.judge.led_process.GRACE", 0.5)
+    monkeypatch.setattr("grader.marking.judge.student_session.GRACE", 0.5)
     student = start_student(QUICK)
     student.run(ENDLESS)
     with pytest.raises(StudentProcessGone, match=r"^It did not stop when it was interrupted.$"):
@@ -217,5 +217,5 @@ def test_an_error_while_something_is_shown_is_an_error_of_the_cell(student):
 
 def test_a_process_without_a_judge_ends(start_student):
     student = start_student()
-    student.student.hang_up()
+    student.student.close()
     assert student.process.wait(PATIENCE).kind == "exited"

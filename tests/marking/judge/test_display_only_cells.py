@@ -1,7 +1,7 @@
 import nbformat
 import pytest
 
-from grader.marking.judge.looking_cells import looking_cells
+from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking import cell_name
 from tests.marking.tiny import ROOT
 
@@ -15,7 +15,7 @@ LOOP = "for heard in recording.messages():\n    print(heard.stamp)"
 def left_out(*sources: str) -> list[str]:
     """The released cells among these that need not be run; the student's begin with `#`."""
     ours = {place for place, source in enumerate(sources) if not source.startswith("#")}
-    return [sources[place] for place in sorted(looking_cells(sources, ours))]
+    return [sources[place] for place in sorted(display_only_cells(sources, ours))]
 
 
 def test_a_cell_that_looks_at_a_run_is_left_out_with_those_that_use_what_it_made():
@@ -76,7 +76,7 @@ def test_what_only_makes_something_is_run():
 def test_the_cells_that_look_are_left_out_of_every_assignment(path):
     cells = [cell for cell in nbformat.read(path, 4).cells if cell.cell_type == "code"]
     ours = {place for place, cell in enumerate(cells) if not cell_name(cell)}
-    found = {cells[place].id for place in looking_cells([cell.source for cell in cells], ours)}
+    found = {cells[place].id for place in display_only_cells([cell.source for cell in cells], ours)}
     assert {cell.id for cell in cells if cell.id.endswith("-see")} <= found
     assert not any(name in found for name in ("setup", *(f"{cell.id}-given" for cell in cells)))
 
@@ -84,5 +84,6 @@ def test_the_cells_that_look_are_left_out_of_every_assignment(path):
 def test_what_a_shift_asks_is_there_for_whoever_reads_the_answers():
     cells = nbformat.read(ROOT / "solutions" / "13_delivery" / "delivery.ipynb", 4).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
-    found = {code[place].id for place in looking_cells([cell.source for cell in code], set(range(len(code))))}
+    indices = display_only_cells([cell.source for cell in code], set(range(len(code))))
+    found = {code[index].id for index in indices}
     assert {"report-shift", "report-questions"} <= {cell.id for cell in code} - found
