@@ -27,7 +27,10 @@ PARTS = (
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
 MARKING = ("command", "certificate", "gradebook", "machines", "release", "secret.py")
-KEPT_BACK = (*(f"grader/marking/{part}" for part in MARKING), "jupyter/teach", "course/README.md")
+KEPT_BACK = (
+    *(f"grader/marking/{part}" for part in MARKING),
+    *("jupyter/teach", "course/README.md", "grader/README.md"),
+)
 TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile
 LEFT_BY_TOOLS = {"__pycache__", ".ipynb_checkpoints", "build"}
 LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
