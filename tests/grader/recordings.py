@@ -32,3 +32,18 @@ def driven(points, *, world="yard", contacts=(), **evidence):
     path = [Pose(float(second), x, y, 0.0) for second, (x, y) in enumerate(points)]
     touches = [Contact(*contact) for contact in contacts]
     return recording(world=World.load(world), path=path, contacts=touches, seconds=path[-1].stamp, **evidence)
+
+
+def exchange(*streams, seconds=10.0):
+    """A run in which the course's node and the student's publish, each stream given as a topic, pairs of stamp
+    and message, and whether they are the course's.
+    """
+    messages, ends = [], []
+    for topic, pairs, from_course in streams:
+        type, node = type_name(pairs[0][1].__class__), "/course" if from_course else "/talker"
+        other = "/talker" if from_course else "/course"
+        ends.append(Endpoint("publisher", node, topic, type, {}, from_course))
+        ends.append(Endpoint("subscription", other, topic, type, {}, not from_course))
+        messages += [Message(stamp, topic, type, node, encode(message), from_course) for stamp, message in pairs]
+    messages.sort(key=lambda row: row.stamp)
+    return recording(seconds=seconds, published=messages, graph=Graph(["/talker", "/course"], ends))

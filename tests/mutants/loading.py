@@ -49,7 +49,7 @@ def noting(tree: ast.Module) -> ast.Module:
     functions = [n for n in ast.walk(noted) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)]
     blocks = {id(block): block for function in functions for block in _blocks(function)}
     for block in blocks.values():
-        block[:] = [part for statement in block for part in (_note(statement), statement)]
+        block[:] = [part for statement in block for part in _noted(statement)]
     return ast.fix_missing_locations(noted)
 
 
@@ -60,6 +60,8 @@ def _blocks(function: ast.AST) -> list[list[ast.stmt]]:
     return [value for value in lists if value and isinstance(value[0], ast.stmt)]
 
 
-def _note(statement: ast.stmt) -> ast.stmt:
+def _noted(statement: ast.stmt) -> list[ast.stmt]:
+    if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
+        return [statement]  # a docstring stays the first statement
     call = ast.parse(f"{NOTE}({statement.lineno})").body[0]
-    return ast.copy_location(call, statement)
+    return [ast.copy_location(call, statement), statement]

@@ -109,6 +109,10 @@ class _Warm:
         self.target, self.chosen, self.tree = target, chosen, target.tree()
         self.found = Found(["The tests can't be collected."], {}, [], {}, 0.0)
 
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        if report.failed:
+            self.found.failures.append(report.longreprtext)
+
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         if not session.testsfailed:
             imported = set(statements_run)

@@ -38,6 +38,10 @@ def test_a_speed_beyond_the_limit_is_cut():
 
 def test_a_small_speed_stays():
     assert limited(1) == 1
+
+
+def test_it_is_documented():
+    assert limited.__doc__ == "A speed within the limits."
 """
 OUTCOMES = """\
 killed      robot/speeds.py:4  MOST = 2 → MOST = 3
@@ -103,7 +107,9 @@ def test_without_tests_that_pass_there_is_an_error_in_place_of_outcomes(project)
     assert "robot/speeds.py: tests/robot/test_speeds.py::test_it\n" in done.stderr
     assert "assert False" in done.stderr
     (project / "tests" / "robot" / "test_speeds.py").write_text("import no_such_module\n")
-    assert mutants("robot").stderr == "robot/speeds.py: The tests can't be collected.\n"
+    problem = mutants("robot").stderr
+    assert problem.startswith("robot/speeds.py: The tests can't be collected.\n")
+    assert "ModuleNotFoundError: No module named 'no_such_module'\n" in problem
     (project / "tests" / "robot" / "test_speeds.py").unlink()
     done = mutants("robot")
     missing = "expected tests in tests/robot/test_speeds.py, which is missing"
