@@ -1,4 +1,4 @@
-"""Reads the imports and holds the layers of the map apart."""
+"""Checks that imports follow the layers of the map and have no cycles."""
 import ast
 import fnmatch
 import functools
@@ -19,7 +19,7 @@ PICTURES = re.compile(r"matplotlib")
 NBGRADER = re.compile(r"nbgrader")
 GRADER = re.compile(r"grader")
 
-# What may be imported by which modules and nobody else. A path that ends with / is a whole folder.
+# Names of packages, and the only modules that may import them. A path that ends with / is a whole folder.
 LAYERS = [
     pytest.param(ROS, ("sim/ros/", "sim/ros2/", "grader/companions/", "grader/exercises/"), id="ROS"),
     pytest.param(JUPYTER, ("sim/view/", "grader/score.py", "grader/marking/"), id="Jupyter"),
@@ -27,16 +27,16 @@ LAYERS = [
     pytest.param(NBGRADER, ("grader/marking/",), id="nbgrader"),
     pytest.param(GRADER, ("grader/",), id="grader"),
 ]
-DOORS = {"sim", "sim.view", "grader", "grader.exercises"}
+PUBLIC_MODULES = {"sim", "sim.view", "grader", "grader.exercises"}
 
-# What is in sim/ros, in one direction: each imports only from itself and from those before it.
-ROOMS = (
+# The packages and modules of sim/ros, from the bottom: each imports only from itself and those before it.
+SIM_ROS = (
     *("bundled_programs", "packages", "messages", "built_interfaces", "sourcing"),
     *("fibers", "recorder", "engine", "hooks", "robots"),
     *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "realtime"),
 )
 
-# The folders of ros_packages/ that Python imports from, and what no module in them imports.
+# The folders of ros_packages/ that are on Python's path, and the packages that no module in them imports.
 ROS_PACKAGES = ("ros_packages/python", "ros_packages/interfaces")
 COURSE = re.compile(rf"sim|grader|{JUPYTER.pattern}|{PICTURES.pattern}|{NBGRADER.pattern}")
 
@@ -52,13 +52,13 @@ LAUNCH_LAYERS = (
     ("launch.event_handlers", "launch.launch_introspector", "launch.launch_service", "launch"),
     ("launch.yaml_frontend", "launch.yaml_frontend.*"),
     ("launch_ros", "launch_ros.*"),
-    ("launch.yaml_frontend.launch_file",),  # launch_ros adds what it knows to the YAML of launch
+    ("launch.yaml_frontend.launch_file",),  # it imports the actions of launch_ros
 )
 
 
 @functools.cache
 def imports(source: str) -> tuple[str, ...]:
-    """The full name of every module that the source imports, wherever the statement stands."""
+    """The full name of every module that the source imports, at any level of nesting."""
     found: list[str] = []
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
@@ -75,7 +75,7 @@ def modules() -> Iterator[tuple[str, str]]:
 
 
 def module_files(folder: str) -> dict[str, str]:
-    """The source of every module in a folder by the name that it has where the folder is on Python's path."""
+    """The sources of the modules in a folder on Python's path, by name."""
     root = ROOT / folder
     return {
         module_name(path.relative_to(root).as_posix()): path.read_text(encoding="utf-8")
@@ -83,8 +83,10 @@ def module_files(folder: str) -> dict[str, str]:
     }
 
 
-def strangers(allowed: tuple[str, ...], names: re.Pattern, files: Iterator[tuple[str, str]]) -> list[str]:
-    """Return "file imports module" for each import of such a module by a file that is not allowed to."""
+def forbidden_imports(
+    allowed: tuple[str, ...], names: re.Pattern, files: Iterator[tuple[str, str]]
+) -> list[str]:
+    """Return "file imports module" for each such import in a file that is not allowed to have it."""
     return [
         f"{file} imports {module}"
         for file, source in files
@@ -95,7 +97,7 @@ def strangers(allowed: tuple[str, ...], names: re.Pattern, files: Iterator[tuple
 
 
 def notebook_code(path: Path) -> str:
-    """Return the Python of a notebook, without IPython's own commands."""
+    """Return the Python code of a notebook, without IPython's own commands."""
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     sources = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
     python = "\n".join(source for source in sources if not source.startswith("%%"))
@@ -103,14 +105,14 @@ def notebook_code(path: Path) -> str:
 
 
 def module_name(file: str) -> str:
-    """The name that a module in a file such as "sim/world/__init__.py" is imported by."""
+    """The import name of the module in a file such as "sim/world/__init__.py"."""
     return file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 
-def arrows(files: dict[str, str], *, annotations: bool) -> dict[str, set[str]]:
-    """Which of these modules each imports, wherever the statement stands; they are given as name to source.
+def import_graph(files: dict[str, str], *, annotations: bool) -> dict[str, set[str]]:
+    """The modules that each of these modules (name to source) imports from among them.
 
-    annotations: also those under `if TYPE_CHECKING:`.
+    annotations: include imports under `if TYPE_CHECKING:`.
     """
     found: dict[str, set[str]] = {}
     for module, source in files.items():
@@ -140,8 +142,8 @@ def _imported(node: ast.AST, files: dict[str, str]) -> Iterator[str]:
             yield inner if inner in files else node.module
 
 
-def circle(graph: dict[str, set[str]]) -> list[str]:
-    """The names on a way from one module back to it, or [] if there is none."""
+def find_cycle(graph: dict[str, set[str]]) -> list[str]:
+    """The names of the modules on a cycle, or [] if there is none."""
     try:
         tuple(TopologicalSorter(graph).static_order())
     except CycleError as error:
@@ -149,16 +151,16 @@ def circle(graph: dict[str, set[str]]) -> list[str]:
     return []
 
 
-def room(module: str) -> str | None:
-    """The folder or module of sim/ros in which a module lies; None elsewhere."""
+def part_of_sim_ros(module: str) -> str | None:
+    """The package or module of sim/ros that a module belongs to; None for any other module."""
     parts = module.split(".")
     return parts[2] if parts[:2] == ["sim", "ros"] and len(parts) > 2 else None
 
 
 def launch_layer(module: str) -> int | None:
-    """The number of the layer that a module of launch or launch_ros is in; None for any other module.
+    """The index of the layer of a module of launch or launch_ros; None for any other module.
 
-    A layer that has the module's own name comes before one with a pattern that matches it.
+    A layer with the module's own name has precedence over one with a matching pattern.
     """
     for matches in (str.__eq__, fnmatch.fnmatchcase):
         for number, layer in enumerate(LAUNCH_LAYERS):
@@ -168,11 +170,11 @@ def launch_layer(module: str) -> int | None:
 
 
 @pytest.mark.parametrize(("names", "allowed"), LAYERS)
-def test_a_layer_is_known_only_where_the_map_says(names, allowed):
-    assert strangers(allowed, names, modules()) == []
+def test_a_library_is_imported_only_by_the_layers_on_the_map(names, allowed):
+    assert forbidden_imports(allowed, names, modules()) == []
 
 
-def test_the_process_that_nobody_trusts_imports_nothing_of_those_who_judge_it():
+def test_the_untrusted_process_imports_nothing_of_the_grading_process():
     shared, own = "grader.marking.outputs", "grader.marking.student_process"
     places = ("grader/marking/student_process/", "grader/marking/outputs.py")
     used = {
@@ -186,20 +188,20 @@ def test_the_process_that_nobody_trusts_imports_nothing_of_those_who_judge_it():
 
 
 @pytest.mark.parametrize("folder", ["course", "solutions"])
-def test_notebooks_use_the_doors_only(folder):
+def test_notebooks_import_public_modules_only(folder):
     used = {
         f"{path.relative_to(ROOT)} imports {module}"
         for path in sorted((ROOT / folder).rglob("*.ipynb"))
         for module in imports(notebook_code(path))
-        if module.split(".")[0] in PACKAGES and module not in DOORS
+        if module.split(".")[0] in PACKAGES and module not in PUBLIC_MODULES
     }
     assert used == set()
 
 
-def test_a_wrong_import_is_found_wherever_it_stands():
+def test_a_forbidden_import_is_found_at_any_level_of_nesting():
     source = "def f():\n    if True:\n        from rclpy.node import Node\nimport geometry_msgs.msg, math\n"
     files = [("sim/world/robot.py", source), ("sim/ros/engine/engine.py", source)]
-    assert strangers(("sim/ros/",), ROS, iter(files)) == [
+    assert forbidden_imports(("sim/ros/",), ROS, iter(files)) == [
         "sim/world/robot.py imports geometry_msgs.msg",
         "sim/world/robot.py imports rclpy.node",
     ]
@@ -209,61 +211,61 @@ def test_only_the_two_packages_are_installed_and_both_have_modules():
     assert {file.split("/")[0] for file, _ in modules()} == set(PACKAGES)
 
 
-def test_no_module_imports_itself_by_way_of_others():
-    """Annotations may: a part is given what it is a part of, and its name there runs nothing."""
+def test_no_imports_form_a_cycle():
+    """Imports for annotations may: they are not executed."""
     files = {module_name(file): source for file, source in modules()}
-    assert circle(arrows(files, annotations=False)) == []
+    assert find_cycle(import_graph(files, annotations=False)) == []
 
 
-def test_the_rooms_of_the_engine_import_in_one_direction():
+def test_sim_ros_imports_in_one_direction():
     files = {module_name(file): source for file, source in modules()}
     back = [
         f"{module} imports {other}"
-        for module, others in arrows(files, annotations=True).items()
+        for module, others in import_graph(files, annotations=True).items()
         for other in others
-        if room(module) is not None and room(other) is not None
-        if ROOMS.index(room(other)) > ROOMS.index(room(module))
+        if part_of_sim_ros(module) is not None and part_of_sim_ros(other) is not None
+        if SIM_ROS.index(part_of_sim_ros(other)) > SIM_ROS.index(part_of_sim_ros(module))
     ]
     assert back == []
 
 
 @pytest.mark.parametrize("folder", ROS_PACKAGES)
-def test_no_module_of_ros_packages_imports_itself_by_way_of_others(folder):
-    """Annotations count here, too."""
-    assert circle(arrows(module_files(folder), annotations=True)) == []
+def test_no_imports_of_ros_packages_form_a_cycle(folder):
+    """Not even imports for annotations."""
+    assert find_cycle(import_graph(module_files(folder), annotations=True)) == []
 
 
 @pytest.mark.parametrize("folder", ROS_PACKAGES)
-def test_ros_packages_do_not_know_the_course(folder):
+def test_ros_packages_import_nothing_of_the_course(folder):
     files = {f"{folder}: {name}": source for name, source in module_files(folder).items()}
-    assert strangers((), COURSE, iter(files.items())) == []
+    assert forbidden_imports((), COURSE, iter(files.items())) == []
 
 
-def test_the_modules_of_launch_import_in_one_direction():
+def test_launch_imports_in_one_direction():
     files = module_files("ros_packages/python")
     layers = {name: launch_layer(name) for name in files if name.startswith("launch")}
     assert [name for name, layer in layers.items() if layer is None] == []
     back = [
         f"{module} imports {other}"
-        for module, others in arrows(files, annotations=True).items()
+        for module, others in import_graph(files, annotations=True).items()
         for other in others
         if module in layers and other in layers and layers[other] > layers[module]
     ]
     assert back == []
 
 
-def test_a_run_hangs_one_attribute_on_objects_that_are_not_its_own():
+def test_a_run_sets_one_attribute_on_objects_that_are_not_its_own():
     assert [file for file, source in modules() if re.search(r"\._sim_|[\"']_sim_", source)] == []
 
 
-def test_a_circle_is_found_wherever_the_imports_stand():
+def test_a_cycle_is_found_at_any_level_of_nesting():
     files = {
         "sim.a": "from sim import b",
         "sim.b": "def f():\n    import sim.c",
         "sim.c": "from sim.a import x\nif TYPE_CHECKING:\n    from sim.d import y",
         "sim.d": "import sim.c",
     }
-    assert set(circle(arrows(files, annotations=False))) == {"sim.a", "sim.b", "sim.c"}
+    assert set(find_cycle(import_graph(files, annotations=False))) == {"sim.a", "sim.b", "sim.c"}
     apart = {name: source for name, source in files.items() if name in ("sim.c", "sim.d")}
-    assert circle(arrows(apart, annotations=False)) == []
-    assert set(circle(arrows(apart, annotations=True))) == {"sim.c", "sim.d"}
+    assert find_cycle(import_graph(apart, annotations=False)) == []
+    assert set(find_cycle(import_graph(apart, annotations=True))) == {"sim.c", "sim.d"}

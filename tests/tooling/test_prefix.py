@@ -1,4 +1,4 @@
-"""What makes of an environment a place that colcon and CMake know as ROS."""
+""".ci/prefix makes an environment a ROS prefix for colcon and CMake."""
 
 import os
 import subprocess
@@ -10,8 +10,8 @@ import pytest
 from tests.tooling.test_ci import ROOT, load
 
 prefix = load("prefix")
-MADE_WITH = "/opt/python/cp311-cp311"
-WHEELS = f'INCLUDE "{MADE_WITH}/include/python3.11;{MADE_WITH}/lib/python3.11/site-packages/x"\n'
+BUILD_FOLDERS = "/opt/python/cp311-cp311"
+WHEELS = f'INCLUDE "{BUILD_FOLDERS}/include/python3.11;{BUILD_FOLDERS}/lib/python3.11/site-packages/x"\n'
 
 
 @pytest.fixture
@@ -23,7 +23,7 @@ def environment(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_the_wheels_cmake_files_name_this_pythons_folders_and_a_linked_one_stays(environment):
+def test_the_wheels_cmake_files_get_this_pythons_folders_and_a_linked_file_is_not_changed(environment):
     folder = environment / "share/geometry_msgs/cmake"
     folder.mkdir(parents=True)
     (folder / "cached.txt").write_text(WHEELS)
@@ -37,16 +37,16 @@ def test_the_wheels_cmake_files_name_this_pythons_folders_and_a_linked_one_stays
 
 
 @pytest.mark.parametrize("shell", ["sh", "bash"])
-def test_what_a_workspace_sources_first_tells_where_ros_lies_once(environment, shell):
-    prefix.tell(environment)
+def test_the_script_that_workspaces_source_sets_the_prefix_once(environment, shell):
+    prefix.write_setup_files(environment)
     script = environment / f"local_setup.{shell}"
     twice = f'. "{script}"; . "{script}"; echo "$AMENT_PREFIX_PATH $PATH"'
-    told = subprocess.check_output([shell, "-c", twice], env={"PATH": os.environ["PATH"]}, text=True)
-    assert told == f"{environment} {environment}/bin:{os.environ['PATH']}\n"
+    output = subprocess.check_output([shell, "-c", twice], env={"PATH": os.environ["PATH"]}, text=True)
+    assert output == f"{environment} {environment}/bin:{os.environ['PATH']}\n"
 
 
-def test_every_python_of_the_environment_knows_where_ros_lies(environment, monkeypatch):
-    prefix.tell(environment)
+def test_every_python_of_the_environment_sets_the_prefix(environment, monkeypatch):
+    prefix.write_setup_files(environment)
     packages, line = (environment / "packages/ros.pth").read_text().splitlines()
     assert packages == str(ROOT / "ros_packages/python")
     monkeypatch.delenv("AMENT_PREFIX_PATH")
