@@ -19,7 +19,7 @@ FRAMES = ["base_link", "upper_arm", "forearm", "tip"]
 
 
 class ArmNode(MachineNode):
-    """Moves to positions, or along trajectories; the newest order counts.
+    """Moves to positions, or along trajectories; the newest command wins.
 
     Subscribes /joint_commands (std_msgs/Float64MultiArray: the angles of shoulder and elbow, rad). Publishes
     at 20 Hz /joint_states and /tf (base_link -> upper_arm -> forearm -> tip), and once /robot_description,
@@ -33,12 +33,12 @@ class ArmNode(MachineNode):
         self.create_subscription(Float64MultiArray, "joint_commands", self.on_command, 10)
         self._trajectories = TrajectoryServer(self, JOINTS)
         self.describe(urdf("arm", JOINTS, scene.model.joints, FRAMES))
-        self.begin()
+        self.start_publishing()
 
     def on_command(self, command: Float64MultiArray) -> None:
         """Turn the joints to these angles from now on."""
-        if self.obey(self.scene.command, list(command.data)):
-            self._trajectories.replaced("a command on /joint_commands")
+        if self.apply_command(self.scene.command, list(command.data)):
+            self._trajectories.abort_replaced("a command on /joint_commands")
 
     def joints(self) -> tuple[float, ...]:
         """Angles (rad) and then rates (rad/s), in the order of the names in /joint_states."""
@@ -46,7 +46,7 @@ class ArmNode(MachineNode):
         return *self.scene.positions[::order], *self.scene.velocities[::order]
 
     def sense(self, stamp: tuple[int, int]) -> None:
-        """Publish where the links are, and watch over a trajectory under way."""
+        """Publish the links' transforms, and monitor the active trajectory."""
         turns = [f(angle / 2) for angle in self.scene.positions for f in (math.sin, math.cos)]
         self.tf_pub.publish(self.tf_message.fill(*stamp, *turns[:2], *stamp, *turns[2:], *stamp))
         self._trajectories.watch(stamp)

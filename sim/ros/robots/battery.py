@@ -1,4 +1,4 @@
-"""A robot's battery as a topic."""
+"""Publishes a robot's battery."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from sim.world import Battery
 
 
 class BatteryTopic:
-    """Publishes battery_state (sensor_msgs/BatteryState): V, A, A h; `percentage` is a share, from 0 to 1."""
+    """Publishes battery_state (sensor_msgs/BatteryState): V, A, A h; `percentage` is from 0 to 1."""
 
     def __init__(self, node: Node, battery: Battery, frame: str) -> None:
         self._node, self._battery, self._frame = node, battery, frame
         self._publisher = node.create_publisher(BatteryState, "battery_state", 10)
 
     def publish(self) -> None:
-        """Tell how it is now."""
+        """Publish the current state."""
         battery, model = self._battery, self._battery.model
         message = BatteryState(
             voltage=battery.voltage,
-            temperature=float("nan"),  # as the message wants it of what is not measured
+            temperature=float("nan"),  # NaN means not measured
             current=battery.current,
             charge=battery.charge,
             capacity=model.capacity,

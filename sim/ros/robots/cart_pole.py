@@ -20,12 +20,12 @@ class CartPoleNode(MachineNode):
     def __init__(self, scene: CartPole) -> None:
         super().__init__(scene, "cart_pole", ["slider_joint", "pole_joint"], RATE)
         self.create_subscription(Float64, "cart_effort", self.on_effort, 10)
-        self.begin()
+        self.start_publishing()
 
     def on_effort(self, effort: Float64) -> None:
         """Push with this force from now on."""
-        self.obey(self.scene.command, effort.data)
+        self.apply_command(self.scene.command, effort.data)
 
     def joints(self) -> tuple[float, ...]:
-        """Places of cart and pole, then their rates, as the sensors say."""
+        """Measured positions of cart and pole, then their rates."""
         return self.scene.measure()

@@ -1,4 +1,4 @@
-"""A robot's IMU as a topic: sensor_msgs/Imu as REP-145 wants it."""
+"""Publishes a robot's IMU as sensor_msgs/Imu, as REP-145 specifies."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ FIELDS = (
 
 
 class ImuTopic:
-    """Publishes imu/data in base_link: the turn since the start, turning rate, acceleration, and variances.
+    """Publishes imu/data in base_link: yaw since the start, yaw rate, acceleration, and their variances.
 
-    Gravity is in it: at rest z is 9.8 m/s^2. The turn is the sum of the measured rates; it drifts, and its
-    variance grows with time. Roll and pitch are exactly 0 in a flat world.
+    The acceleration includes gravity: at rest z is 9.8 m/s^2. The yaw is integrated from the measured rates,
+    so it drifts, and its variance grows with time. Roll and pitch are exactly 0 in a flat world.
     """
 
     def __init__(self, node: Node, robot: MobileRobot, model: ImuModel, frame: str) -> None:
@@ -48,10 +48,10 @@ class ImuTopic:
         self._publisher = node.create_publisher(Imu, "imu/data", 10)
 
     def publish(self, now: int) -> None:
-        """Measure and publish; `now` is the node's time in nanoseconds, and the world has come there."""
+        """Measure and publish; `now` is the node's time in nanoseconds, to which the world has advanced."""
         reading, model = self._robot.imu(), self._model
         half = reading.yaw / 2
-        # What a constant error of the rate and a new one in each reading add up to.
+        # The variance from a constant bias of the rate plus independent noise in each reading.
         drift = (
             variance_of(model.gyro_bias) * reading.stamp**2 + model.gyro_noise**2 * reading.stamp / model.rate
         )
@@ -62,5 +62,5 @@ class ImuTopic:
 
 
 def variance_of(bias: float) -> float:
-    """The variance of a bias that is drawn evenly from half to all of this figure, to either side."""
+    """The variance of a bias drawn uniformly from half to all of this magnitude, of either sign."""
     return 7 / 12 * bias**2

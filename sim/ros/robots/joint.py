@@ -18,11 +18,11 @@ class JointNode(MachineNode):
         super().__init__(scene, "joint", ["joint"])
         self.create_subscription(Float64, "joint_commands", self.on_command, 10)
         self.describe(urdf("joint", ["joint"], [scene.world.machine], ["base_link", "link", "tip"]))
-        self.begin()
+        self.start_publishing()
 
     def on_command(self, command: Float64) -> None:
         """Turn to this angle from now on."""
-        self.obey(self.scene.command, command.data)
+        self.apply_command(self.scene.command, command.data)
 
     def joints(self) -> tuple[float, ...]:
         """The joint's angle (rad) and rate (rad/s)."""

@@ -1,4 +1,4 @@
-"""What the nodes of all machines have in common: time, joint states, and a clear word about bad commands."""
+"""Base class of the machines' nodes: clock, joint states and clear errors for invalid commands."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from std_msgs.msg import String
 
 from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
-from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
+from sim.ros.robots.rates import MAX_COMMAND_RATE, SENSOR_RATE
 from sim.world import CommandError
 
 
 class MachineNode(Node):
     """A machine as an ordinary node. Publishes /joint_states, and /clock at 20 Hz, both reliable.
 
-    Whoever runs it moves the machine: `scene` is where it should be at the node's time.
+    The run advances the machine: `scene` has its state at the node's time.
 
     rate: of /joint_states, in Hz; a multiple of 20.
     """
@@ -42,27 +42,27 @@ class MachineNode(Node):
         self.joint_pub = self.create_publisher(JointState, "joint_states", 10)
         self._ticks, self._ticks_per_sense = 0, rate // SENSOR_RATE
         self._period = 1 / rate
-        self._commands = 0  # in the last 0.05 s
+        self._commands = 0  # since the last count, 0.05 s ago
 
-    def begin(self) -> None:
-        """Begin to publish; the last that a machine does when it is made."""
+    def start_publishing(self) -> None:
+        """Publish for the first time, and start the timer. Called at the end of each machine's `__init__`."""
         self._tick()
         self.create_timer(self._period, self._tick)
 
     def describe(self, urdf: str) -> None:
-        """Publish what the machine looks like on /robot_description, kept for those who come later."""
+        """Publish the machine's URDF on /robot_description, latched."""
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_publisher(String, "robot_description", latched).publish(String(data=urdf))
 
     def joints(self) -> tuple[float, ...]:
-        """Positions and then velocities of all joints, as they are measured."""
+        """The measured positions, then velocities, of all joints."""
         raise NotImplementedError
 
     def sense(self, stamp: tuple[int, int]) -> None:
-        """What else a machine publishes, 20 times a second; the stamp is (s, ns)."""
+        """Publish further sensors, 20 times a second; the stamp is (s, ns)."""
 
-    def obey(self, command: Callable[..., None], *values: Any) -> bool:
-        """Take a command; whether it could be taken."""
+    def apply_command(self, command: Callable[..., None], *values: Any) -> bool:
+        """Execute a command; returns False and logs an error if it is invalid."""
         self._commands += 1
         try:
             command(*values)
@@ -81,9 +81,9 @@ class MachineNode(Node):
         self._ticks += 1
 
     def _count_commands(self) -> None:
-        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+        if self._commands > MAX_COMMAND_RATE / SENSOR_RATE:
             self.get_logger().warning(
-                f"More than {MOST_COMMANDS} commands came in a second; 100 are enough: "
+                f"More than {MAX_COMMAND_RATE} commands came in a second; 100 are enough: "
                 "check the period of the timer that sends them.",
                 throttle_duration_sec=1.0,
             )

@@ -1,4 +1,4 @@
-"""Says what a warehouse looks like: its map, where the robots' odometry began on it, where they charge."""
+"""Publishes a warehouse's map, the robots' odometry frames in it, and the poses of their chargers."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 OCCUPIED = 100
 
 
-class MapServer(Node):
-    """Publishes once, for whoever comes whenever: /map, /tf_static (map -> odom) and /dock_pose.
+class WarehouseMapServer(Node):
+    """Publishes once, latched: /map, /tf_static (map -> odom) and /dock_pose.
 
-    Each further robot has a dock_pose under its name. The map shows what stands still. The transforms hold as
-    long as wheels don't slip: nobody looks after the robots' places here.
+    Each further robot has a dock_pose in its namespace. The map shows static objects. The transforms hold as
+    long as wheels don't slip, because no node corrects them.
     """
 
     def __init__(self, world: World) -> None:
@@ -38,7 +38,7 @@ class MapServer(Node):
             self.create_publisher(PoseStamped, topic, LATCHED).publish(self.dock(*charger))
 
     def grid(self, world: World) -> OccupancyGrid:
-        """The map: occupied is what something solid reaches into."""
+        """The map: a cell is occupied if a solid object reaches into it."""
         left, bottom, right, top = world.bounds
         columns, rows = (math.ceil(size / RESOLUTION) + 4 for size in (right - left, top - bottom))
         message = OccupancyGrid()
@@ -55,7 +55,7 @@ class MapServer(Node):
         return message
 
     def odometry(self, start: tuple[str, tuple[float, float, float]]) -> TransformStamped:
-        """Where a robot's odometry began."""
+        """The transform of a robot's odometry frame: its start pose."""
         name, (x, y, yaw) = start
         transform = TransformStamped(child_frame_id="odom" if name == "robot" else f"{name}/odom")
         transform.header.stamp, transform.header.frame_id = self.now, "map"
@@ -65,7 +65,7 @@ class MapServer(Node):
         return transform
 
     def dock(self, x: float, y: float) -> PoseStamped:
-        """Where a charger is."""
+        """The pose of a charger."""
         message = PoseStamped()
         message.header.stamp, message.header.frame_id = self.now, "map"
         message.pose.position.x, message.pose.position.y, message.pose.orientation.w = x, y, 1.0

@@ -1,4 +1,4 @@
-"""turtlesim's mimic: one turtle moves as another one does."""
+"""turtlesim's mimic: one turtle repeats the movements of another."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Mimic(Node):
         self.create_subscription(Pose, "input/pose", self.on_pose, 1)
 
     def on_pose(self, pose: Pose) -> None:
-        """Do the same."""
+        """Publish the same velocities."""
         command = Twist()
         command.linear.x, command.angular.z = pose.linear_velocity, pose.angular_velocity
         self._publisher.publish(command)

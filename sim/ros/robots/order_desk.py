@@ -1,4 +1,4 @@
-"""The orders of a warehouse: they come in as they come, and somebody looks where the robots truly are."""
+"""A warehouse's orders: they arrive at random, and are served by the true poses of the robots."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from sim.world.battery import NEAR
 from sim.world.robot import Pose
 
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-LOOKS = 0.1  # s between two looks at the robots
-STANDS = 0.02  # m/s; what is slower stands
-FIRST = 2.0  # s until the first order
-OPEN = (Order.WAITING, Order.PICKED_UP)
+SERVING_PERIOD = 0.1  # s
+STANDSTILL_SPEED = 0.02  # m/s; a slower robot counts as stopped
+FIRST_ORDER_AT = 2.0  # s after the start
+OPEN_STATUSES = (Order.WAITING, Order.PICKED_UP)
 
 
-class Task(NamedTuple):
-    """An order that is open: what was published, when it ends by itself, and what that is called then."""
+class OpenOrder(NamedTuple):
+    """An open order: the published message, when it ends by itself, and its status then."""
 
     order: Order
     end: float  # s of the node's clock
@@ -34,34 +34,34 @@ class Task(NamedTuple):
 
 
 class OrderDesk(Node):
-    """Publishes /orders (warehouse_msgs/Order), each again whenever its status changes; kept for latecomers.
+    """Publishes each order on /orders (warehouse_msgs/Order) whenever its status changes; latched.
 
-    A robot that stands where an order is picked up, and carries nothing, has it after a while (`handling` of
-    the world), the oldest one first; so it is handed over at the desk. Which orders come, and when, is
-    decided by the world's name and the run's seed. robots: by name, as they truly are.
+    A robot without a load that stops at an order's pickup gets it after the world's `handling` time, the
+    oldest order first; it delivers at the desk in the same way. The world's name and the run's seed determine
+    the orders and their times. robots: by name, with their true poses.
     """
 
     def __init__(self, world: World, robots: Mapping[str, MobileRobot], seed: int) -> None:
         super().__init__("order_desk", start_parameter_services=False)
         self.model, self.robots = world.warehouse, robots
-        self.chance = Random(f"orders {world.name} {seed}")
-        self.open: dict[int, Task] = {}  # by id, oldest first
-        self.load: dict[str, int] = {}  # the id of what each robot carries
-        self.since: dict[tuple[str, int], float] = {}  # since when a robot stands there for an order
-        self.count, self.next = 0, self.now() + FIRST
+        self.rng = Random(f"orders {world.name} {seed}")
+        self.open: dict[int, OpenOrder] = {}  # by id, oldest first
+        self.load: dict[str, int] = {}  # by robot: the id of the order it carries
+        self.since: dict[tuple[str, int], float] = {}  # by robot and order: when the robot stopped there
+        self.count, self.next = 0, self.now() + FIRST_ORDER_AT
         self.withdrawals = [self.now() + stamp for stamp in sorted(self.model.withdrawn)]
         self.publisher = self.create_publisher(Order, "/orders", LATCHED)
-        self.create_timer(LOOKS, self.look)
+        self.create_timer(SERVING_PERIOD, self.look)
 
     def now(self) -> float:
-        """The node's time, s."""
+        """The node's time (s)."""
         return self.get_clock().now().nanoseconds / SECOND
 
     def look(self) -> None:
-        """Take in new orders, end those whose time is over, and serve the robots."""
+        """Add new orders, end overdue ones, and serve the robots."""
         now = self.now()
         if now >= self.next:
-            self.take_in(now)
+            self.add_order(now)
         if self.withdrawals and now >= self.withdrawals[0]:
             self.withdraw()
         for number, task in list(self.open.items()):
@@ -70,48 +70,49 @@ class OrderDesk(Node):
         for name, robot in self.robots.items():
             self.serve(name, robot, now)
 
-    def take_in(self, now: float) -> None:
-        """A new order, at a place that chance decides."""
-        model, chance = self.model, self.chance
+    def add_order(self, now: float) -> None:
+        """Publish a new order with a random pickup."""
+        model, rng = self.model, self.rng
         self.count += 1
-        self.next = now + model.interval * (0.5 + chance.random())
-        place = model.pickups[math.floor(chance.random() * len(model.pickups))]
-        canceled, early = chance.random() < model.canceled, chance.random()
+        self.next = now + model.interval * (0.5 + rng.random())
+        pickup = model.pickups[math.floor(rng.random() * len(model.pickups))]
+        canceled, early = rng.random() < model.canceled, rng.random()
         deadline = self.get_clock().now() + Duration(seconds=model.patience)
         order = Order(
             id=self.count,
-            pickup=pose_of(place),
+            pickup=pose_of(pickup),
             delivery=pose_of(model.desk),
             deadline=deadline.to_msg(),
         )
         order.header.frame_id = "map"
         ending = Order.CANCELED if canceled else Order.EXPIRED
-        self.open[self.count] = Task(order, now + model.patience * (early if canceled else 1.0), ending)
+        self.open[self.count] = OpenOrder(order, now + model.patience * (early if canceled else 1.0), ending)
         self.change(self.count, Order.WAITING)
 
     def withdraw(self) -> None:
-        """Cancel an order, as the world's model says."""
+        """Cancel an order, as the world's `withdrawn` times require."""
         del self.withdrawals[0]
         number = next(iter((*self.load.values(), *self.open)), None)
         if number is not None:
             self.change(number, Order.CANCELED)
 
     def change(self, number: int, status: int) -> None:
-        """Give an order another status, and tell."""
+        """Change an order's status, and publish it."""
         order = self.open[number].order
         order.status, order.header.stamp = status, self.get_clock().now().to_msg()
-        if status not in OPEN:
+        if status not in OPEN_STATUSES:
             del self.open[number]
             self.load = {name: load for name, load in self.load.items() if load != number}
         self.publisher.publish(order)
 
     def serve(self, name: str, robot: MobileRobot, now: float) -> None:
-        """Give a robot what it came for, or take it, once it has stood there long enough."""
-        number = self.wanted(name, robot) if robot.body.velocity.length < STANDS else None
+        """Hand an order to a robot, or take it, once the robot has stopped there long enough."""
+        number = self.order_at(name, robot) if robot.body.velocity.length < STANDSTILL_SPEED else None
         self.since = {key: since for key, since in self.since.items() if key[0] != name or key[1] == number}
         if number is None:
             return
-        if now - self.since.setdefault((name, number), now) < self.model.handling - LOOKS / 2:
+        stopped = now - self.since.setdefault((name, number), now)
+        if stopped < self.model.handling - SERVING_PERIOD / 2:
             return
         del self.since[name, number]
         if name in self.load:
@@ -121,8 +122,8 @@ class OrderDesk(Node):
             self.open[number].order.robot = name
             self.change(number, Order.PICKED_UP)
 
-    def wanted(self, name: str, robot: MobileRobot) -> int | None:
-        """The id of the order for which a robot is at the right place, None where there is none."""
+    def order_at(self, name: str, robot: MobileRobot) -> int | None:
+        """The id of the order that can be handled at the robot's position, or None."""
         carried = self.load.get(name)
         if carried is not None:
             return carried if is_near(robot, self.open[carried].order.delivery) else None
@@ -131,13 +132,13 @@ class OrderDesk(Node):
 
 
 def is_near(robot: MobileRobot, place: PoseStamped) -> bool:
-    """Whether a robot's middle is where it can be served."""
-    there = place.pose.position
-    return math.dist(robot.pose[:2], (there.x, there.y)) <= NEAR
+    """Whether a robot's centre is close enough to be served."""
+    position = place.pose.position
+    return math.dist(robot.pose[:2], (position.x, position.y)) <= NEAR
 
 
 def pose_of(place: Pose) -> PoseStamped:
-    """A place in the map frame."""
+    """A pose message in the map frame."""
     message = PoseStamped()
     message.header.frame_id = "map"
     message.pose.position.x, message.pose.position.y = place[:2]

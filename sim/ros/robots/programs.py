@@ -1,4 +1,4 @@
-"""The programs that a world brings along, each an ordinary node: its robots, its machine, its warehouse."""
+"""The programs that belong to a world, each an ordinary node: robots, route drivers, machine, warehouse."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from sim.ros.engine.program import Process
 from sim.world import MobileRobot, OtherRobot, Scene, Simulation, World
 from sim.world.machines import kind_of
 
-# Nodes are imported when they are made: with them come message packages, which takes a while.
+# Nodes are imported when they are created, because importing their message packages takes a while.
 
 
 def programs_of(scene: Scene) -> list[Process]:
-    """What a run starts before the student's programs. Whoever runs them moves the scene along with time."""
+    """The programs that a run starts before the student's; the run advances the scene."""
     world = scene.world
     if world.machine is not None:
         return [_machine(scene)]
@@ -49,9 +49,9 @@ def _driver(robot: OtherRobot, world: World) -> Process:
 
 def _warehouse(scene: Simulation) -> list[Process]:
     def map_server() -> Any:
-        from sim.ros.robots.map_server import MapServer
+        from sim.ros.robots.map_server import WarehouseMapServer
 
-        return MapServer(scene.world)
+        return WarehouseMapServer(scene.world)
 
     def order_desk() -> Any:
         from sim.ros.robots.order_desk import OrderDesk

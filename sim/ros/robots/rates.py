@@ -1,6 +1,6 @@
-"""How often robots and machines speak, and how often they can be spoken to."""
+"""Rates of the topics that robots and machines publish and subscribe to."""
 
 SENSOR_RATE = 20
-"""How often in a second most sensors speak, and everything is tracked."""
-MOST_COMMANDS = 1000
-"""In a second; ten times what the quickest robots take."""
+"""Hz; of most sensors, and of recorded paths."""
+MAX_COMMAND_RATE = 1000
+"""Hz; ten times the rate of the fastest real robots. Above it, a robot logs a warning."""

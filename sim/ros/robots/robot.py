@@ -16,7 +16,7 @@ from tf2_msgs.msg import TFMessage
 from sim.nanoseconds import SECOND
 from sim.ros.robots.battery import BatteryTopic
 from sim.ros.robots.imu import ImuTopic
-from sim.ros.robots.rates import MOST_COMMANDS, SENSOR_RATE
+from sim.ros.robots.rates import MAX_COMMAND_RATE, SENSOR_RATE
 from sim.ros.robots.sensor_messages import SensorMessages
 from sim.world import CommandError, MobileRobot, World
 
@@ -29,14 +29,14 @@ class Robot(Node):
     Subscribes cmd_vel (geometry_msgs/Twist: linear.x m/s, angular.z rad/s; others are ignored), which is
     geometry_msgs/TwistStamped where the world says so; its stamp and frame are ignored.
     Publishes at 20 Hz odom, scan, joint_states, bumper (std_msgs/Bool) and /tf (odom -> base_link), and
-    imu/data at the IMU's rate, and battery_state at 1 Hz; all reliable, which best-effort subscriptions can
-    hear too. odom starts at zero where the robot starts; the IMU sits at base_link's origin, and the lidar in
-    base_scan: where that is, /tf_static says once (base_link -> base_scan), kept for whoever comes later.
+    imu/data at the IMU's rate, and battery_state at 1 Hz; all reliable, which also matches best-effort
+    subscriptions. odom starts at zero where the robot starts; the IMU is at base_link's origin, and the lidar
+    at base_scan, whose transform (base_link -> base_scan) is published once on /tf_static, latched.
 
-    The world's first robot is in the root namespace, and publishes /clock. Any other one has its name as
-    namespace, and before the names of its frames.
+    The world's first robot is in the root namespace, and publishes /clock. Every other robot has its name as
+    namespace and as prefix of its frames.
 
-    Whoever runs it moves the world: `robot` is where it should be at the node's time.
+    The run advances the world: `robot` has its state at the node's time.
     """
 
     def __init__(self, world: World, robot: MobileRobot) -> None:
@@ -72,7 +72,7 @@ class Robot(Node):
             self.create_timer(1.0, battery.publish)
 
     def _mounting(self) -> TFMessage:
-        """Where the lidar sits."""
+        """The transform from the robot to its lidar."""
         messages, lidar = self.messages, self.world.lidar
         header = Header(frame_id=messages.base_frame, stamp=self.get_clock().now().to_msg())
         transform = TransformStamped(header=header, child_frame_id=messages.scan_frame)
@@ -82,7 +82,7 @@ class Robot(Node):
         return TFMessage(transforms=[transform])
 
     def on_cmd_vel(self, command: Twist) -> None:
-        """Drive like this from now on."""
+        """Drive at this velocity from now on."""
         self._commands += 1
         try:
             self.robot.command(command.linear.x, command.angular.z)
@@ -90,13 +90,13 @@ class Robot(Node):
             self.get_logger().error(str(error), throttle_duration_sec=1.0)
 
     def feel(self) -> None:
-        """Publish what the IMU measures."""
+        """Publish an IMU measurement."""
         self.imu.publish(self.get_clock().now().nanoseconds)
 
     def sense(self) -> None:
-        """Publish what the other sensors see."""
+        """Publish all other sensors."""
         robot, messages, now = self.robot, self.messages, self.get_clock().now().nanoseconds
-        if self._commands > MOST_COMMANDS / SENSOR_RATE:
+        if self._commands > MAX_COMMAND_RATE / SENSOR_RATE:
             self._warn_of_flood()
         self._commands = 0
         stamp = divmod(now, SECOND)
@@ -113,7 +113,7 @@ class Robot(Node):
 
     def _warn_of_flood(self) -> None:
         self.get_logger().warning(
-            f"More than {MOST_COMMANDS} velocity commands came in a second; 10 to 20 are enough: "
+            f"More than {MAX_COMMAND_RATE} velocity commands came in a second; 10 to 20 are enough: "
             "check the period of the timer that sends them.",
             throttle_duration_sec=1.0,
         )

@@ -1,4 +1,4 @@
-"""What a robot's sensors publish again and again, with the names of its frames."""
+"""Templates of the messages that a robot's sensors publish, and its frame names."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ TRANSFORM = ("translation.x", "translation.y", "rotation.z", "rotation.w")
 
 
 class SensorMessages:
-    """The messages of one robot, ready to be filled. prefix: stands before the names of its frames.
+    """The message templates of one robot. prefix: of its frame names.
 
-    bumper: the bytes of a message for a bumper that is not pressed, and for one that is.
+    bumper: the bytes of a message for a released and for a pressed bumper.
     """
 
     def __init__(self, lidar: LidarModel, prefix: str = "") -> None:

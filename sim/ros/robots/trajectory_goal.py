@@ -1,4 +1,4 @@
-"""Reads the goals of follow_joint_trajectory: what can't be followed is refused in one sentence."""
+"""Validates goals of follow_joint_trajectory; an invalid goal is rejected with a one-sentence reason."""
 
 from __future__ import annotations
 
@@ -14,41 +14,37 @@ from sim.world.machines import JointModel, Waypoint
 
 Goal = FollowJointTrajectory.Goal
 GOAL_TOLERANCE = 0.01
-"""How near (rad) a joint must come to its goal when the goal doesn't say."""
+"""Default goal tolerance of a joint (rad)."""
 
 
-class RefusedError(Exception):
-    """A goal that can't be followed: the name of its error code in FollowJointTrajectory, and the reason."""
+class RejectedGoal(Exception):
+    """An invalid goal: the name of its error code in FollowJointTrajectory, and the reason."""
 
     def __init__(self, code: str, reason: str) -> None:
         super().__init__(reason)
         self.code = code
 
 
-class Order(NamedTuple):
-    """What a goal asks for; joints in the arm's order, times in seconds.
+class TrajectoryRequest(NamedTuple):
+    """The content of a goal; joints in the arm's order, times in seconds.
 
-    delay: until the trajectory begins, from now; below 0 where it began before.
-    path, goal: how far (rad) each joint may be off on the way and at the end; inf for any.
-    patience: the extra time in which to reach the goal; inf for any.
+    delay: until the trajectory begins; negative if it began in the past.
+    path, goal: tolerance (rad) of each joint along the path and at the goal; inf for none.
+    extra_time: time allowed beyond the trajectory's end; inf for no limit.
     """
 
     waypoints: list[Waypoint]
     delay: float
     path: list[float]
     goal: list[float]
-    patience: float
+    extra_time: float
 
 
-def read(goal: Goal, names: Sequence[str], joints: Sequence[JointModel], now: int) -> Order:
-    """Return what a goal asks for; `now` is the node's time in nanoseconds.
-
-    Raises:
-        RefusedError: the goal can't be followed.
-    """
+def read_goal(goal: Goal, names: Sequence[str], joints: Sequence[JointModel], now: int) -> TrajectoryRequest:
+    """Return the content of a goal; `now` is the node's time in nanoseconds. Raises RejectedGoal."""
     given = list(goal.trajectory.joint_names)
     if sorted(given) != sorted(names):
-        raise RefusedError(
+        raise RejectedGoal(
             "INVALID_JOINTS",
             f"its joint_names are {given}; name each of {', '.join(names)} once, in any order.",
         )
@@ -59,7 +55,7 @@ def read(goal: Goal, names: Sequence[str], joints: Sequence[JointModel], now: in
     _check_times(waypoints)
     _check_limits(waypoints, names, joints)
     extra = in_seconds(goal.goal_time_tolerance)
-    return Order(
+    return TrajectoryRequest(
         waypoints,
         _delay(goal, waypoints[-1].time, now),
         _tolerances("path_tolerance", goal.path_tolerance, names, math.inf),
@@ -120,7 +116,7 @@ def _delay(goal: Goal, end: float, now: int) -> float:
     nanoseconds = stamp.sec * SECOND + stamp.nanosec
     delay = (nanoseconds - now) / SECOND if nanoseconds else 0.0
     if delay + end < 0:
-        raise RefusedError(
+        raise RejectedGoal(
             "OLD_HEADER_TIMESTAMP",
             f"by its header.stamp it ended {-delay - end:g} s ago; give it a stamp of 0 to begin at once.",
         )
@@ -130,11 +126,11 @@ def _delay(goal: Goal, end: float, now: int) -> float:
 def _tolerances(
     field: str, given: Sequence[JointTolerance], names: Sequence[str], default: float
 ) -> list[float]:
-    """For each joint how far it may be off: as control_msgs says, 0 is the default and below 0 is any."""
+    """The tolerance of each joint; in control_msgs, 0 means the default and a negative one means none."""
     tolerances = dict.fromkeys(names, default)
     for tolerance in given:
         if tolerance.name not in tolerances:
-            raise RefusedError(
+            raise RejectedGoal(
                 "INVALID_JOINTS", f"{field} names {tolerance.name!r}; the joints are {', '.join(names)}."
             )
         if math.isnan(tolerance.position):
@@ -148,5 +144,5 @@ def _are_numbers(values: Sequence[float], count: int) -> bool:
     return len(values) == count and all(map(math.isfinite, values))
 
 
-def _invalid(reason: str) -> RefusedError:
-    return RefusedError("INVALID_GOAL", reason)
+def _invalid(reason: str) -> RejectedGoal:
+    return RejectedGoal("INVALID_GOAL", reason)

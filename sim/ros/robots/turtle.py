@@ -1,12 +1,13 @@
-"""What one turtle of turtlesim takes, gives and offers."""
+"""The topics, services and action of one turtle of turtlesim."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
@@ -14,24 +15,21 @@ from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 from sim.ros.messages.template import Template
 from sim.ros.robots.turtle_rotation import RotateServer
 from sim.world import CommandError
-from sim.world.machines import Pen, Turtle
-
-if TYPE_CHECKING:
-    from sim.ros.robots.turtlesim import Turtlesim
+from sim.world.machines import Pen, Pond, Turtle
 
 DEPTH = 7  # of all queues
 
 
 class TurtleEnds:
-    """The ends of one turtle, below its name.
+    """The endpoints of one turtle, in the namespace of its name.
 
     Subscribes cmd_vel (geometry_msgs/Twist), publishes pose (turtlesim/Pose) and color_sensor
     (turtlesim/Color). Services: set_pen, teleport_absolute and teleport_relative; the action
     rotate_absolute.
     """
 
-    def __init__(self, node: Turtlesim, turtle: Turtle) -> None:
-        self._node, self._turtle = node, turtle
+    def __init__(self, node: Node, pond: Pond, turtle: Turtle) -> None:
+        self._node, self._pond, self._turtle = node, pond, turtle
         name, qos = turtle.name, QoSProfile(depth=DEPTH)
         self._pose = Template(Pose(), ["x", "y", "theta", "linear_velocity", "angular_velocity"])
         self._colour = Template(Color(), ["r", "g", "b"])
@@ -46,7 +44,7 @@ class TurtleEnds:
         self._rotations = RotateServer(node, turtle)
 
     def publish(self) -> None:
-        """Publish where the turtle is and what lies beneath it, and tell of what happened."""
+        """Publish the turtle's pose and the colour below it, and log what happened to it."""
         turtle, log = self._turtle, self._node.get_logger()
         self._rotations.watch()
         for x, y in turtle.wall_hits:
@@ -57,28 +55,28 @@ class TurtleEnds:
         self._colour_pub.publish(self._colour.fill(*turtle.colour))
 
     def close(self) -> None:
-        """The turtle leaves; once `gone`, nothing is left of it."""
+        """Destroy the endpoints; the action server remains until no goal is running."""
         node = self._node
-        self._rotations.leave()
+        self._rotations.abort_leaving()
         node.destroy_subscription(self._commands)
         for service in self._services:
             node.destroy_service(service)
         for publisher in (self._pose_pub, self._colour_pub):
             node.destroy_publisher(publisher)
 
-    def gone(self) -> bool:
-        """Let go of what is left, if that can be."""
-        return self._rotations.gone()
+    def close_if_idle(self) -> bool:
+        """Destroy the action server if no goal is running; returns whether it did."""
+        return self._rotations.close_if_idle()
 
     def on_command(self, command: Twist) -> None:
-        """Move like this for a second."""
-        left = command.linear.y if self._node.holonomic else 0.0
+        """Move at this velocity for a second."""
+        left = command.linear.y if self._node.get_parameter("holonomic").value else 0.0
         velocity = (command.linear.x, left, command.angular.z)
-        if self._obey(self._node.scene.command, self._turtle.name, *velocity):
-            self._rotations.replaced("Velocity command received during rotation goal. Aborting goal")
+        if self._apply_command(self._pond.command, self._turtle.name, *velocity):
+            self._rotations.abort_replaced("Velocity command received during rotation goal. Aborting goal")
 
     def on_set_pen(self, request: Any, response: Any) -> Any:
-        """Draw with another pen, or not at all."""
+        """Change the pen, or switch it off."""
         if request.off:
             self._turtle.lift_pen()
         else:
@@ -87,16 +85,16 @@ class TurtleEnds:
         return response
 
     def on_relative(self, request: Any, response: Any) -> Any:
-        """Turn and go ahead at once."""
-        self._obey(self._turtle.teleport_by, request.linear, request.angular)
+        """Turn, then move forward, instantly."""
+        self._apply_command(self._turtle.teleport_by, request.linear, request.angular)
         return response
 
     def on_absolute(self, request: Any, response: Any) -> Any:
-        """Be somewhere else at once."""
-        self._obey(self._turtle.teleport_to, request.x, request.y, request.theta)
+        """Move to another pose, instantly."""
+        self._apply_command(self._turtle.teleport_to, request.x, request.y, request.theta)
         return response
 
-    def _obey(self, act: Callable[..., None], *values: Any) -> bool:
+    def _apply_command(self, act: Callable[..., None], *values: Any) -> bool:
         try:
             act(*values)
         except CommandError as error:

@@ -1,29 +1,26 @@
-"""The action rotate_absolute of a turtle."""
+"""A turtle's action rotate_absolute."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
+from rclpy.node import Node
 from rclpy.task import Future
 from turtlesim.action import RotateAbsolute
 
 from sim.world.machines import Rotation, Turtle
 
-if TYPE_CHECKING:
-    from sim.ros.robots.turtlesim import Turtlesim
-
 
 class RotateServer:
-    """Turns a turtle to headings, one at a time: a new goal or a velocity ends the one under way."""
+    """Turns a turtle to a heading; a new goal or a velocity command aborts the active goal."""
 
-    def __init__(self, node: Turtlesim, turtle: Turtle) -> None:
+    def __init__(self, node: Node, turtle: Turtle) -> None:
         self._node, self._turtle = node, turtle
-        self._handle: ServerGoalHandle | None = None  # of the goal under way
+        self._handle: ServerGoalHandle | None = None  # of the active goal
         self._rotation: Rotation | None = None
-        self._outcomes: dict[bytes, Future] = {}  # of goals that aren't over, by id
+        self._outcomes: dict[bytes, Future] = {}  # of unfinished goals, by id
         self._running = 0
         self._server = ActionServer(
             node,
@@ -36,7 +33,7 @@ class RotateServer:
         )
 
     def watch(self) -> None:
-        """Tell the client how the goal under way is doing, and end it if it is over."""
+        """Publish feedback on the active goal, and end it when it is over."""
         handle, rotation = self._handle, self._rotation
         if handle is None:
             return
@@ -50,19 +47,19 @@ class RotateServer:
             self._node.get_logger().info("Rotation goal completed successfully")
             self._finish("succeed")
 
-    def replaced(self, words: str) -> None:
-        """The turtle has been told to do something else: end the goal under way, if there is one."""
+    def abort_replaced(self, warning: str) -> None:
+        """Abort the active goal, if there is one, and log this warning."""
         if self._handle is not None:
-            self._node.get_logger().warning(words)
+            self._node.get_logger().warning(warning)
             self._finish("abort")
 
-    def leave(self) -> None:
-        """The turtle leaves: the goal under way comes to nothing."""
+    def abort_leaving(self) -> None:
+        """Abort the active goal, because the turtle is removed."""
         if self._handle is not None:
             self._finish("abort")
 
-    def gone(self) -> bool:
-        """Whether all is told and the action is there no more."""
+    def close_if_idle(self) -> bool:
+        """Destroy the action server if all results are sent; returns whether it did."""
         if self._running:
             return False
         self._server.destroy()
@@ -77,14 +74,14 @@ class RotateServer:
         return GoalResponse.REJECT
 
     def _accepted(self, handle: ServerGoalHandle) -> None:
-        self.replaced("Rotation goal received before a previous goal finished. Aborting previous goal")
+        self.abort_replaced("Rotation goal received before a previous goal finished. Aborting previous goal")
         self._handle, self._rotation = handle, self._turtle.rotate(handle.request.theta)
         self._outcomes[bytes(handle.goal_id.uuid)] = Future()
         self._running += 1
         handle.execute()
 
     def _finish(self, how: str) -> None:
-        """Let the goal under way end: how is the name of a ServerGoalHandle's method."""
+        """End the active goal; `how` is the name of a ServerGoalHandle's method."""
         handle, self._handle = self._handle, None
         result = RotateAbsolute.Result(delta=self._rotation.delta)
         self._outcomes.pop(bytes(handle.goal_id.uuid)).set_result((how, result))

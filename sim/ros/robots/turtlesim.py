@@ -1,4 +1,4 @@
-"""A pond with turtles as an ordinary ROS 2 node, with upstream's names, types, words and behaviour."""
+"""turtlesim as an ordinary ROS 2 node, with upstream's names, types, log lines and behaviour."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ PERIOD = 0.016  # s
 
 
 class Turtlesim(Node):
-    """The turtles that a pond holds; there may be any number of them.
+    """The node of a pond with any number of turtles.
 
     Services: spawn, kill (turtlesim/srv), clear and reset (std_srvs/Empty). Parameters: background_r,
-    background_g and background_b (0 to 255), and holonomic. `TurtleEnds` says what each turtle has.
+    background_g and background_b (0 to 255), and holonomic. Each turtle has a `TurtleEnds`.
 
-    In three things it is more helpful than upstream: color_sensor shows the background where nobody has
-    drawn, a name that can't be one is refused with a log line, and so are numbers that are infinite or none.
+    It differs from upstream in three ways: color_sensor shows the background where no line was drawn, and
+    invalid names and non-finite numbers are refused with a log line.
     """
 
     def __init__(self, scene: Pond) -> None:
@@ -35,41 +35,36 @@ class Turtlesim(Node):
         self.scene = scene
         self._declare()
         self._turtles: dict[str, TurtleEnds] = {}
-        self._leaving: list[TurtleEnds] = []
+        self._closing: list[TurtleEnds] = []
         self.create_service(Empty, "clear", self.on_clear)
         self.create_service(Empty, "reset", self.on_reset)
         self.create_service(Spawn, "spawn", self.on_spawn)
         self.create_service(Kill, "kill", self.on_kill)
         self.get_logger().info(f"Starting turtlesim with node name {self.get_fully_qualified_name()}")
-        self._introduce_all()
+        self._add_all()
         self.create_timer(PERIOD, self.tick)
 
     def _declare(self) -> None:
         channel = IntegerRange(from_value=0, to_value=255, step=1)
         for (name, colour), value in zip(CHANNELS.items(), self.scene.drawing.ground, strict=True):
-            words = f"{colour} channel of the background color"
+            description = f"{colour} channel of the background color"
             self.declare_parameter(
-                name, value, ParameterDescriptor(description=words, integer_range=[channel])
+                name, value, ParameterDescriptor(description=description, integer_range=[channel])
             )
         self.declare_parameter(
             "holonomic", False, ParameterDescriptor(description="If true, then turtles will be holonomic")
         )
-        self._paint()  # a parameter may have been given at the start
+        self._paint()  # parameters may have been set at the start
         self.add_post_set_parameters_callback(self._paint)
 
     def _paint(self, _: list[Parameter] | None = None) -> None:
         self.scene.set_background(tuple(self.get_parameter(name).value for name in CHANNELS))
 
-    @property
-    def holonomic(self) -> bool:
-        """Whether turtles move sideways, too."""
-        return self.get_parameter("holonomic").value
-
     def tick(self) -> None:
-        """Publish where all turtles are, and what lies beneath them."""
+        """Publish the state of all turtles."""
         for name in sorted(self._turtles):
             self._turtles[name].publish()
-        self._leaving = [ends for ends in self._leaving if not ends.gone()]
+        self._closing = [ends for ends in self._closing if not ends.close_if_idle()]
 
     def on_clear(self, request: Any, response: Any) -> Any:
         """Erase all lines."""
@@ -78,16 +73,16 @@ class Turtlesim(Node):
         return response
 
     def on_reset(self, request: Any, response: Any) -> Any:
-        """Begin anew with one turtle."""
+        """Start again with one turtle."""
         self.get_logger().info("Resetting turtlesim.")
         for name in list(self._turtles):
-            self._dismiss(name)
+            self._remove(name)
         self.scene.reset()
-        self._introduce_all()
+        self._add_all()
         return response
 
     def on_spawn(self, request: Any, response: Any) -> Any:
-        """Add a turtle; the response names it, or nobody where that can't be."""
+        """Add a turtle; the response has its name, which is empty if that failed."""
         name = request.name or self.scene.unused_name()
         if name in self.scene.turtles:
             self.get_logger().error(f"A turtle named [{name}] already exists")
@@ -102,30 +97,30 @@ class Turtlesim(Node):
         except CommandError as error:
             self.get_logger().error(str(error))
         else:
-            self._introduce(turtle)
+            self._add(turtle)
             response.name = name
         return response
 
     def on_kill(self, request: Any, response: Any) -> Any:
-        """Take a turtle out."""
+        """Remove a turtle."""
         if request.name in self.scene.turtles:
-            self._dismiss(request.name)
+            self._remove(request.name)
             self.scene.kill(request.name)
         else:
             self.get_logger().error(f"Tried to kill turtle [{request.name}], which does not exist")
         return response
 
-    def _introduce_all(self) -> None:
+    def _add_all(self) -> None:
         for turtle in self.scene.turtles.values():
-            self._introduce(turtle)
+            self._add(turtle)
 
-    def _introduce(self, turtle: Turtle) -> None:
-        self._turtles[turtle.name] = TurtleEnds(self, turtle)
+    def _add(self, turtle: Turtle) -> None:
+        self._turtles[turtle.name] = TurtleEnds(self, self.scene, turtle)
         self.get_logger().info(
             f"Spawning turtle [{turtle.name}] at x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]"
         )
 
-    def _dismiss(self, name: str) -> None:
+    def _remove(self, name: str) -> None:
         ends = self._turtles.pop(name)
         ends.close()
-        self._leaving.append(ends)
+        self._closing.append(ends)

@@ -12,37 +12,39 @@ from sim.ros.robots.turtlesim import Turtlesim
 from sim.world import World, simulate
 from sim.world.machines import Pond
 
-LEVEL = 20  # INFO
+LOG_LEVEL = 20  # INFO
 
 
 class OwnPond(Turtlesim):
-    """A pond that is not the world's: it moves along with its own timer, and no picture shows it."""
+    """A further pond, which its own timer advances and no picture shows."""
 
     def tick(self) -> None:
-        """As `Turtlesim`."""
+        """As `Turtlesim.tick`, after advancing the pond."""
         self.scene.advance(engine().now / SECOND)
         super().tick()
 
 
 def main() -> None:
-    """Be the world's pond in place of the world's own program; where there is none, be one more pond."""
+    """Take the world's pond over from its own program or, if there is none left, create a further pond."""
     rclpy.init()
     try:
-        scene = _take_over()
-        rclpy.spin(OwnPond(_another()) if scene is None else Turtlesim(scene))
+        scene = _take_over_pond()
+        rclpy.spin(OwnPond(_create_pond()) if scene is None else Turtlesim(scene))
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         rclpy.try_shutdown()
 
 
-def _take_over() -> Pond | None:
-    """The world's pond as at the beginning; its own program ends. None if it has none that still goes on."""
+def _take_over_pond() -> Pond | None:
+    """The world's pond, reset, after ending its own program. None if no such program is running."""
     run = engine()
     ponds = [(node, each) for each in run.processes for node in each.nodes if isinstance(node, Turtlesim)]
     for own, process in ponds:
-        if process.from_course and process.main.thrown is None:  # it is not about to end
-            run.logged(LEVEL, "launch", "The world's own turtlesim ends: this one has its pond from here on.")
+        if process.from_course and process.main.thrown is None:  # it is not already ending
+            run.logged(
+                LOG_LEVEL, "launch", "The world's own turtlesim ends: this one has its pond from here on."
+            )
             for fiber in run.fibers:
                 if fiber.process is process and not fiber.done:
                     fiber.thrown = RunOver()
@@ -50,11 +52,13 @@ def _take_over() -> Pond | None:
             own.scene.set_background(own.scene.world.machine.background)
             return own.scene
     if ponds:
-        run.logged(LEVEL, "launch", "One more turtlesim: it has a pond of its own, which no picture shows.")
+        run.logged(
+            LOG_LEVEL, "launch", "One more turtlesim: it has a pond of its own, which no picture shows."
+        )
     return None
 
 
-def _another() -> Pond:
+def _create_pond() -> Pond:
     scene = simulate(World.load("turtlesim"), 0)
     scene.advance(engine().now / SECOND)
     return scene

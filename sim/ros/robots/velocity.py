@@ -1,4 +1,4 @@
-"""Velocities as a robot wants them: Twist, or TwistStamped as most robots on Jazzy do."""
+"""Publishes velocity commands as Twist or, as most robots on Jazzy expect, TwistStamped."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from rclpy.node import Node
 
 
 class VelocityPublisher:
-    """A node's publisher on cmd_vel or another topic, of the type that the robot takes.
+    """A publisher on cmd_vel or another topic, of the type that the robot subscribes to.
 
-    With `stamped` it is geometry_msgs/TwistStamped, with the time of sending and the frame base_link.
+    With `stamped` that is geometry_msgs/TwistStamped, with the current time and the frame base_link.
     """
 
     def __init__(self, node: Node, stamped: bool, topic: str = "cmd_vel") -> None:
