@@ -18,7 +18,7 @@ from typing import Any
 from sim.ros.engine.program import Process
 from sim.ros.fibers.scheduler import engine
 from sim.ros.launching import files
-from sim.ros.launching.programs import RunProcesses
+from sim.ros.launching.programs import SimProcessStarter
 
 
 def launched(target: Any) -> Any:
@@ -80,7 +80,7 @@ def _carry_out(description: Any) -> None:
     path = list(sys.path)
     with redirect_log(run.logged):
         service = LaunchService(noninteractive=True)
-        programs = service.context.process_starter = RunProcesses(run)
+        programs = service.context.process_starter = SimProcessStarter(run)
         service.include_launch_description(description)
         try:
             asyncio.run(service.run_async())

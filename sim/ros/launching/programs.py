@@ -33,29 +33,29 @@ def _refused(program: str) -> Refused:
     )
 
 
-class RunProcesses:
-    """Starts programs of a launch file in a run. `refused` is the first that could not be."""
+class SimProcessStarter:
+    """Starts the processes of a launch file as programs of a run. refused: the first that can't be one."""
 
     def __init__(self, run: Any) -> None:
         self.run, self.refused, self._numbers = run, None, count(1)
-        self._brought: dict[str, Callable[[], None]] = {}
+        self._bundled: dict[str, Callable[[], None]] = {}
 
     def find_bundled(self, package: str, name: str) -> str | None:
         """As launch's `ProcessStarter`. Raises ExecutableNotFound."""
         if bundled_command(package, name) is None:
             return None
         path = f"{sys.prefix}/lib/{package}/{name}"
-        self._brought[path] = executable(package, name)
+        self._bundled[path] = executable(package, name)
         return path
 
     async def start(
-        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, heard: Callable
-    ) -> RunProcess:
+        self, cmd: list[str], cwd: str | None, env: dict[str, str], shell: bool, on_output: Callable
+    ) -> SimProcess:
         """As launch's `ProcessStarter`."""
         try:
             words = shlex.split(" ".join(cmd)) if shell else cmd
-            brought = self._brought.get(words[0]) if words else None
-            main, arguments = (brought, words[1:]) if brought else _program(words, cwd or ".")
+            bundled = self._bundled.get(words[0]) if words else None
+            main, arguments = (bundled, words[1:]) if bundled else _program(words, cwd or ".")
         except Refused as error:
             self.refused = self.refused or error
             raise
@@ -66,14 +66,14 @@ class RunProcesses:
                 "launch",
                 f"All programs of a run share one environment: {', '.join(sorted(others))} is not set.",
             )
-        return RunProcess(self.run, main, arguments, next(self._numbers), heard)
+        return SimProcess(self.run, main, arguments, next(self._numbers), on_output)
 
 
-class RunProcess:
-    """One program of a launch file in a run. Its pid counts those that were started."""
+class SimProcess:
+    """A process of a launch file that is a program of a run. Its pid is a sequential number."""
 
     def __init__(
-        self, run: Any, main: Callable[[], None], arguments: list[str], pid: int, heard: Callable
+        self, run: Any, main: Callable[[], None], arguments: list[str], pid: int, on_output: Callable
     ) -> None:
         self.pid, self._run, self._main, self._killed = pid, run, main, 0
         self._loop = asyncio.get_running_loop()
@@ -87,14 +87,15 @@ class RunProcess:
         self._process = run.start(
             Process(body, arguments=arguments, host=launch.host), from_course=launch.from_course
         )
-        self._process.reader, self._heard, self._rest = self._read, heard, {"stdout": "", "stderr": ""}
+        self._process.reader, self._on_output = self._read, on_output
+        self._rest = {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
         """As launch's `Process`."""
         return await self._status
 
     def send_signal(self, number: int) -> None:
-        """As launch's `Process`: SIGINT is Ctrl-C, and every other signal ends it at once."""
+        """As launch's `Process`: SIGINT raises KeyboardInterrupt, and every other signal kills it."""
         if number == signal.SIGINT:
             self._process.main.thrown = KeyboardInterrupt()
             return
@@ -104,11 +105,11 @@ class RunProcess:
     def _read(self, stream: str, text: str) -> None:
         *lines, self._rest[stream] = f"{self._rest[stream]}{text}".split("\n")
         for line in lines:
-            self._tell(self._heard, stream, line)
+            self._call_in_loop(self._on_output, stream, line)
 
-    def _tell(self, function: Callable, *words: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # launch is gone already
-            self._loop.call_soon_threadsafe(function, *words)
+    def _call_in_loop(self, function: Callable, *arguments: Any) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed already
+            self._loop.call_soon_threadsafe(function, *arguments)
 
     def _go(self) -> None:
         status = 1
@@ -125,7 +126,7 @@ class RunProcess:
             status = -self._killed
             raise
         finally:
-            self._tell(self._status.set_result, status)
+            self._call_in_loop(self._status.set_result, status)
 
 
 def _program(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:
