@@ -147,7 +147,7 @@ class Exercise:
         *,
         after: Check | tuple[Check, ...] = (),
         only: str | tuple[str, ...] = (),
-        guess: str = "",
+        guess: str | Hints = "",
         lasts: bool = False,
         hints: Hints | None = None,
     ) -> Callable[[Callable[..., Any]], Check]:
@@ -156,7 +156,7 @@ class Exercise:
         points: its weight. after: what must have earned something, in the scenarios where that holds; the
         function is handed what these checks have returned, if it takes more than a recording. only: the
         names of the scenarios in which it holds.
-        guess: what is most likely missing, where a miss has no hint and no diagnosis fits.
+        guess: what is most likely missing, where a miss has no hint and no diagnosis fits; or a table.
         hints: sentences with their causes, for a miss without a hint of its own; see `Hints`.
         lasts: it speaks of all the time, though it builds on no other: time not run is not earned.
         Raises ValueError for a check that can't work, as `new_check` does.

@@ -81,8 +81,8 @@ class Check:
 
     sentence: what the student reads. after: the checks that it builds on: it is skipped when one of them
     earned nothing. only: names of the scenarios in which it holds; empty for all. guess: as in `Missed`, for
-    any miss of this check. lasts: it speaks of all the time, as those do that build on others. hints: a table
-    for a miss that has no hint of its own.
+    any miss of this check; it may be a table. lasts: it speaks of all the time, as those do that build on
+    others. hints: a table for a miss that has no hint of its own.
     """
 
     name: str
@@ -91,7 +91,7 @@ class Check:
     after: tuple[Check, ...]
     function: Callable[..., Any]
     only: tuple[str, ...] = ()
-    guess: str = ""
+    guess: str | Hints = field(default="", compare=False)
     lasts: bool = False
     hints: Hints = field(default_factory=dict, compare=False)
 
@@ -100,16 +100,9 @@ class Check:
         try:
             return self.function(recording, *measured)
         except Missed as missed:
-            missed.hint = missed.hint or self._hint(recording, missed)
+            missed.hint = missed.hint or _first_fitting(self.hints, recording, missed)
+            missed.guess = missed.guess or _first_fitting(self.guess, recording, missed)
             raise
-
-    def _hint(self, recording: Recording, missed: Missed) -> str:
-        """The first row of the table whose cause explains the miss; "" if none does."""
-        for sentence, cause in self.hints.items():
-            found = _takes(cause, recording, *missed.about) and cause(recording, *missed.about)
-            if found:
-                return sentence.format(**found) if isinstance(found, Mapping) else sentence
-        return ""
 
     @property
     def takes_measured(self) -> int:
@@ -121,12 +114,23 @@ class Check:
         return not self.only or scenario in self.only
 
 
+def _first_fitting(table: str | Hints, recording: Recording, missed: Missed) -> str:
+    """Return the first sentence of a table whose cause explains the miss, or ""; a text as it is."""
+    if isinstance(table, str):
+        return table
+    for sentence, cause in table.items():
+        found = _takes(cause, recording, *missed.about) and cause(recording, *missed.about)
+        if found:
+            return sentence.format(**found) if isinstance(found, Mapping) else sentence
+    return ""
+
+
 def new_check(
     function: Callable[..., Any],
     points: float,
     after: Check | tuple[Check, ...] = (),
     only: str | tuple[str, ...] = (),
-    guess: str = "",
+    guess: str | Hints = "",
     lasts: bool = False,
     hints: Hints | None = None,
 ) -> Check:

@@ -165,7 +165,7 @@ class _Judging:
             missed.credit * (self.work.share if item.lasts else 1.0),
             missed.expected,
             missed.saw,
-            missed.hint or cause or missed.guess or item.guess,
+            missed.hint or cause or missed.guess,
             missed.picture,
             unsafe=missed.unsafe,
             typo=missed.typo,

@@ -1,9 +1,15 @@
 """The exercises of 02_topics, from a publisher in one line to a robot that drives a square."""
 
-from grader.exercises.topics.driving import remapping, square
-from grader.exercises.topics.listening import chatters, commands
-from grader.exercises.topics.partners import Chatterbox, CommandSender, OneMetre
-from grader.exercises.topics.publishing import greeting, imu, temperature
+from grader.companions.chatterbox import Chatterbox
+from grader.companions.command_sender import CommandSender
+from grader.companions.one_metre import OneMetre
+from grader.exercises.topics.chatters import chatters
+from grader.exercises.topics.commands import commands
+from grader.exercises.topics.greeting import greeting
+from grader.exercises.topics.imu import imu
+from grader.exercises.topics.remapping import remapping
+from grader.exercises.topics.square import square
+from grader.exercises.topics.temperature import temperature
 
 __all__ = [
     "Chatterbox",

@@ -20,12 +20,12 @@ def called_weather(run: Recording) -> None:
 
 
 @weather.check(3, lasts=True)
-def tells_the_weather(run: Recording) -> list[LogMatch]:
+def logs_the_weather(run: Recording) -> list[LogMatch]:
     """A line like “12 C = 53.6 F, mild” comes every second."""
     return come_every(run, logs(run, LINE, example="12 C = 53.6 F, mild"), 1.0, credit=0.25)
 
 
-@weather.check(3, after=tells_the_weather)
+@weather.check(3, after=logs_the_weather)
 def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
     """The readings come in their order, and after the last one the first again."""
     found = [round(_celsius(line)) for line in lines]
@@ -36,7 +36,7 @@ def takes_readings_in_turn(run: Recording, lines: list[LogMatch]) -> None:
         raise Missed(listed(wanted), listed(found), hint, credit=0.5 * first_round)
 
 
-@weather.check(4, after=tells_the_weather)
+@weather.check(4, after=logs_the_weather)
 def converts(run: Recording, lines: list[LogMatch]) -> None:
     """The degrees Fahrenheit are right, to one decimal."""
     wrong = [line for line in lines if abs(float(line.groups[1]) - _fahrenheit(line)) >= 0.051]
@@ -46,7 +46,7 @@ def converts(run: Recording, lines: list[LogMatch]) -> None:
         raise Missed(expected, f"“{wrong[0].text}”", hint, credit=1 - len(wrong) / len(lines))
 
 
-@weather.check(4, after=tells_the_weather)
+@weather.check(4, after=logs_the_weather)
 def describes(run: Recording, lines: list[LogMatch]) -> None:
     """The words are right: frost below 0 °C, hot from 30 °C on, else mild."""
     wrong = [line for line in lines if line.groups[2].lower() != _word(line)]
@@ -56,7 +56,7 @@ def describes(run: Recording, lines: list[LogMatch]) -> None:
         raise Missed(expected, f"“{wrong[0].text}”", hint, credit=1 - len(wrong) / len(lines))
 
 
-@weather.check(4, after=tells_the_weather)
+@weather.check(4, after=logs_the_weather)
 def warns_of_frost_and_heat(run: Recording, lines: list[LogMatch]) -> None:
     """Frost and hot are warnings, mild is information."""
     wrong = [line for line in lines if line.level != _level(line)]

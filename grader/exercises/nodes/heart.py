@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from grader.checks import LogMatch, Missed, come_every, logs
 from grader.exercise import Exercise
+from grader.responses import EDGE
 from sim.evidence import Recording
 
 heart = Exercise("heart", "A heart with two timers", seconds=5)
@@ -38,11 +39,11 @@ def reports(run: Recording) -> list[LogMatch]:
 @heart.check(6, after=(beats, reports))
 def reports_all_beats(run: Recording, beats: list[LogMatch], reports: list[LogMatch]) -> None:
     """Each report says how many beats there have been since the start."""
-    moments = [beat.stamp for beat in beats]
+    stamps = [beat.stamp for beat in beats]
     for report in reports:
         # At the same moment, either of the two timers may come first.
-        most = sum(moment <= report.stamp for moment in moments)
-        fewest = sum(moment < report.stamp - 1e-6 for moment in moments)
+        most = sum(stamp <= report.stamp for stamp in stamps)
+        fewest = sum(stamp < report.stamp - EDGE for stamp in stamps)
         if not fewest <= int(report.groups[0]) <= most:
             hint = "One callback counts, the other reads: they share one value in self."
             raise Missed(f"“Beats: {most}” at {report.stamp:.3g} s", f"“{report.text}”", hint)

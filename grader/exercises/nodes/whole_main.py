@@ -1,12 +1,12 @@
-"""A whole main(): it starts ROS, spins a node, and cleans up when somebody presses Ctrl-C."""
+"""A whole main(): it starts ROS, spins a node, and cleans up on Ctrl-C."""
 
 from __future__ import annotations
 
 import re
 
 from grader.checks import Missed, hinting, logs
+from grader.companions.main_observer import Trace, observed, trace_of
 from grader.exercise import Exercise, Scenario
-from grader.exercises.nodes.after_main import Trace, observed, trace_of
 from sim.evidence import Recording, Seconds
 
 whole_main = Exercise(

@@ -1,4 +1,4 @@
-"""A run of a student's main() with a look at what it leaves behind."""
+"""Observes what a student's main() leaves behind when it returns."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Trace(NamedTuple):
 
 
 def trace_of(recording: Recording) -> Trace | None:
-    """What main() left behind; None when it never came to its end."""
+    """Return what main() left behind; None if it never returned."""
     for line in recording.logs:
         if line.node == OBSERVER:
             words = dict(part.split("=") for part in line.text.split(" "))
@@ -31,25 +31,25 @@ def trace_of(recording: Recording) -> Trace | None:
 
 
 def observed(main: Any) -> Any:
-    """The same main(), which then logs how it ended; `trace_of` reads it. Anything else stays as it is."""
+    """Return a main() that afterwards logs how it ended, for `trace_of`. Other programs stay as they are."""
     if isinstance(main, type) or not callable(main):
         return main
 
     @functools.wraps(main)
-    def main_and_look(**arguments: Any) -> Any:
+    def main_and_report(**arguments: Any) -> Any:
         try:
             result = main(**arguments)
         except (Exception, KeyboardInterrupt) as error:
-            _look(type(error).__name__)
+            _report(type(error).__name__)
             raise
         if not isinstance(result, Node):
-            _look("")
+            _report("")
         return result
 
-    return main_and_look
+    return main_and_report
 
 
-def _look(raised: str) -> None:
+def _report(raised: str) -> None:
     still_up = rclpy.ok()
     if not still_up:
         rclpy.init()

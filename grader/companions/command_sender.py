@@ -1,0 +1,33 @@
+"""Publishes commands for a robot, and words that only look like one."""
+
+from __future__ import annotations
+
+import random
+
+from rclpy.node import Node
+from std_msgs.msg import String
+
+COMMANDS = ("stand", "walk", "stop")
+# The first hold a command inside another word: searching for its letters finds it there.
+LOOKALIKES = ("moonwalk", "standby", "nonstop", "sidewalk")
+OTHER_WORDS = ("dance", "jump", "sing", "swim", "sleep", "climb", "hide")
+
+
+class CommandSender(Node):
+    """Sends words (String) on /robot/command, one a second.
+
+    They are each of the three commands twice, and three other words. Order and words come from the seed of
+    the run.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("command_sender")
+        self.publisher = self.create_publisher(String, "/robot/command", 10)
+        self.words = [*COMMANDS, *COMMANDS, random.choice(LOOKALIKES), *random.sample(OTHER_WORDS, 2)]
+        random.shuffle(self.words)
+        self.create_timer(1.0, self.send)
+
+    def send(self) -> None:
+        """Send the next word, as long as there is one."""
+        if self.words:
+            self.publisher.publish(String(data=self.words.pop()))

@@ -1,0 +1,31 @@
+"""A node written for another robot, which students connect to ours."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+
+
+class OneMetre(Node):
+    """Drives one metre straight on: Twist on `velocity` until Odometry on `pose` says that it's there.
+
+    It was written for another robot, where the topics have these names.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("one_metre")
+        self.x = 0.0  # metres, frame odom
+        self.publisher = self.create_publisher(Twist, "velocity", 10)
+        self.create_subscription(Odometry, "pose", self.on_pose, 10)
+        self.create_timer(0.1, self.drive)
+
+    def on_pose(self, msg: Odometry) -> None:
+        """Remember how far the robot has come."""
+        self.x = msg.pose.pose.position.x
+
+    def drive(self) -> None:
+        """Forward, until the metre is done."""
+        msg = Twist()
+        msg.linear.x = 0.3 if self.x < 0.97 else 0.0
+        self.publisher.publish(msg)

@@ -1,0 +1,105 @@
+"""Three topics with one callback."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, subscribes
+from grader.companions.chatterbox import Chatterbox
+from grader.exercise import Exercise
+from grader.responses import Window
+from sim.evidence import LogLine, Message, Recording
+
+CHATTERS = {
+    "/chatter0": "std_msgs/msg/String",
+    "/chatter1": "std_msgs/msg/Float64",
+    "/chatter2": "std_msgs/msg/Bool",
+}
+WITHIN = 0.25  # s from a message to its log line; the next message comes later
+DETAILS = "details of the message's way where its topic should be"
+
+chatters = Exercise(
+    "chatters", "Three topics, one callback", seconds=10, companions=[Chatterbox], seeds=(1, 2)
+)
+
+
+@chatters.check(4, guess="Make one subscription for each topic, in a loop or one by one.")
+def listens_to_all_three(run: Recording) -> None:
+    """The node listens to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
+    for found, (topic, kind) in enumerate(CHATTERS.items()):
+        try:
+            subscribes(run, topic, kind)
+        except Missed as missed:
+            missed.credit = found / len(CHATTERS)
+            raise
+
+
+@chatters.check(
+    8,
+    after=listens_to_all_three,
+    hints={
+        "A callback with two parameters gets such details as the second. "
+        "Give it the topic: partial(self.hear, topic=topic).": lambda run, row: _has_details(run, row),
+        "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
+        "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial.": (
+            lambda run, row: row.topic != "/chatter2" and _is_logged(run, row, "/chatter2")
+        ),
+        "Nothing is logged at all. Debug lines are hidden: use self.get_logger().info(...).": (
+            lambda run, row: not run.logs
+        ),
+        "False is a value like any other, but `if msg.data:` lets only True pass: "
+        "log each message, whatever it says.": (
+            lambda run, row: _ignores_false(run, row)
+        ),
+    },
+    guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").',
+)
+def knows_the_topic(run: Recording) -> None:
+    """Each message is logged at info level as `chatter0: word`: its topic, a colon, a space and its value."""
+    missing = [row for topic in CHATTERS if (row := _first_not_logged(run, topic))]
+    if missing:
+        first, right = min(missing, key=lambda row: row.stamp), len(CHATTERS) - len(missing)
+        expected = f"“{_line(first, first.topic)}” at level INFO after the message at {first.stamp:.3g} s"
+        lines = ", ".join(f"“{line.text}” ({line.level})" for line in _lines_after(run, first))
+        saw = DETAILS if _has_details(run, first) else lines or "no line"
+        credit = right / len(CHATTERS) if right > 1 else 0.0  # a single one may be right by chance
+        raise Missed(expected, saw, credit=credit, about=(first,))
+
+
+@chatters.check(3, after=knows_the_topic)
+def uses_one_callback(run: Recording) -> None:
+    """One callback serves all three topics."""
+    nodes = {end.node for topic in CHATTERS for end in run.graph.subscriptions(topic)}
+    names = {ran.callback for ran in run.callbacks if ran.kind == "subscription" and ran.node in nodes}
+    if len(names) > 1:
+        raise Missed(
+            "one callback for the three topics",
+            ", ".join(sorted(names)),
+            "Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the topic "
+            "with a lambda or functools.partial.",
+        )
+
+
+def _first_not_logged(run: Recording, topic: str) -> Message | None:
+    return next((row for row in run.messages(topic) if not _is_logged(run, row, topic)), None)
+
+
+def _is_logged(run: Recording, row: Message, topic: str) -> bool:
+    wanted = _line(row, topic).lower()
+    return any(line.level == "INFO" and wanted in line.text.lower() for line in _lines_after(run, row))
+
+
+def _line(row: Message, topic: str) -> str:
+    return f"{topic.lstrip('/')}: {row.message.data}"
+
+
+def _lines_after(run: Recording, row: Message) -> list[LogLine]:
+    return Window.after(row.stamp, WITHIN).rows(run.logs)
+
+
+def _ignores_false(run: Recording, row: Message) -> bool:
+    is_received = run.graph.subscriptions(row.topic)
+    return bool(is_received) and row.message.data is False and not _lines_after(run, row)
+
+
+def _has_details(run: Recording, row: Message) -> bool:
+    """Whether the message info of rclpy is logged, which a callback's second parameter is given."""
+    return any("source_timestamp" in line.text for line in _lines_after(run, row))

@@ -1,0 +1,95 @@
+"""A robot that obeys commands, and reports each with its own log line."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from grader.checks import Missed, answers, subscribes
+from grader.companions.command_sender import COMMANDS, CommandSender
+from grader.exercise import Exercise
+from grader.responses import Window
+from sim.evidence import LogLine, Message, Recording
+
+COMMAND = "/robot/command"
+DOING = dict(zip(COMMANDS, ("standing", "walking", "stopping"), strict=True))
+WITHIN = 0.25  # s from a message to its log line; the next message comes later
+PRINTED = "What is printed is not logged: use self.get_logger() instead of print(...)."
+
+commands = Exercise("commands", "A robot that listens", seconds=10, companions=[CommandSender], seeds=(1, 2))
+
+
+@commands.check(3)
+def listens_to_commands(run: Recording) -> None:
+    """The node listens to String messages on /robot/command."""
+    subscribes(run, COMMAND, "std_msgs/msg/String")
+
+
+@commands.check(
+    6,
+    after=listens_to_commands,
+    guess={
+        PRINTED: lambda run: run.prints,
+        "The word is in msg.data. Compare it with ==, and log with self.get_logger().info(...).": (
+            lambda run: True
+        ),
+    },
+)
+def obeys(run: Recording) -> None:
+    """`stand`, `walk` and `stop` are answered at info level with standing, walking or stopping."""
+    _are_answered(run, lambda row: DOING[row.message.data], "INFO", where=_is_command)
+    sent = list(filter(_is_command, run.messages(COMMAND)))
+    wrong = [(row, line) for row in sent if (line := _first_contradiction(run, row, "INFO"))]
+    if len(wrong) > len(sent) / 2:
+        row, line = wrong[0]
+        raise Missed(
+            f"only “{DOING[row.message.data]}” after “{row.message.data}”",
+            f"“{line.text[:60]}” at {row.stamp:.3g} s",
+            "To say everything is to answer nothing. With if, elif, else exactly one branch runs.",
+        )
+
+
+@commands.check(
+    4,
+    after=listens_to_commands,
+    guess={
+        PRINTED: lambda run: run.prints,
+        "In an else: self.get_logger().warning(...), with the word msg.data in the text.": lambda run: True,
+    },
+)
+def warns(run: Recording) -> None:
+    """Any other word is answered with a warning that names the word."""
+    _are_answered(run, lambda row: row.message.data, "WARN", where=lambda row: not _is_command(row))
+
+
+@commands.check(2, after=obeys)
+def says_nothing_else(run: Recording) -> None:
+    """A word is answered by its own answer and by no other."""
+    for row in run.messages(COMMAND):
+        if line := _first_contradiction(run, row):
+            answer = f"“{DOING[row.message.data]}”" if _is_command(row) else "a warning"
+            raise Missed(
+                f"only {answer} after “{row.message.data}”",
+                f"“{line.text}” ({line.level}) at {line.stamp:.3g} s",
+                "Compare whole words with ==, and use if, elif, else: then exactly one branch runs.",
+            )
+
+
+def _are_answered(run: Recording, pattern: Any, level: str, where: Any) -> None:
+    answers(run, COMMAND, pattern, level=level, within=WITHIN, where=where)
+
+
+def _is_command(row: Message) -> bool:
+    return row.message.data in COMMANDS
+
+
+def _first_contradiction(run: Recording, row: Message, level: str = "") -> LogLine | None:
+    """The first line in response to a message, at a level, that another message should have had."""
+    lines = Window.after(row.stamp, WITHIN).rows(run.logs)
+    wrong = (line for line in lines if level in ("", line.level) and _contradicts(line, row.message.data))
+    return next(wrong, None)
+
+
+def _contradicts(line: LogLine, word: str) -> bool:
+    if line.level != "INFO":
+        return word in COMMANDS
+    return any(doing in line.text.lower() for command, doing in DOING.items() if command != word)

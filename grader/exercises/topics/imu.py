@@ -1,0 +1,83 @@
+"""An IMU: rate, header, acceleration and orientation."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks import Missed, publishes, rate, within
+from grader.checks.fields import stamp_words
+from grader.exercise import Exercise
+from sim.evidence import Message, Recording, since_start
+
+imu = Exercise("imu", "An IMU", seconds=3, extra_allowed=True)
+IMU = "/imu/data"
+LEFT = math.sqrt(0.5)  # z and w of the quaternion that says so
+
+
+@imu.check(3)
+def imu_is_published(run: Recording) -> list[Message]:
+    """The node publishes Imu messages on /imu/data."""
+    return publishes(run, IMU, "sensor_msgs/msg/Imu")
+
+
+@imu.check(4, after=imu_is_published)
+def imu_at_100_hz(run: Recording) -> None:
+    """They come at 100 Hz."""
+    rate(run, IMU, 100.0, tolerance=0.05)
+
+
+@imu.check(2, after=imu_is_published)
+def imu_names_its_frame(run: Recording, sent: list[Message]) -> None:
+    """The header's frame_id is imu_link."""
+    for row in sent:
+        frame = row.message.header.frame_id
+        if frame != "imu_link":
+            hint = 'Set it before publish(): msg.header.frame_id = "imu_link".'
+            if frame == "/imu_link":
+                hint = "A frame's name has no slash in front."
+            saw = f"“{frame}” at {row.stamp:.3g} s"
+            raise Missed("header.frame_id “imu_link” in every message", saw, hint)
+
+
+@imu.check(3, after=imu_is_published)
+def imu_is_stamped(run: Recording, sent: list[Message]) -> None:
+    """The header's stamp is the time at which the message is sent."""
+    for row in sent:
+        stamp = row.message.header.stamp
+        if abs(since_start(stamp) - row.stamp) > 0.02:
+            raise Missed(
+                f"a stamp of {row.stamp:.3f} s after the start in the message sent then",
+                stamp_words(stamp),
+                "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg().",
+            )
+
+
+@imu.check(2, after=imu_is_published, guess="msg.linear_acceleration.z = 9.81; upwards is positive.")
+def imu_feels_gravity(run: Recording) -> None:
+    """The acceleration along z is 9.81 m/s²."""
+    within(run, IMU, "linear_acceleration.z", 9.71, 9.91, unit="m/s²")
+
+
+@imu.check(3, after=imu_is_published)
+def imu_looks_left(run: Recording, sent: list[Message]) -> None:
+    """The orientation is a unit quaternion that says: turned 90 degrees to the left."""
+    for row in sent:
+        q = row.message.orientation
+        length = math.hypot(q.x, q.y, q.z, q.w)
+        if not abs(length - 1.0) < 0.01:
+            raise Missed(
+                "a quaternion of length 1",
+                f"length {length:.3g} at {row.stamp:.3g} s: {_text(q)}",
+                "A quaternion holds no angles: z = math.sin(yaw / 2), w = math.cos(yaw / 2), x = y = 0.",
+            )
+        if abs(q.z * LEFT + q.w * LEFT) < 0.999:  # 1 for the same rotation, with either sign
+            raise Missed(
+                f"the quaternion {_text(type(q)(z=LEFT, w=LEFT))}",
+                f"{_text(q)} at {row.stamp:.3g} s",
+                "yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in radians.",
+                credit=1 / 3,
+            )
+
+
+def _text(quaternion: object) -> str:
+    return ", ".join(f"{name} {getattr(quaternion, name):.3g}" for name in "xyzw")

@@ -1,0 +1,45 @@
+"""A thermometer: a timer, a message, a number in a range."""
+
+from __future__ import annotations
+
+import itertools
+
+from grader.checks import Missed, publishes, rate, within
+from grader.exercise import Exercise
+from sim.evidence import Message, Recording
+
+temperature = Exercise("temperature", "A thermometer", seconds=10)
+TEMPERATURE = "/sensor/temperature"
+
+
+@temperature.check(5)
+def temperature_is_published(run: Recording) -> list[Message]:
+    """The node publishes Float32 messages on /sensor/temperature."""
+    return publishes(run, TEMPERATURE, "std_msgs/msg/Float32")
+
+
+@temperature.check(4, after=temperature_is_published)
+def temperature_once_a_second(run: Recording) -> None:
+    """A temperature comes once a second."""
+    rate(run, TEMPERATURE, 1.0)
+
+
+@temperature.check(
+    4, after=temperature_is_published, guess="random.uniform(20.0, 25.0) gives a number in this range."
+)
+def temperature_in_range(run: Recording) -> list[float]:
+    """Every temperature is from 20 to 25 °C."""
+    return within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
+
+
+@temperature.check(2, after=(temperature_is_published, temperature_in_range))
+def temperature_changes(run: Recording, sent: list[Message], _: list[float]) -> None:
+    """The temperature changes from message to message."""
+    values = [row.message.data for row in sent]
+    same = sum(before == after for before, after in itertools.pairwise(values))
+    if len(values) < 2 or same > len(values) / 2:
+        raise Missed(
+            "a new temperature in each message",
+            f"only {values[0]:.4g} °C" if len(set(values)) == 1 else f"{same} times the same as before",
+            "Ask for a new number in the timer's callback: random.uniform(20.0, 25.0) gives one.",
+        )
