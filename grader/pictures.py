@@ -12,7 +12,7 @@ from grader.checks.judge import Verdict
 from sim.evidence import Recording
 from sim.evidence.connections import missing
 
-WORDS = 4_000  # characters that tell of a graph
+CHARACTERS = 4_000  # of a graph's description
 
 
 def draw(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> list[tuple[str, Any]]:
@@ -63,6 +63,6 @@ def _folded_graph(recording: Recording) -> str:
     picture = base64.b64encode(small_png(figure)).decode()
     return (
         "<details><summary>The graph of this run: what is missing is red</summary>"
-        f'<img src="data:image/png;base64,{picture}" alt="{html.escape(figure.words[:WORDS])}"'
+        f'<img src="data:image/png;base64,{picture}" alt="{html.escape(figure.description[:CHARACTERS])}"'
         ' style="max-width: 100%"></details>'
     )

@@ -37,7 +37,9 @@ def play(
     pace = Pace(speed)
     player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play", network=network), pace)
     if in_notebook():
-        from sim.view.live import LiveView  # imported here because it is slow, and scripts don't need Jupyter
+        from sim.view.live_view import (
+            LiveView,  # imported here because it is slow, and scripts don't need Jupyter
+        )
 
         view = LiveView(player.recording.world)
         view.show()

@@ -24,13 +24,13 @@ class Connections:
         with self._lock:
             seen = [self._nodes(), self._ends()]
             if seen != self._seen:
-                recording = Recording(from_course=self._ours)
+                recording = Recording(course_nodes=self._course_nodes)
                 recording.graph.nodes, recording.graph.endpoints = seen
                 self._seen, self._drawn = seen, graph_data(recording, counted=False) or {}
             return self._drawn
 
     @property
-    def _ours(self) -> set[str]:
+    def _course_nodes(self) -> set[str]:
         return {node.get_fully_qualified_name() for node in self._run.nodes}
 
     def _nodes(self) -> list[str]:
@@ -38,9 +38,9 @@ class Connections:
         return sorted(f"{space.rstrip('/')}/{name}" for name, space in found)
 
     def _ends(self) -> list[Endpoint]:
-        from_course = self._ours
+        course_nodes = self._course_nodes
         shown = [
-            end._replace(from_course=end.node in from_course)
+            end._replace(from_course=end.node in course_nodes)
             for end in ends_seen_by(self._run.nodes[0])
             if end.name not in INFRASTRUCTURE_TOPICS and not is_node_service(end.name)
             if not is_hidden(end.name) and not is_hidden(end.node)

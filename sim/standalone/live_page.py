@@ -8,9 +8,9 @@ from typing import Any
 
 from sim.standalone.connections import Connections
 from sim.standalone.server import PageServer
-from sim.view.drawing import live
-from sim.view.geometry import world_data
-from sim.view.live import packed
+from sim.view.live_view import pack_frame
+from sim.view.strokes import visible_strokes
+from sim.view.world_data import world_data
 
 FRAME = 1 / 30  # s
 FRAMES_PER_STATUS = 8
@@ -42,7 +42,7 @@ class LivePage:
         """How it goes; turtles come with topics of their own, and draw."""
         run = self._run
         topics = [{"name": name, "type": kind, "rate": 0} for name, kind in (run.takes | run.gives).items()]
-        drawn = {} if run.scene.drawing is None else {"drawn": live(run.scene.drawing)}
+        drawn = {} if run.scene.drawing is None else {"drawn": visible_strokes(run.scene.drawing)}
         return {"speed": 1, "pace": 1, "topics": topics, **drawn}
 
     def _show(self) -> None:
@@ -50,7 +50,7 @@ class LivePage:
         if scene.drawing is not None and self._frames % FRAMES_PER_STATUS == 0:
             self._server.tell(self._status())
         self._frames += 1
-        self._server.show(packed(scene.time, scene.poses, scene.last_scan))
+        self._server.show(pack_frame(scene.time, scene.poses, scene.last_scan))
 
 
 def served(ports: Sequence[int], *what: Any) -> PageServer:

@@ -11,8 +11,8 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from typing import Any
 
-from sim.view.live import checked
-from sim.view.scripts import script
+from sim.view.javascript import script
+from sim.view.live_view import parse_command
 
 ADDRESS = "127.0.0.1"  # nobody else's machine
 MOST_VIEWERS = 8
@@ -130,7 +130,7 @@ class _Handler(BaseHTTPRequestHandler):
     def drive(self, body: bytes) -> None:
         """Pass on a command, if it is one."""
         try:
-            command = checked(json.loads(body))
+            command = parse_command(json.loads(body))
         except (ValueError, RecursionError):
             command = None
         if command is None or "drive" not in command:

@@ -1,4 +1,4 @@
-"""A moving picture of a run, as an animated PNG: it plays wherever a PNG is shown, sanitised or not."""
+"""A run as an animated PNG, which plays in every page that shows PNGs, even a sanitised one."""
 
 from __future__ import annotations
 
@@ -10,39 +10,39 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from sim.evidence import Pose, Recording
-from sim.view.drawing import hexadecimal
+from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, index_at
 from sim.view.figure import KINDS, PATH, TURTLES
-from sim.view.geometry import GAP, body_tracks, index_at
-from sim.view.scene import scene, ways
+from sim.view.path_plot import moving_tracks, world_figure
+from sim.view.strokes import hexadecimal
 from sim.world import Body
 from sim.world.obstacles import placed
 
-SMOOTH = 2  # frames are drawn so many times larger, then scaled down
+SMOOTH = 2  # antialiasing: frames are drawn larger by this factor, then scaled down
 COLOURS = 32
-SAMPLES = 6  # frames that are asked for their colours, where things come and go
+SAMPLES = 6  # frames from which the palette is made if the drawing changes
 
 
 class MovingPicture:
-    """An animated PNG that is drawn when somebody wants to see it: Jupyter, or `bytes(picture)`."""
+    """An animated PNG, rendered on demand: by Jupyter, or with `bytes(picture)`."""
 
     def __init__(self, recording: Recording, speed: float, frames_per_second: int) -> None:
         self._recording, self._speed, self._rate = recording, speed, frames_per_second
 
     def __repr__(self) -> str:
-        return f"<MovingPicture of {self._recording.stamp:g} s>"  # notebooks keep this beside the picture
+        return f"<MovingPicture of {self._recording.stamp:g} s>"  # stored in notebooks next to the picture
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         recording = self._recording
         return bytes(self), {"alt": f"The run in the world {recording.world.name}, {recording.stamp:g} s"}
 
     def __bytes__(self) -> bytes:
-        stage, speed, rate = _Stage(self._recording), self._speed, self._rate
-        count = max(1, math.ceil(stage.end * rate / speed))
-        frames = [stage.frame(min(stage.end, index * speed / rate)) for index in range(count + 1)]
-        whole = frames[-1] if stage.drawing is None else _sheet(frames[:: max(count // SAMPLES, 1)])
+        renderer, speed, rate = _FrameRenderer(self._recording), self._speed, self._rate
+        count = max(1, math.ceil(renderer.end * rate / speed))
+        frames = [renderer.frame(min(renderer.end, index * speed / rate)) for index in range(count + 1)]
+        whole = frames[-1] if renderer.drawing is None else _sheet(frames[:: max(count // SAMPLES, 1)])
         palette = whole.quantize(COLOURS, dither=Image.Dither.NONE)
         small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
-        durations = [1000 // rate] * count + [1500]  # ms; the last frame stays for a while
+        durations = [1000 // rate] * count + [1500]  # ms; the last frame is shown longer
         more = {"append_images": small[1:], "duration": durations, "loop": 0}
         buffer = io.BytesIO()
         small[0].save(buffer, "PNG", save_all=True, optimize=True, **more)
@@ -50,19 +50,19 @@ class MovingPicture:
 
 
 def animate(recording: Recording, *, speed: float = 2.0, frames_per_second: int = 8) -> MovingPicture:
-    """What moved in a run, and the robots' ways.
+    """An animation of a run's bodies and the robots' paths.
 
-    speed: simulated seconds per second of the picture. frames_per_second: of the picture.
+    speed: simulated seconds per second of the animation. frames_per_second: of the animation.
     Raises ValueError for a run in which nothing moves, and for a speed or rate that isn't above 0.
     """
     if not (speed > 0 and frames_per_second > 0):
         raise ValueError("speed and frames_per_second must be above 0")
-    ways(recording)
+    moving_tracks(recording)
     return MovingPicture(recording, speed, frames_per_second)
 
 
 def _sheet(frames: Sequence[Image.Image]) -> Image.Image:
-    """The frames one below the other."""
+    """One image with all frames, one below the other."""
     width, height = frames[0].size
     sheet = Image.new("RGB", (width, height * len(frames)))
     for index, frame in enumerate(frames):
@@ -70,11 +70,11 @@ def _sheet(frames: Sequence[Image.Image]) -> Image.Image:
     return sheet
 
 
-class _Stage:
-    """The world drawn once by matplotlib; only bodies, trails and clock are drawn again for each frame."""
+class _FrameRenderer:
+    """Draws the world once with matplotlib, and bodies, trails and clock for each frame."""
 
     def __init__(self, recording: Recording) -> None:
-        figure, self.axes = scene(recording)
+        figure, self.axes = world_figure(recording)
         figure.set_dpi(figure.dpi * SMOOTH * 0.75)
         figure.canvas.draw()
         self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
@@ -89,7 +89,7 @@ class _Stage:
         return [(float(x), height - float(y)) for x, y in self.axes.transData.transform(points)]
 
     def frame(self, stamp: float) -> Image.Image:
-        """The picture at a moment of simulated time, in seconds."""
+        """The picture at a simulated time, in seconds."""
         image = self.background.copy()
         draw = ImageDraw.Draw(image)
         for stroke, points in self.drawing.at(stamp) if self.drawing is not None else ():
@@ -97,7 +97,7 @@ class _Stage:
             draw.line(self._pixels(points), fill=hexadecimal(stroke.colour), width=width)
         for body, track, trail in zip(self.bodies, self.tracks, self.trails, strict=True):
             index = index_at(track, stamp)
-            if abs(track[index].stamp - stamp) > GAP and body.kind == "turtle":
+            if abs(track[index].stamp - stamp) > MAX_POSE_GAP and body.kind == "turtle":
                 continue
             if index and body.kind == "robot":
                 draw.line(trail[: index + 1], fill=PATH, width=2 * SMOOTH)

@@ -1,4 +1,4 @@
-"""Figures that stand on their own: none touches matplotlib's global state, which belongs to the student."""
+"""Base class and helpers of all plots. They don't use matplotlib's global state, which is the student's."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
-ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and others
+ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and further ones
 KINDS = {"box": "#d9b991", "person": "#f08a5d", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
-TURTLES = ("#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8")  # on the colour of a pond
-STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ by more than their colour
+TURTLES = ("#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8")  # on a pond's background
+STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ in more than colour
 GRID = "#e6e9ec"
 DPI = 100
 COLOURS = 48  # of a small picture
 
 
 class Plot(Figure):
-    """A figure that Jupyter shows without pyplot, with words for those who can't see it."""
+    """A figure that Jupyter displays without pyplot, with a description as alt text."""
 
     @property
-    def words(self) -> str:
-        """What it shows: its title, its axes, and what its legend or its rows name."""
+    def description(self) -> str:
+        """The title, the axes, and the entries of the legend or the rows."""
         (axes,) = self.axes
         _, named = axes.get_legend_handles_labels()
         rows = [label.get_text().replace("\n", " ") for label in axes.get_yticklabels()]
@@ -35,7 +35,7 @@ class Plot(Figure):
         return f"Plot: {'; '.join(filter(None, (*parts, ', '.join(named))))}"
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
-        return png(self), {"alt": self.words}
+        return png(self), {"alt": self.description}
 
 
 P = TypeVar("P", bound=Plot)
@@ -49,20 +49,20 @@ def plot(width: float, height: float, kind: type[P] = Plot) -> tuple[P, Axes]:
 
 
 def legend_beside(axes: Axes) -> None:
-    """Name what is drawn, to the right of the axes."""
+    """Add a legend to the right of the axes."""
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
 def png(figure: Figure) -> bytes:
     """The figure as a PNG; equal figures give equal bytes."""
     buffer = io.BytesIO()
-    # savefig gives the same, and draws it once more before, to learn what it learns as it draws.
+    # savefig gives the same result, but draws the figure an additional time.
     FigureCanvasAgg(figure).print_png(buffer, metadata={"Software": None})
     return buffer.getvalue()
 
 
 def small_png(figure: Plot) -> bytes:
-    """The figure as a PNG of few colours: a quarter of its size."""
+    """The figure as a PNG with few colours, a quarter of the size."""
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     buffer = io.BytesIO()

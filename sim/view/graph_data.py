@@ -1,4 +1,4 @@
-"""A graph as plain data for the pages that draw it; `checkGraph` in web/checks.js reads it."""
+"""A graph as plain data for the pages that draw it; `checkGraph` in web/checks.js parses it."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ from collections.abc import Iterable
 from typing import Any
 
 from sim.evidence import Recording
-from sim.view.arranged import arranged
-from sim.view.wiring import wiring
+from sim.view.graph_diagram import graph_diagram
+from sim.view.graph_layout import lay_out
 
-PIXELS = 108  # in an inch: then letters are 12 pixels high
-WIDEST = 5.0  # inches: a page beside a notebook is narrow
+PIXELS = 108  # per inch, so that letters are 12 pixels high
+MAX_WIDTH = 5.0  # inches: a panel beside a notebook is narrow
 MARGIN = 8  # pixels
-CHARACTERS = 20_000  # in words
+CHARACTERS = 20_000  # of the description
 
 
 def graph_data(recording: Recording, *, counted: bool = True) -> dict[str, Any] | None:
-    """What a page draws, in pixels, ready for JSON; None where there is no node.
+    """The layout of a graph in pixels, ready for JSON; None if there is no node.
 
-    counted: as of `wiring`. Without, the page itself writes rates into the boxes of topics.
+    counted: as in `graph_diagram`. If False, the page itself writes rates into the boxes of topics.
     """
-    shown = wiring(recording, counted=counted)
-    if not shown.boxes:
+    diagram = graph_diagram(recording, counted=counted)
+    if not diagram.boxes:
         return None
-    placed = arranged(shown, WIDEST)
+    layout = lay_out(diagram, MAX_WIDTH)
     return {
-        "width": round(placed.width * PIXELS) + 2 * MARGIN,
-        "height": round(placed.height * PIXELS) + 2 * MARGIN,
+        "width": round(layout.width * PIXELS) + 2 * MARGIN,
+        "height": round(layout.height * PIXELS) + 2 * MARGIN,
         "boxes": [
             {
                 "kind": "ours" if box.from_course else box.kind,
@@ -34,7 +34,7 @@ def graph_data(recording: Recording, *, counted: bool = True) -> dict[str, Any] 
                 "name": key[1],
                 "place": _pixels([centre[0] - size[0] / 2, centre[1] - size[1] / 2]) + _sizes(size),
             }
-            for key, (box, centre, size) in zip(shown.boxes, placed.boxes, strict=True)
+            for key, (box, centre, size) in zip(diagram.boxes, layout.boxes, strict=True)
         ],
         "arrows": [
             {
@@ -43,11 +43,11 @@ def graph_data(recording: Recording, *, counted: bool = True) -> dict[str, Any] 
                 "points": _pixels(value for point in points for value in point),
                 "middle": _pixels(middle),
             }
-            for arrow, points, middle in placed.arrows
+            for arrow, points, middle in layout.arrows
         ],
-        "reasons": shown.reasons,
-        "more": shown.left_out,
-        "words": shown.text[:CHARACTERS],
+        "reasons": diagram.reasons,
+        "more": diagram.omitted,
+        "words": diagram.text[:CHARACTERS],
     }
 
 

@@ -1,7 +1,7 @@
-"""A run that is played again in a page: one piece of HTML without any id, address or other file.
+"""The replay of a run as self-contained HTML, without ids, URLs or other files.
 
-It holds the run as inert data and as a picture, and a constant script that makes a player out of them.
-Where scripts don't run, the picture stays; to a page cleaned of scripts, `PLAYER_SCRIPT` can be added.
+It contains the run as inert data, a picture, and a constant script that turns them into a player. Without
+scripts the picture remains; `PLAYER_SCRIPT` can be added again to a page from which scripts were removed.
 """
 
 from __future__ import annotations
@@ -13,27 +13,27 @@ from typing import Any
 
 from sim.evidence import Recording
 from sim.view.figure import Plot, small_png
-from sim.view.packing import pack, run_end
-from sim.view.scene import plot_path
-from sim.view.scripts import script
-from sim.view.timeline import plot_topics
+from sim.view.javascript import script
+from sim.view.path_plot import plot_path
+from sim.view.replay_data import pack, run_end
+from sim.view.timeline_plots import plot_topics
 
 PLAYER_SCRIPT = f'(() => {{\n"use strict";\n{script("replay.js")}\n}})();'
-"""Turns every replay of the page that is not a player yet into one. It holds no data."""
+"""Turns every replay of the page into a player. It contains no data."""
 
 
 class Replay:
-    """A run as a page shows it; see `replay`."""
+    """A replay for Jupyter; see `replay`."""
 
     def __init__(self, recording: Recording, speed: float) -> None:
         self._data = pack(recording, speed)
         self._picture = base64.b64encode(small_png(_still(recording))).decode()
-        self._words = f"Replay of {run_end(recording):g} s"
+        self._title = f"Replay of {run_end(recording):g} s"
 
     @property
     def html(self) -> str:
-        """The piece of HTML, for a page of one's own."""
-        image = f'<img src="data:image/png;base64,{self._picture}" alt="{html.escape(self._words)}">'
+        """The HTML, for use in other pages."""
+        image = f'<img src="data:image/png;base64,{self._picture}" alt="{html.escape(self._title)}">'
         return (
             f'<div class="ros2-replay" data-replay="{self._data}">{image}</div>'
             f"<script>{PLAYER_SCRIPT}</script>"
@@ -46,14 +46,14 @@ class Replay:
         return {"text/html": self.html, "text/plain": repr(self)}
 
     def __repr__(self) -> str:
-        return f"<{self._words}: {len(self.html) / 1024:.0f} KiB>"
+        return f"<{self._title}: {len(self.html) / 1024:.0f} KiB>"
 
 
 def replay(recording: Recording, *, speed: float = 1.0) -> Replay:
-    """The run as a player with a scrub bar; it stays in the notebook and in pages made from it.
+    """The run as a player with a scrub bar; it is stored in the notebook and in pages exported from it.
 
-    speed: simulated seconds per second of playing, to begin with.
-    Without a world there is a timeline of the topics. Raises ValueError for a speed that isn't above 0.
+    speed: initial simulated seconds per second of playback.
+    Without a world it shows a timeline of the topics. Raises ValueError for a speed that isn't above 0.
     """
     if not (speed > 0 and math.isfinite(speed)):
         raise ValueError(f"speed must be a number above 0; it is {speed!r}")

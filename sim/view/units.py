@@ -1,4 +1,4 @@
-"""The units that ROS gives to the fields of its messages; see the comments in the message definitions."""
+"""The units of fields of ROS messages, from the comments in the message definitions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 _LENGTHS = ("ranges", "range_min", "range_max", "range")
 _ANGLES = ("angle_min", "angle_max", "angle_increment")
-# By the message in which a unit is settled, and the field there.
+# By message type and field.
 _UNITS = {
     ("Twist", "linear"): "m/s",
     ("Twist", "angular"): "rad/s",
@@ -37,7 +37,7 @@ _UNITS = {
 
 
 def unit_of(message: Any, field: str) -> str:
-    """The unit of a field such as "twist.twist.linear.x"; "" where ROS leaves it open, as for a joint."""
+    """The unit of a field such as "twist.twist.linear.x"; "" if ROS doesn't define one, as for joints."""
     for part in field.split("."):
         unit = _UNITS.get((type(message).__name__, part))
         if unit:

@@ -14,7 +14,7 @@ CELLS = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
 from sim import World, play
-from sim.view.live import LiveView
+from sim.view.live_view import LiveView
 from tests.bench import avoider
 from tests.bench.view import Bare, cpu, feed
 
@@ -63,9 +63,9 @@ class Bare:
     """Sends what a frame is as Jupyter sends anything: it was made before, and no widget is asked."""
 
     def __init__(self, view) -> None:
-        from sim.view.live import packed
+        from sim.view.live_view import pack_frame
 
-        self._comm, self._frame = view.comm, packed(*frames()[0])
+        self._comm, self._frame = view.comm, pack_frame(*frames()[0])
 
     def frame(self, *_: object) -> None:
         self._comm.send({"method": "custom", "content": {}}, buffers=[self._frame])

@@ -13,7 +13,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 
 from sim import run
-from sim.view import packing, replay
+from sim.view import replay, replay_data
 from tests.browser.pictures import COLOURS, SECONDS, Picture, watch
 from tests.sim.graphs import node
 from tests.students import misfits
@@ -49,7 +49,7 @@ def rammed():
 @pytest.fixture(scope="module")
 def rammed_page(rammed):
     """The replay of it, as HTML, and its data."""
-    data = json.loads(zlib.decompress(base64.b64decode(packing.pack(rammed, 1.0)), -15))
+    data = json.loads(zlib.decompress(base64.b64decode(replay_data.pack(rammed, 1.0)), -15))
     return replay(rammed).html, data
 
 

@@ -68,7 +68,7 @@ class Game:
 
 def game_of(recording: Recording) -> Game:
     """What happened in a run in a warehouse. Raises ValueError for another run."""
-    from sim.view.beside import pack_motion
+    from sim.view.ghost_replay import pack_motion
 
     done = shift(recording)
     took = counted(done)

@@ -15,7 +15,7 @@ from grader.marking.league.contest import Contest
 from grader.marking.league.standings import REFERENCE, Row
 from grader.marking.templates import templates
 from grader.marking.whole_file import write_whole
-from sim.view.beside import player
+from sim.view.ghost_replay import player
 from sim.view.replay import PLAYER_SCRIPT
 
 INDEX = "league.html"

@@ -1,4 +1,4 @@
-// What comes from outside is checked before it is drawn; anything else than expected is a TypeError.
+// Validates data from outside before it is drawn; invalid data throws a TypeError.
 
 const refuse = (wanted) => { throw new TypeError(`${wanted} was expected`); };
 const number = (value, most = 1e6) =>
@@ -17,7 +17,7 @@ const box = ([left, bottom, right, top]) =>
   left < right && bottom < top ? [left, bottom, right, top] : refuse("bounds");
 const disc = ([x, y, radius]) => [x, y, size(radius)];
 
-/** The world as ../geometry.py describes it; throws a TypeError where it is anything else. */
+/** Parses the data of ../world_data.py; throws a TypeError if it is invalid. */
 function checkWorld(world) {
   return {
     name: text(world.name),
@@ -36,7 +36,7 @@ function checkWorld(world) {
 
 const BOXES = ["node", "ours", "topic", "service", "action", "rest"];
 
-/** A graph as ../graph_data.py describes it; throws a TypeError where it is anything else. */
+/** Parses the data of ../graph_data.py; throws a TypeError if it is invalid. */
 function checkGraph(graph) {
   const reasons = list(graph.reasons, 50, (reason) => text(reason));
   const points = (values) => {

@@ -1,28 +1,28 @@
-// What pens drew: ../drawing.py sends it, as it is now for the live view, and with its times for the replay.
+// Pen strokes of ../strokes.py: the visible ones for the live view, and all with times for the replay.
 
 const MOST_STROKES = 1000, MOST_POINTS = 20000;
 
-const paint = (value) => {
+const colourOf = (value) => {
   if (!Number.isInteger(value) || value < 0 || value > 0xffffff) refuse("a colour");
   return `#${value.toString(16).padStart(6, "0")}`;
 };
 
-/** What can be seen now: a ground's colour, and strokes with colour, width (m) and points. */
+/** Parses the visible strokes: the ground's colour, and strokes with colour, width (m) and points. */
 function checkDrawn({ ground, strokes }) {
   return {
-    ground: paint(ground),
+    ground: colourOf(ground),
     strokes: list(strokes, MOST_STROKES, ([colour, width, points]) => ({
-      colour: paint(colour), width: size(width), points: list(points, MOST_POINTS, numbers(2)),
+      colour: colourOf(colour), width: size(width), points: list(points, MOST_POINTS, numbers(2)),
     })),
   };
 }
 
-/** All that was ever drawn; `shownAt` gives what could be seen at a time (s). */
+/** Parses all strokes; `visibleAt` selects those visible at a time (s). */
 function checkDrawing({ grounds, strokes }) {
   return {
-    grounds: list(grounds, MOST_STROKES, ([stamp, colour]) => ({ stamp: number(stamp, 1e9) * 1e-3, colour: paint(colour) })),
+    grounds: list(grounds, MOST_STROKES, ([stamp, colour]) => ({ stamp: number(stamp, 1e9) * 1e-3, colour: colourOf(colour) })),
     strokes: list(strokes, MOST_STROKES, ([colour, width, erased, points]) => ({
-      colour: paint(colour), width: size(width), erased: erased === null ? Infinity : number(erased, 1e9) * 1e-3,
+      colour: colourOf(colour), width: size(width), erased: erased === null ? Infinity : number(erased, 1e9) * 1e-3,
       points: list(points, MOST_POINTS, (point) => {
         if (!Array.isArray(point) || point.length !== 3) refuse("3 numbers");
         return [number(point[0], 1e9) * 1e-3, number(point[1]), number(point[2])];
@@ -31,12 +31,12 @@ function checkDrawing({ grounds, strokes }) {
   };
 }
 
-function shownAt({ grounds, strokes }, time) {
+function visibleAt({ grounds, strokes }, time) {
   const ground = grounds[Math.max(before(grounds, time, stampOf), 0)];
-  const shown = strokes.filter(({ erased, points }) => points.length && points[0][0] <= time + 1e-6 && time < erased);
+  const visible = strokes.filter(({ erased, points }) => points.length && points[0][0] <= time + 1e-6 && time < erased);
   return {
     ground: ground?.colour,
-    strokes: shown.map(({ colour, width, points }) => ({
+    strokes: visible.map(({ colour, width, points }) => ({
       colour, width, points: points.slice(0, before(points, time, ([stamp]) => stamp) + 1).map(([, x, y]) => [x, y]),
     })),
   };

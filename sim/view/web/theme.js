@@ -1,6 +1,6 @@
-// The colours of pictures on light and on dark pages.
+// The colours of pictures on light and dark pages.
 
-const TURTLES = ["#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8"]; // on the colour of a pond
+const TURTLES = ["#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8"]; // on a pond's background
 const LIGHT = {
   ground: "#f3f5f7", floor: "#ffffff", grid: "rgba(30,50,70,.08)", ink: "#46525f", wall: "#3a4550",
   solid: "#d3dae1", edge: "#74808d", ray: "rgba(236,140,30,.2)", far: "rgba(236,140,30,.075)", hit: "#e06a10",
@@ -16,12 +16,12 @@ const DARK = {
   ghost: "rgba(200,215,230,.28)",
 };
 
-/** Call `act` when the page may have changed its theme, for as long as the element is in it. */
-function onTheme(element, act) {
+/** Call `update` when the page may have changed its theme, while the element is in the page. */
+function onTheme(element, update) {
   const soon = () => {
     if (!element.isConnected) { stop(); return; }
-    act();
-    setTimeout(act, 400); // JupyterLab loads the theme's colours a little later
+    update();
+    setTimeout(update, 400); // JupyterLab loads the theme's colours with a delay
   };
   const watch = new MutationObserver(soon);
   watch.observe(document.documentElement, { attributes: true });
@@ -31,7 +31,7 @@ function onTheme(element, act) {
   const stop = () => { watch.disconnect(); scheme.removeEventListener("change", soon); };
 }
 
-/** The colours for the place of an element: a page that writes in a light colour is dark. */
+/** The colours for an element: a light text colour means a dark page. */
 function colours(element) {
   const [red, green, blue] = (getComputedStyle(element).color.match(/[\d.]+/g) || [0, 0, 0]).map(Number);
   return 0.3 * red + 0.6 * green + 0.1 * blue > 128 ? DARK : LIGHT;

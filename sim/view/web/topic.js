@@ -1,6 +1,6 @@
-// What somebody looks at of one topic: its type, its newest message, and a small plot of its numbers.
+// The details of the selected topic: its type, its newest message, and a small plot of its numbers.
 
-const DASHES = [[], [5, 3]]; // curves differ by more than their colour
+const DASHES = [[], [5, 3]]; // curves differ in more than colour
 
 class Topic {
   constructor() {
@@ -13,7 +13,7 @@ class Topic {
       make("div", {}, this.title, " ", this.type), this.canvas, this.caption, this.message);
   }
 
-  /** Show what ../../ros/play/readings.py tells of a topic; null for none. */
+  /** Show the data of ../../ros/play/readings.py; null hides it. */
   show(topic) {
     this.root.hidden = !topic;
     if (!topic) return;

@@ -14,7 +14,7 @@ from sensor_msgs.msg import LaserScan
 from sim import Recording, World, run
 from sim.evidence import CallbackError, Ended, LogLine, Message, Pose
 from sim.ros.messages.codec import encode
-from sim.view import packing, plot_graph, replay
+from sim.view import plot_graph, replay, replay_data
 from sim.view.replay import PLAYER_SCRIPT
 from sim.world import Contact
 from tests.bench.avoider import Avoider
@@ -49,7 +49,7 @@ def parts(recording, **options):
 
 def unpacked(recording):
     """What the page's script finds in the data."""
-    packed = base64.b64decode(packing.pack(recording, 1.0), validate=True)
+    packed = base64.b64decode(replay_data.pack(recording, 1.0), validate=True)
     return json.loads(zlib.decompress(packed, -15))
 
 
@@ -152,7 +152,7 @@ def test_scans_that_no_page_could_draw_are_left_out_or_cut():
     lost = LaserScan(ranges=[1.0], angle_min=1e30, range_max=1.0)
     scans = [heard(0.0, b"no scan"), heard(0.2, encode(lost)), heard(0.4, encode(far))]
     (kept,) = unpacked(driven([(0, 0), (1, 0)], published=scans))["scans"]
-    assert list(summed(kept["ranges"])) == [packing.FAR / packing.RANGE_UNIT, 0]
+    assert list(summed(kept["ranges"])) == [replay_data.FAR / replay_data.RANGE_UNIT, 0]
 
 
 def test_other_robots_boxes_and_machines_have_tracks(drive):
@@ -183,7 +183,7 @@ def test_marks_say_what_happened_when_in_words():
 
 def test_the_graph_at_the_end_is_there(drive):
     graph = unpacked(drive)["graph"]
-    assert graph["words"] == plot_graph(drive).words
+    assert graph["words"] == plot_graph(drive).description
     assert unpacked(Recording(stamp=1.0))["graph"] is None
 
 
@@ -193,15 +193,15 @@ def test_log_lines_and_topics_are_there():
     assert (data["world"], data["tracks"], data["stamps"]) == (None, [], [])
     assert data["logs"][0] == [1000, "INFO", f"{recording.logs[0].node}: {recording.logs[0].text}", None]
     ((name, told, strip),) = data["topics"]
-    assert (name, told, len(strip), strip.count("1")) == ("/chatter", "1 Hz", packing.COLUMNS, 4)
+    assert (name, told, len(strip), strip.count("1")) == ("/chatter", "1 Hz", replay_data.COLUMNS, 4)
 
 
 def test_marks_lines_and_words_are_bounded():
     errors = [CallbackError(n / 1000, "/a", "A.tick", "E", "x" * 999, "") for n in range(5000)]
     logs = [LogLine(n / 1000, "INFO", "a", "y" * 999) for n in range(5000)]
     data = unpacked(recording(errors=errors, logs=logs))
-    assert (len(data["marks"]), len(data["logs"])) == (packing.MARKS + 1, packing.LOGS)
-    assert max(len(event[2]) for event in data["marks"] + data["logs"]) < packing.CHARACTERS + 20
+    assert (len(data["marks"]), len(data["logs"])) == (replay_data.MARKS + 1, replay_data.LOGS)
+    assert max(len(event[2]) for event in data["marks"] + data["logs"]) < replay_data.CHARACTERS + 20
 
 
 def test_long_words_leave_room_for_few():
@@ -213,12 +213,12 @@ def test_long_words_leave_room_for_few():
     data = unpacked(recording(logs=logs))
     assert 10 < len(data["logs"]) < 60
     assert (data["logs"][0][0], data["logs"][-1][0]) == (0, 29900)
-    assert len(packing.pack(recording(logs=logs), 1.0)) < 20_000
+    assert len(replay_data.pack(recording(logs=logs), 1.0)) < 20_000
 
 
 @pytest.mark.parametrize("many, kept", [(3, [0, 1, 2]), (100, [0, 33, 66, 99])])
 def test_thinning_keeps_first_and_last(many, kept):
-    assert packing.thinned(range(many), 4) == kept
+    assert replay_data.thinned(range(many), 4) == kept
 
 
 @pytest.mark.parametrize("speed", [0, -1.0, math.nan, math.inf])

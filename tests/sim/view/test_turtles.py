@@ -10,9 +10,9 @@ import pytest
 from PIL import Image
 
 from sim import World, run
-from sim.view import animate, packing, plot_path, png
-from sim.view.drawing import POINTS, live, packed
-from sim.view.geometry import stays
+from sim.view import animate, plot_path, png, replay_data
+from sim.view.body_tracks import presence_intervals
+from sim.view.strokes import POINTS, all_strokes, visible_strokes
 from sim.world import PenDrawing, Stroke, simulate
 from tests.students.engine.pond import script
 
@@ -38,7 +38,7 @@ def colours(data, share=0.0005):
 
 
 def unpacked(recording):
-    return json.loads(zlib.decompress(base64.b64decode(packing.pack(recording, 1.0)), -15))
+    return json.loads(zlib.decompress(base64.b64decode(replay_data.pack(recording, 1.0)), -15))
 
 
 def test_a_figure_has_the_pond_what_is_drawn_there_at_last_and_who_is_there(swim):
@@ -46,8 +46,8 @@ def test_a_figure_has_the_pond_what_is_drawn_there_at_last_and_who_is_there(swim
     shown = colours(png(figure))
     assert {"4556ff", "ff0000", "7bc96f"} <= shown
     assert "b3b8ff" not in shown  # erased
-    assert figure.words.endswith("turtle1")
-    assert "turtle2" not in figure.words
+    assert figure.description.endswith("turtle1")
+    assert "turtle2" not in figure.description
 
 
 def test_a_replay_knows_who_is_there_when(swim):
@@ -69,7 +69,7 @@ def test_a_replay_knows_what_was_drawn_and_erased_when(swim):
 
 
 def test_the_live_picture_shows_what_is_there_now(swim):
-    now = live(swim.drawing)
+    now = visible_strokes(swim.drawing)
     assert now["ground"] == BLUE
     assert now["strokes"] == [[0xFF0000, pytest.approx(9 / 45), [[6.552, 5.544], [2.0, 9.0]]]]
 
@@ -89,14 +89,14 @@ def test_a_moving_picture_draws_lines_and_leaves_out_who_has_gone(swim):
 
 
 def test_when_a_body_was_there(swim):
-    assert stays(swim.path) == [(0.0, pytest.approx(2.976))]
-    assert stays(swim.tracks["turtle2"]) == [(pytest.approx(0.528), pytest.approx(1.488))]
+    assert presence_intervals(swim.path) == [(0.0, pytest.approx(2.976))]
+    assert presence_intervals(swim.tracks["turtle2"]) == [(pytest.approx(0.528), pytest.approx(1.488))]
 
 
 def test_long_drawings_are_thinned_and_keep_their_ends():
     points = [(tick * 0.016, tick * 1e-4, 0.0) for tick in range(100_000)]
     drawing = PenDrawing([Stroke("turtle1", RED, 0.1, points)], [(0.0, RED)])
-    (stroke,) = packed(drawing)["strokes"]
+    (stroke,) = all_strokes(drawing)["strokes"]
     assert len(stroke[3]) == POINTS
     assert (stroke[3][0][0], stroke[3][-1][0]) == (0, 1599984)
 

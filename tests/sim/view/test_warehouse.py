@@ -8,7 +8,7 @@ from PIL import Image
 from sim import World, run
 from sim.view import animate, plot_path
 from sim.view.figure import KINDS
-from sim.view.geometry import world_data
+from sim.view.world_data import world_data
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""How evenly messages come: the time between one and the next."""
+"""`plot_jitter`: the intervals between the messages of a topic."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from sim.view.figure import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_be
 def plot_jitter(
     recording: Recording, topic: str, *, period: Seconds | None = None, deadline: Seconds | None = None
 ) -> Plot:
-    """The time from each message of a topic to the next, in milliseconds, over the time of the run.
+    """Plot the intervals between consecutive messages of a topic, in milliseconds, over simulated time.
 
-    period: what it should be, drawn as a line; the mean when left out. deadline: what it must not exceed;
-    gaps above it are red. The title says the rate, the jitter (the standard deviation), and how many
-    deadlines were missed.
-    Raises ValueError for fewer than two messages, and for a period or a deadline that isn't above 0.
+    period: the nominal interval, drawn as a line; the mean if omitted. deadline: the greatest allowed
+    interval; longer ones are red. The title has the rate, the jitter (standard deviation) and the number of
+    missed deadlines. Raises ValueError for fewer than two messages, and for a period or a deadline that isn't
+    above 0.
     """
     moments = stamps(recording.messages(topic))
     if len(moments) < 2:
@@ -29,11 +29,11 @@ def plot_jitter(
     gaps = [(after, 1000 * (after - before)) for before, after in itertools.pairwise(moments)]
     limit = float("inf") if deadline is None else 1000 * deadline + 1e-6
     late = [row for row in gaps if row[1] > limit]
-    should = 1000 * (
+    nominal = 1000 * (
         statistics.fmean(b - a for a, b in itertools.pairwise(moments)) if period is None else period
     )
     figure, axes = plot(7.2, 3.2)
-    axes.axhline(should, color=MUTED, linewidth=1.0, label="mean" if period is None else "period")
+    axes.axhline(nominal, color=MUTED, linewidth=1.0, label="mean" if period is None else "period")
     axes.plot(*zip(*gaps, strict=True), ".", color=PATH, markersize=4, label="time since the last")
     if deadline is not None:
         axes.axhline(1000 * deadline, color=CAUTION, linestyle="--", linewidth=1.0, label="deadline")
@@ -56,7 +56,7 @@ def _title(
     deadline: Seconds | None,
     late: list[tuple[Seconds, float]],
 ) -> str:
-    spread = round(statistics.pstdev(gap for _, gap in gaps), 6)  # no noise of the sums
+    spread = round(statistics.pstdev(gap for _, gap in gaps), 6)  # without rounding noise
     parts = [f"{topic}: {rate(moments):.3g} Hz", f"jitter {spread:.2g} ms"]
     if deadline is not None:
         parts.append(f"{len(late)} {'deadline' if len(late) == 1 else 'deadlines'} missed")

@@ -5,8 +5,8 @@ from itertools import accumulate
 import pytest
 
 from sim import Recording, run
-from sim.view.beside import pack_motion, player, with_ghost
-from sim.view.packing import inflated
+from sim.view.ghost_replay import pack_motion, player, with_ghost
+from sim.view.replay_data import inflated
 from tests.students.engine.drivers import Circler, Driver
 
 

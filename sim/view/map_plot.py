@@ -1,4 +1,4 @@
-"""A map as RViz shows it, with a path, the robot, and the way it drove: metres, in the map's frame."""
+"""`plot_map`: an occupancy grid as in RViz, with a path, the robot and its driven path; metres, map frame."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from sim.evidence import Recording
 from sim.view.figure import CAUTION, PATH, WARNING, Plot, legend_beside, plot
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
-RADIUS = 0.1  # metres; of a robot that is only given as a pose
-# Values 0 to 100 as shades: free, then ever darker from what costs a little to what costs a lot, occupied.
+RADIUS = 0.1  # of the robot's marker, m
+# Values 0 to 100 as colours: free, then darker with higher cost, then occupied.
 _COSTS = np.linspace((0.94, 0.97, 1.0, 1.0), (0.45, 0.62, 0.80, 1.0), 99)
 _SHADES = ListedColormap([UNKNOWN, FREE, *_COSTS, OCCUPIED])
 
 
 def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording | None = None) -> Plot:
-    """A nav_msgs/OccupancyGrid seen from above, without turn of its origin.
+    """Plot a nav_msgs/OccupancyGrid, whose origin must not be rotated.
 
     path: a nav_msgs/Path, or points (x, y).
-    robot: where it is, (x, y, yaw) in metres and radians.
-    drive: a run whose way is drawn too, with the robot where it ends.
+    robot: its pose, (x, y, yaw) in metres and radians.
+    drive: a run whose driven path is drawn too, with the robot at its end.
     Raises ValueError for a map without cells.
     """
     info = grid.info
@@ -40,8 +40,8 @@ def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording
     if path is not None:
         _draw_path(axes, list(_points(path)))
     if drive is not None and drive.path:
-        way = [pose.x for pose in drive.path], [pose.y for pose in drive.path]
-        axes.plot(*way, color=PATH, linewidth=1.6, label="drive")
+        track = [pose.x for pose in drive.path], [pose.y for pose in drive.path]
+        axes.plot(*track, color=PATH, linewidth=1.6, label="drive")
         robot = drive.path[-1][1:4] if robot is None else robot
     if robot is not None:
         _draw_robot(axes, *robot)

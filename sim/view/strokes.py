@@ -1,4 +1,4 @@
-"""What pens drew, as pages and pictures take it: lines with a colour, a width and points in metres."""
+"""Pen strokes for pages and plots: lines with a colour, a width and points in metres."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from sim.world.pen_drawing import Colour
 
 Item = TypeVar("Item")
 
-STROKES, POINTS = 500, 6_000  # of all strokes together, on a page
+STROKES, POINTS = 500, 6_000  # limits for a page; points of all strokes together
 _POINTS_PER_INCH = 72
 
 
-def live(drawing: PenDrawing) -> dict[str, Any]:
-    """What can be seen now, for JSON: `Drawn` in web/drawing.js reads it."""
+def visible_strokes(drawing: PenDrawing) -> dict[str, Any]:
+    """The visible strokes, for JSON: `checkDrawn` in web/drawing.js parses them."""
     strokes = thinned([stroke for stroke in drawing.strokes if stroke.erased is None], STROKES)
     return {
         "ground": number(drawing.ground),
         "strokes": [
             [number(stroke.colour), stroke.width, [[round(x, 3), round(y, 3)] for _, x, y in points]]
-            for stroke, points in _fitting(strokes)
+            for stroke, points in _limited(strokes)
         ],
     }
 
 
-def packed(drawing: PenDrawing) -> dict[str, Any]:
-    """All that was ever drawn, for JSON, with times in whole milliseconds."""
+def all_strokes(drawing: PenDrawing) -> dict[str, Any]:
+    """All strokes, erased ones included, for JSON, with times in whole milliseconds."""
     return {
         "grounds": [
             [round(stamp * 1000), number(colour)] for stamp, colour in thinned(drawing.grounds, STROKES)
@@ -42,20 +42,20 @@ def packed(drawing: PenDrawing) -> dict[str, Any]:
                 None if stroke.erased is None else round(stroke.erased * 1000),
                 [[round(stamp * 1000), round(x, 3), round(y, 3)] for stamp, x, y in points],
             ]
-            for stroke, points in _fitting(thinned(drawing.strokes, STROKES))
+            for stroke, points in _limited(thinned(drawing.strokes, STROKES))
         ],
     }
 
 
-def _fitting(strokes: list[Stroke]) -> list[tuple[Stroke, list[tuple[float, float, float]]]]:
-    """The strokes, each with so many of its points that all together are few enough."""
+def _limited(strokes: list[Stroke]) -> list[tuple[Stroke, list[tuple[float, float, float]]]]:
+    """The strokes, each with fewer points if all together have more than the limit."""
     count = sum(len(stroke.points) for stroke in strokes)
     share = min(1.0, POINTS / max(count, 1))
     return [(stroke, thinned(stroke.points, max(2, int(len(stroke.points) * share)))) for stroke in strokes]
 
 
 def thinned(items: Sequence[Item], most: int) -> list[Item]:
-    """At most so many of the items, evenly spread, with the first and the last."""
+    """At most `most` of the items, evenly spaced, including the first and the last."""
     if len(items) <= most:
         return list(items)
     gap = (len(items) - 1) / max(most - 1, 1)
@@ -63,25 +63,25 @@ def thinned(items: Sequence[Item], most: int) -> list[Item]:
 
 
 def number(colour: Colour) -> int:
-    """A colour as one number, 0xRRGGBB."""
+    """A colour as a number, 0xRRGGBB."""
     red, green, blue = colour
     return red << 16 | green << 8 | blue
 
 
 def hexadecimal(colour: Colour) -> str:
-    """A colour as pages and matplotlib write it."""
+    """A colour as "#rrggbb"."""
     return f"#{number(colour):06x}"
 
 
 def draw_ground(axes: Axes, world: World, colour: Colour) -> None:
-    """Fill the world's bounds."""
+    """Fill the world's bounds with a colour."""
     left, bottom, right, top = world.bounds
     look = {"color": hexadecimal(colour), "zorder": 0.1}
     axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, **look))
 
 
 def draw_strokes(axes: Axes, drawing: PenDrawing, stamp: float) -> None:
-    """Draw the lines that can be seen at `stamp` (s); the axes' limits must be set."""
+    """Draw the strokes that are visible at `stamp` (s); the axes' limits must be set."""
     axes.apply_aspect()
     inches = axes.get_position().width * axes.figure.get_figwidth()
     left, right = axes.get_xlim()

@@ -1,4 +1,4 @@
-"""What happened when: messages, log lines and errors along simulated time."""
+"""`plot_topics`, `plot_logs` and `plot_signal`: messages, log lines and errors over simulated time."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ LEVELS = {
     "ERROR": (WARNING, "x"),
     "FATAL": ("black", "*"),
 }
-SILENCE = 5  # times the usual distance between two messages
+SILENCE = 5  # a gap of this many median intervals breaks a line
 
 
 def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Plot:
-    """One row for each topic with a stroke for each message, then the log lines and the errors.
+    """One row per topic with a tick for each message, then the log lines and the errors.
 
-    topics: names in the order from top to bottom; all topics of the run when left out, then the services with
-    a stroke for each call, and the actions with one for each change of a goal's status.
+    topics: names from top to bottom. If omitted, all topics of the run, then the services with a tick for
+    each call, and the actions with a tick for each change of a goal's status.
     """
     names = list(recording.topics if topics is None else topics)
     rows = [(_label(recording, name), stamps(recording.messages(name)), PATH) for name in names]
@@ -59,7 +59,7 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
 
 
 def _exchanges(recording: Recording) -> list[tuple[str, list[float], str]]:
-    """A row for each service that was called and each action that got a goal."""
+    """A row for each called service and each action with a goal."""
     rows = []
     for service in dict.fromkeys(call.service for call in recording.calls_of()):
         calls = recording.calls_of(service)
@@ -77,7 +77,7 @@ def _count(items: Sequence[Any], noun: str) -> str:
 
 
 def plot_logs(recording: Recording) -> Plot:
-    """One row for each logger with a stroke for each log line; the colour is the line's level."""
+    """One row per logger with a tick for each log line; the colour is its level."""
     names = sorted({line.node for line in recording.logs})
     figure, axes = plot(7.2, 0.9 + 0.5 * max(len(names), 1))
     for level, (colour, marker) in LEVELS.items():
@@ -94,7 +94,7 @@ def plot_logs(recording: Recording) -> Plot:
 
 
 def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
-    """Time to the right, and the rows from top to bottom."""
+    """Set up the time axis, and the rows from top to bottom."""
     axes.set(xlabel="time (s)", xlim=(-0.02 * _end(recording), 1.02 * _end(recording)))
     axes.set_yticks(range(len(rows)), rows)
     axes.set_ylim(max(len(rows), 1) - 0.5, -0.5)
@@ -103,53 +103,53 @@ def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
 
 def _label(recording: Recording, topic: str) -> str:
     moments = stamps(recording.messages(topic))
-    pace = f", {rate(moments):.3g} Hz" if rate(moments) else ""
-    return f"{topic}\n{len(moments)}{pace}"
+    frequency = f", {rate(moments):.3g} Hz" if rate(moments) else ""
+    return f"{topic}\n{len(moments)}{frequency}"
 
 
 def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None = None) -> Plot:
-    """Numbers from the messages of a topic over time. Where the topic is silent the line is broken.
+    """Plot numeric fields of a topic's messages over time. The line is broken at gaps without messages.
 
-    fields: such as "linear.x", or "position.0" for the first of several; "data" when left out.
-    unit: for the axis, such as "V"; when left out, the one that ROS gives to the fields.
+    fields: such as "linear.x", or "position.0" for an item of a list; "data" if omitted.
+    unit: for the axis, such as "V"; if omitted, the unit that the message definition specifies.
     Raises ValueError when there are no messages, no such field, or no numbers in it.
     """
-    heard = recording.messages(topic)
-    if not heard:
+    received = recording.messages(topic)
+    if not received:
         known = ", ".join(recording.topics) or "no topics"
         raise ValueError(f"there are no messages on {topic} to draw; this run has {known}")
-    messages = [item.message for item in heard]
+    messages = [item.message for item in received]
     figure, axes = plot(7.2, 3.2)
     fields = fields or ("data",)
     for field, style, marker in zip(fields, itertools.cycle(STYLES), itertools.cycle(MARKERS), strict=False):
         values = [_number(message, field, topic) for message in messages]
         look = {"linestyle": style, "marker": marker, "linewidth": 1.2, "markersize": 4}
-        axes.plot(*_broken(stamps(heard), values), **look, label=field)
+        axes.plot(*_broken(stamps(received), values), **look, label=field)
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
     axes.grid(color=GRID)
-    axes.legend(framealpha=0.9, edgecolor="none")  # it may lie on a line, and stays legible
+    axes.legend(framealpha=0.9, edgecolor="none")  # legible even on top of a line
     return figure
 
 
 def _broken(moments: Sequence[float], values: Sequence[float]) -> tuple[list[float], list[float]]:
-    """With nothing to draw where no message came for long: a line through a silence would be a lie."""
+    """The points with NaN in long gaps, because a line across a gap would suggest measurements."""
     gaps = [after - before for before, after in itertools.pairwise(moments)]
     longest = SILENCE * statistics.median(gaps) if gaps else 0.0
-    at, drawn = list(moments[:1]), list(values[:1])
+    times, drawn = list(moments[:1]), list(values[:1])
     for gap, moment, value in zip(gaps, moments[1:], values[1:], strict=True):
         if gap > longest > 0:
-            at.append(moment)
+            times.append(moment)
             drawn.append(math.nan)
-        at.append(moment)
+        times.append(moment)
         drawn.append(value)
-    return at, drawn
+    return times, drawn
 
 
 def _number(message: Any, field: str, topic: str) -> float:
     try:
-        value = functools.reduce(_part, field.split("."), message)
+        value = functools.reduce(_field, field.split("."), message)
     except (AttributeError, IndexError):
         fields = ", ".join(type(message).get_fields_and_field_types())
         raise ValueError(f"the messages on {topic} have no field {field}; they have {fields}") from None
@@ -158,7 +158,7 @@ def _number(message: Any, field: str, topic: str) -> float:
     return float(value)
 
 
-def _part(value: Any, name: str) -> Any:
+def _field(value: Any, name: str) -> Any:
     """A field of a message, or an item of a list in it."""
     return value[int(name)] if name.isdecimal() and hasattr(value, "__len__") else getattr(value, name)
 

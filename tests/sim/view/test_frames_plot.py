@@ -6,10 +6,10 @@ from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
 from sim import run
 from sim.view import plot_frames, png
-from tests.sim.view.test_graph import red, texts
+from tests.sim.view.test_graph_plot import red, texts
 
 
-def telling(*pairs, moving=()):
+def broadcaster(*pairs, moving=()):
     """A node that tells of frames, each a parent and a child."""
 
     class Telling(Node):
@@ -32,13 +32,13 @@ def transform(parent, child):
     return sent
 
 
-def told(*nodes, **options):
+def drawn(*nodes, **options):
     return plot_frames(run(*nodes, seconds=1, quiet=True, **options))
 
 
 def test_it_shows_each_frame_in_its_parent_and_who_says_so():
-    figure = told(telling(("base_link", "camera"), moving=[("map", "odom")]), world="yard")
-    assert figure.words == (
+    figure = drawn(broadcaster(("base_link", "camera"), moving=[("map", "odom")]), world="yard")
+    assert figure.description == (
         "base_scan in base_link: static, /robot\n"
         "camera in base_link: static, /telling\n"
         "base_link in odom: 20 Hz, /robot\n"
@@ -46,21 +46,23 @@ def test_it_shows_each_frame_in_its_parent_and_who_says_so():
     )
     assert {"map", "odom", "10 Hz, /telling", "camera", "static, /telling"} <= set(texts(figure))
     assert red(figure) == []
-    assert figure._repr_png_() == (png(figure), {"alt": figure.words})
+    assert figure._repr_png_() == (png(figure), {"alt": figure.description})
 
 
 def test_two_trees_are_told():
-    figure = told(telling(("map", "dock"), ("sea", "island")))
-    assert figure.words.endswith("Missing:\n1. There are 2 trees, and no way leads between map and sea.")
+    figure = drawn(broadcaster(("map", "dock"), ("sea", "island")))
+    reason = "There are 2 trees, and no way leads between map and sea."
+    assert figure.description.endswith(f"Missing:\n1. {reason}")
 
 
 def test_a_frame_with_two_parents_is_red():
-    other = telling(moving=[("map", "laser"), ("map", "base_link")])
-    figure = told(telling(("base_link", "laser")), other)
-    assert figure.words.endswith("Missing:\n1. laser has two parents, base_link and map: that is no tree.")
+    other = broadcaster(moving=[("map", "laser"), ("map", "base_link")])
+    figure = drawn(broadcaster(("base_link", "laser")), other)
+    reason = "laser has two parents, base_link and map: that is no tree."
+    assert figure.description.endswith(f"Missing:\n1. {reason}")
     assert len(red(figure)) == 2
 
 
 def test_a_run_without_frames_says_so():
-    figure = told(telling())
-    assert (figure.words, texts(figure)) == ("No node told of a frame.", ["no frames"])
+    figure = drawn(broadcaster())
+    assert (figure.description, texts(figure)) == ("No node told of a frame.", ["no frames"])

@@ -7,8 +7,8 @@ from ipywidgets.widgets import widget
 
 from sim import Recording, World
 from sim.evidence import Pose
-from sim.view import live
-from sim.view.live import LiveView, checked
+from sim.view import live_view
+from sim.view.live_view import LiveView, parse_command
 from sim.view.replay import Replay
 from sim.world import Scan
 
@@ -35,7 +35,7 @@ def place(monkeypatch):
         place.shown.append(item)
         return place
 
-    monkeypatch.setattr(live, "display", display)
+    monkeypatch.setattr(live_view, "display", display)
     return place
 
 
@@ -160,11 +160,11 @@ def test_a_hostile_message_is_dropped(view, message):
     view.on_command = heard.append
     view._handle_custom_msg(message, [])
     assert heard == []
-    assert checked(message) is None
+    assert parse_command(message) is None
 
 
 def test_messages_that_come_when_nobody_listens_are_dropped(view):
-    view._heard(view, {"stop": True}, [])  # ipywidgets would swallow what it raises
+    view._on_message(view, {"stop": True}, [])  # ipywidgets would swallow what it raises
     assert view.on_command is None
 
 
@@ -172,8 +172,8 @@ def test_at_the_end_a_replay_takes_the_place_of_the_view(view, place):
     model = view.model_id
     view.finish(Recording(world=World.load("room"), path=[Pose(0.0, 0.0, 0.0, 0.0)], stamp=1.0))
     first, instead = place.shown
-    assert first[live.WIDGET]["model_id"] == model
-    assert live.BESIDE in first  # for a page that shows it beside the notebook
+    assert first[live_view.WIDGET]["model_id"] == model
+    assert live_view.PANEL in first  # for a page that shows it beside the notebook
     assert isinstance(instead, Replay)
     assert (view.comm, view.on_command) == (None, None)
 

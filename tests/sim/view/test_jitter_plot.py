@@ -31,7 +31,8 @@ def test_missed_deadlines_are_red_and_counted():
     assert lines["deadline"].get_ydata() == pytest.approx([120.0, 120.0])
     assert lines["missed"].get_ydata() == pytest.approx([150.0])
     assert figure.axes[0].get_title() == "/tick: 10 Hz, jitter 41 ms, 1 deadline missed"
-    assert figure.words.startswith("Plot: /tick: 10 Hz, jitter 41 ms, 1 deadline missed; ms over time (s)")
+    title = "/tick: 10 Hz, jitter 41 ms, 1 deadline missed"
+    assert figure.description.startswith(f"Plot: {title}; ms over time (s)")
 
 
 def test_a_deadline_that_is_just_kept_is_not_missed():

@@ -1,6 +1,6 @@
-// Small parts of a page: elements, buttons with drawings, and a drop-down of speeds.
+// Elements of a page: buttons with icons, a drop-down of speeds.
 
-/** An element with properties, and children that may be elements or words. */
+/** Creates an element with properties, and children: elements or text. */
 function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
@@ -17,7 +17,7 @@ const SHAPES = {
   up: "M8 3l6 8H2z", down: "M8 13l6-8H2z", left: "M3 8l8-6v12z", right: "M13 8L5 2v12z",
 };
 
-/** A drawing for a button: one of SHAPES. */
+/** An icon for a button: one of SHAPES. */
 function icon(name) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 16 16");
@@ -28,8 +28,8 @@ function icon(name) {
   return svg;
 }
 
-/** A button with a drawing; the label is for its tooltip and for screen readers. */
-function button(shape, label, act) {
+/** A button with an icon; the label is for its tooltip and for screen readers. */
+function button(shape, label, onClick) {
   const element = make("button", { type: "button" });
   element.show = (shape, label) => {
     element.replaceChildren(icon(shape));
@@ -37,14 +37,14 @@ function button(shape, label, act) {
     element.setAttribute("aria-label", label);
   };
   element.show(shape, label);
-  if (act) element.addEventListener("click", act);
+  if (onClick) element.addEventListener("click", onClick);
   return element;
 }
 
-/** A drop-down of speeds; `act` is called with the number chosen. */
-function speeds(choices, act) {
+/** A drop-down of speeds; `onChange` is called with the selected number. */
+function speeds(choices, onChange) {
   const select = make("select", { title: "Speed: simulated seconds in a second", "aria-label": "Speed" });
-  select.put = (speed) => { // a speed set from elsewhere may be none of the choices
+  select.put = (speed) => { // a speed that was set elsewhere may not be among the choices
     if (![...select.options].some((option) => Number(option.value) === speed)) {
       const label = speed === Infinity ? "as fast as it goes" : `${speed} ×`;
       select.append(make("option", { value: speed }, label));
@@ -52,11 +52,11 @@ function speeds(choices, act) {
     select.value = speed;
   };
   choices.forEach(select.put);
-  select.addEventListener("change", () => act(Number(select.value)));
+  select.addEventListener("change", () => onChange(Number(select.value)));
   return select;
 }
 
-/** The index of the last item that is not later than `stamp`; -1 before the first. */
+/** The index of the last item that is not later than `stamp`; -1 if all are later. */
 function before(items, stamp, of = (item) => item) {
   let low = 0, high = items.length;
   while (low < high) {

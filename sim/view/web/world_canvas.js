@@ -1,17 +1,17 @@
-// Draws a world from above, or from the side: metres, x to the right, y up. Shared by the live view and the replay.
+// Draws a world from above, or from the side: metres, x to the right, y up. Used by the live view and the replay.
 
-const MARGIN = 0.2; // metres around what is shown
-const TALLEST = 500; // CSS pixels
+const MARGIN = 0.2; // m around the bounds
+const MAX_HEIGHT = 500; // CSS pixels
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
 
 /**
- * A canvas that shows the world and follows the size of its stage.
+ * A canvas that shows the world and adapts to the size of its stage.
  *
- * `frame` is what to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
- * of points or null for each body; ahead, the same, where they will go; contacts, points. Where pens draw: drawn,
- * as ./drawing.js gives it. Of turtles there may be more than the world began with.
+ * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
+ * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
+ * from ./drawing.js. There may be more turtles than at the start.
  */
-class Scene {
+class WorldCanvas {
   constructor(stage, world) {
     this.stage = stage;
     this.world = world;
@@ -19,22 +19,22 @@ class Scene {
     this.canvas.dataset.lmSuppressShortcuts = "true";
     this.context = this.canvas.getContext("2d");
     this.frame = { poses: [], scan: null, trails: [], ahead: [], contacts: [] };
-    this.asked = 0;
+    this.request = 0;
     const [left, bottom, right, top] = world.bounds;
     this.shown = [left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN];
     stage.append(this.canvas);
     this.sizes = new ResizeObserver(() => this.fit());
     this.sizes.observe(stage);
-    onTheme(stage, () => this.ask());
+    onTheme(stage, () => this.requestPaint());
     this.fit();
   }
 
   close() {
     this.sizes.disconnect();
-    cancelAnimationFrame(this.asked);
+    cancelAnimationFrame(this.request);
   }
 
-  /** Widen the picture, by whole metres, so that a body at this pose is in it. */
+  /** Extend the picture, by whole metres, so that it includes a body at this pose. */
   include(body, [x, y]) {
     const reach = Math.max(body.radius, ...body.outline.map(([u, v]) => Math.hypot(u, v)));
     const [left, bottom, right, top] = this.shown;
@@ -44,14 +44,14 @@ class Scene {
       Math.max(right, right + Math.ceil(x + reach - right)), Math.max(top, top + Math.ceil(y + reach - top)),
     ];
     this.grown = true;
-    this.ask();
+    this.requestPaint();
   }
 
   fit() {
     this.grown = false;
     const [left, bottom, right, top] = this.shown;
     const shape = Math.min(Math.max((top - bottom) / (right - left), 0.2), 1.1);
-    this.stage.style.maxWidth = `${Math.round(TALLEST / shape)}px`;
+    this.stage.style.maxWidth = `${Math.round(MAX_HEIGHT / shape)}px`;
     this.width = this.stage.clientWidth;
     this.height = Math.round(this.width * shape);
     const sharp = window.devicePixelRatio || 1;
@@ -61,12 +61,12 @@ class Scene {
     this.scale = Math.min(this.width / (right - left), this.height / (top - bottom));
     this.x0 = this.width / 2 - this.scale * (left + right) / 2;
     this.y0 = this.height / 2 + this.scale * (bottom + top) / 2;
-    this.ask();
+    this.requestPaint();
   }
 
-  /** Draw the newest frame when the browser next paints. */
-  ask() {
-    if (!this.asked) this.asked = requestAnimationFrame(() => { this.asked = 0; this.paint(); });
+  /** Draw the newest frame with the browser's next repaint. */
+  requestPaint() {
+    if (!this.request) this.request = requestAnimationFrame(() => { this.request = 0; this.paint(); });
   }
 
   at(x, y) {
@@ -75,22 +75,22 @@ class Scene {
 
   paint() {
     if (this.grown) this.fit();
-    if (!this.width) return; // out of sight, as in a folded part of the page
+    if (!this.width) return; // invisible, for example in a collapsed part of the page
     const sharp = window.devicePixelRatio || 1;
     this.look = colours(this.stage);
     this.context.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.context.lineJoin = this.context.lineCap = "round";
     this.floor();
     const hits = this.rays();
-    this.things();
+    this.obstacles();
     for (const { colour, width, points } of this.frame.drawn?.strokes ?? []) {
       this.line(points, colour, Math.max(width * this.scale, 1));
     }
     this.context.fillStyle = this.look.hit;
     for (const [px, py] of hits) this.context.fillRect(px - 1.5, py - 1.5, 3, 3);
-    this.ways();
+    this.paths();
     this.frame.poses.forEach((pose, index) => this.body(this.bodyOf(index), pose, index));
-    this.touches();
+    this.contacts();
     this.ruler();
   }
 
@@ -148,8 +148,8 @@ class Scene {
   }
 
   /**
-   * Draw rays from where the scan was taken, and return the points where they hit.
-   * inf met nothing, nan and -inf measured nothing (REP-117).
+   * Draw the rays of the scan, and return the points that they hit.
+   * inf: nothing within range; nan and -inf: no measurement (REP-117).
    */
   rays() {
     const { scan } = this.frame;
@@ -162,12 +162,12 @@ class Scene {
     scan.ranges.forEach((range, ray) => {
       if (Number.isNaN(range) || range === -Infinity) return;
       const angle = yaw + scan.start + ray * scan.step;
-      const met = range !== Infinity;
-      const reach = met ? range : scan.far;
+      const hit = range !== Infinity;
+      const reach = hit ? range : scan.far;
       const end = this.at(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
-      rays[met].moveTo(...centre);
-      rays[met].lineTo(...end);
-      if (met) hits.push(end);
+      rays[hit].moveTo(...centre);
+      rays[hit].lineTo(...end);
+      if (hit) hits.push(end);
     });
     c.lineWidth = 1;
     c.strokeStyle = this.look.far;
@@ -177,7 +177,7 @@ class Scene {
     return hits;
   }
 
-  things() {
+  obstacles() {
     const { look, world } = this;
     for (const box of world.boxes) this.area(box, look.solid, look.edge);
     for (const [x, y, radius] of world.circles) this.disc(x, y, radius, look.solid, look.edge);
@@ -194,7 +194,7 @@ class Scene {
     for (const [name, place] of world.places) this.place(name, ...this.at(...place));
   }
 
-  /** A place to drive to: a small cross, and its name. */
+  /** A named location: a small cross, and its name. */
   place(name, px, py) {
     const c = this.context;
     c.beginPath();
@@ -228,7 +228,7 @@ class Scene {
     c.stroke();
   }
 
-  ways() {
+  paths() {
     this.world.bodies.forEach((body, index) => {
       if (body.kind === "ghost" && this.frame.trails[index]) this.line(this.frame.trails[index], this.look.ghost, 2);
       if (body.kind !== "robot") return;
@@ -242,7 +242,7 @@ class Scene {
     return this.look.robots[robots.indexOf(this.world.bodies[index]) % this.look.robots.length];
   }
 
-  /** What moves, by its number; more turtles look like the first. */
+  /** A moving body, by its index; further turtles look like the first. */
   bodyOf(index) {
     return this.world.bodies[index] ?? this.world.bodies[0];
   }
@@ -269,7 +269,7 @@ class Scene {
     if (body.kind === "link") this.disc(x, y, 3 / this.scale, this.look.nose, this.look.wall);
   }
 
-  touches() {
+  contacts() {
     for (const [x, y] of this.frame.contacts) {
       const [px, py] = this.at(x, y);
       const c = this.context;
@@ -287,7 +287,7 @@ class Scene {
     }
   }
 
-  /** How long a square of the grid is. */
+  /** The scale: the length of a grid cell. */
   ruler() {
     const c = this.context;
     const [x, y] = this.at(this.world.bounds[0], this.world.bounds[1]);

@@ -1,4 +1,4 @@
-"""The graph of a run: who sends what to whom, and which connection doesn't come about, and why."""
+"""`plot_graph`: the nodes and connections of a run, and missing connections with their reasons."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 
 from sim.evidence import Recording
-from sim.view.arranged import FONT, LINE, PlacedArrow, PlacedBox, arranged
 from sim.view.figure import MUTED, PATH, SOLID, WARNING, Plot, plot
-from sim.view.wiring import Wiring, wiring
+from sim.view.graph_diagram import GraphDiagram, graph_diagram
+from sim.view.graph_layout import FONT, LINE, PlacedArrow, PlacedBox, lay_out
 
-MARGIN = 0.12  # inches, around all
-NARROWEST, WIDEST = 3.6, 8.0  # inches
-CHARACTERS = 15  # of a reason, in an inch
-# Fill, edge and colour of the text. Kinds differ in form and second line, too.
-LOOKS = {
+MARGIN = 0.12  # inches
+MIN_WIDTH, MAX_WIDTH = 3.6, 8.0  # inches
+CHARACTERS = 15  # of a reason, per inch
+# Fill, edge and text colour. Kinds differ in shape and second line, too.
+STYLES = {
     "node": ("#d3e4f5", PATH, "black"),
-    "ours": ("#e9ecef", SOLID, "black"),
+    "course": ("#e9ecef", SOLID, "black"),
     "topic": ("white", PATH, "black"),
     "service": ("white", SOLID, "black"),
     "action": ("white", SOLID, "black"),
@@ -28,47 +28,47 @@ LOOKS = {
 
 
 class GraphPlot(Plot):
-    """A picture of a graph."""
+    """A plot of a graph."""
 
     text = ""
 
     @property
-    def words(self) -> str:
-        """The same in words: a line for each topic, service and action, then what is missing and why."""
+    def description(self) -> str:
+        """A line for each topic, service and action, then the missing connections with their reasons."""
         return self.text
 
 
 def plot_graph(recording: Recording) -> GraphPlot:
     """Draw nodes, topics with their rates, services and actions of a run, and the connections between them.
 
-    A connection that doesn't come about is red, broken and numbered, and its reason stands below. Grey boxes
-    hold what a node offers and nobody takes. The nodes of the world and of an exercise are grey, too.
+    A missing connection is red, dashed and numbered, and its reason is below the graph. Grey boxes list what
+    a node offers and no node uses. The nodes of the world and of an exercise are grey, too.
 
-    The `words` of what this returns say the same.
+    The `description` of the returned plot has the same as text.
     """
-    return drawn(wiring(recording))
+    return draw_diagram(graph_diagram(recording))
 
 
-def drawn(shown: Wiring) -> GraphPlot:
-    """The picture of boxes and arrows, with the reasons for what is missing below."""
-    placed = arranged(shown, WIDEST)
-    width, height = max(placed.width + 2 * MARGIN, NARROWEST), placed.height
-    lines = _wrapped(shown, width)
+def draw_diagram(diagram: GraphDiagram) -> GraphPlot:
+    """Plot boxes and arrows, with the reasons for missing connections below."""
+    layout = lay_out(diagram, MAX_WIDTH)
+    width, height = max(layout.width + 2 * MARGIN, MIN_WIDTH), layout.height
+    lines = _wrapped(diagram, width)
     below = (len(lines) + 1) * LINE if lines else 0.0
     figure, axes = _canvas(width, height + 2 * MARGIN, below)
-    for arrow in placed.arrows:
+    for arrow in layout.arrows:
         _draw_arrow(axes, arrow)
-    for box in placed.boxes:
+    for box in layout.boxes:
         _draw_box(axes, box)
-    for line, look in lines:
+    for line, style in lines:
         height += LINE
-        axes.text(0, height, line, fontsize=FONT, va="center", parse_math=False, **look)
-    figure.text = shown.text
+        axes.text(0, height, line, fontsize=FONT, va="center", parse_math=False, **style)
+    figure.text = diagram.text
     return figure
 
 
 def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]:
-    """A figure whose coordinates are inches, y down, and no axes are drawn."""
+    """A figure with coordinates in inches, y down, without visible axes."""
     figure, axes = plot(width, height + below, GraphPlot)
     figure.set_layout_engine("none")
     axes.set_position((0, 0, 1, 1))
@@ -77,19 +77,19 @@ def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]
     return figure, axes
 
 
-def _wrapped(shown: Wiring, width: float) -> list[tuple[str, dict[str, str]]]:
-    """Lines to stand below the picture, each with its look."""
+def _wrapped(diagram: GraphDiagram, width: float) -> list[tuple[str, dict[str, str]]]:
+    """The lines below the graph, each with its text properties."""
     red, grey, most = {"color": WARNING, "fontweight": "bold"}, {"color": SOLID}, int(width * CHARACTERS)
     lines = []
-    for number, reason in enumerate(shown.reasons, 1):
+    for number, reason in enumerate(diagram.reasons, 1):
         wrapped = textwrap.wrap(f"{number}  {reason}", most, subsequent_indent="    ")
         lines += [(line, red) for line in wrapped]
-    return lines + [(line, grey) for line in textwrap.wrap(shown.left_out, most)]
+    return lines + [(line, grey) for line in textwrap.wrap(diagram.omitted, most)]
 
 
 def _draw_box(axes: Axes, placed: PlacedBox) -> None:
     (box, (x, y), (width, height)) = placed
-    fill, edge, ink = LOOKS["ours" if box.from_course else box.kind]
+    fill, edge, ink = STYLES["course" if box.from_course else box.kind]
     round_ = min(height, width) / 2 if box.kind == "node" else 0.06 if box.kind == "action" else 0.0
     style = f"round,pad=0,rounding_size={round_}" if round_ else "square,pad=0"
     corner = x - width / 2, y - height / 2

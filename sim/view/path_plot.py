@@ -1,4 +1,4 @@
-"""The world of a run as a figure, and the ways of what moved in it: metres, map frame."""
+"""`plot_path`: the world of a run and the paths of its moving bodies; metres, map frame."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from sim.evidence import Pose, Recording
-from sim.view.drawing import draw_ground, draw_strokes
+from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, extent_radius
 from sim.view.figure import (
     CAUTION,
     GRID,
@@ -25,21 +25,21 @@ from sim.view.figure import (
     legend_beside,
     plot,
 )
-from sim.view.geometry import GAP, body_tracks, reach
+from sim.view.strokes import draw_ground, draw_strokes
 from sim.world import Body, World
 from sim.world.obstacles import placed
 
-MARGIN = 0.2  # metres around what is shown
+MARGIN = 0.2  # m
 
 
 def plot_path(recording: Recording) -> Plot:
-    """The robot's path over its world, with start, goal and contacts.
+    """Plot the robot's path in its world, with start, goal and contacts.
 
-    Other robots have a path too, and so has the tip of an arm; boxes and links are drawn where they were at
-    first and at last, turtles at last, with their lines.
+    Paths of other robots and of an arm's tip are drawn too; boxes and links are drawn at their first and last
+    poses, turtles at their last pose, with their lines.
     Raises ValueError for a run in which nothing moves.
     """
-    figure, axes = scene(recording)
+    figure, axes = world_figure(recording)
     bodies = recording.bodies
     robots = [body for body in bodies if body.kind == "robot"]
     if recording.drawing is not None:
@@ -47,54 +47,55 @@ def plot_path(recording: Recording) -> Plot:
     for body, track in zip(bodies, body_tracks(recording), strict=True):
         first = body is bodies[0]
         if body.kind == "turtle":
-            if recording.stamp - track[-1].stamp < GAP:
+            if recording.stamp - track[-1].stamp < MAX_POSE_GAP:
                 colour = TURTLES[bodies.index(body) % len(TURTLES)]
                 _draw(axes, body, track[-1], colour, 1.0, body.name)
             continue
         if body.kind == "robot":
             colour = ROBOTS[robots.index(body) % len(ROBOTS)]
-            way = [pose.x for pose in track], [pose.y for pose in track]
+            path = [pose.x for pose in track], [pose.y for pose in track]
             style = STYLES[robots.index(body) % len(STYLES)]
             look = {"color": colour, "linestyle": style, "linewidth": 1.8}
-            axes.plot(*way, **look, label="path" if first else body.name)
+            axes.plot(*path, **look, label="path" if first else body.name)
         else:
             colour = KINDS.get(body.kind, MUTED)
         _draw(axes, body, track[0], MUTED, 0.45, "start" if first else None)
         end = f"end, {track[-1].stamp:.3g} s" if first else None
         _draw(axes, body, track[-1], colour, 0.45 if body.kind == "robot" else 0.9, end)
     if recording.tip:
-        way = [pose.x for pose in recording.tip], [pose.y for pose in recording.tip]
-        axes.plot(*way, color=ROBOTS[0], linewidth=1.8, label="tip's path")
+        path = [pose.x for pose in recording.tip], [pose.y for pose in recording.tip]
+        axes.plot(*path, color=ROBOTS[0], linewidth=1.8, label="tip's path")
     if recording.contacts:
-        touched = np.array([(contact.x, contact.y) for contact in recording.contacts])
-        axes.plot(*touched.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
+        points = np.array([(contact.x, contact.y) for contact in recording.contacts])
+        axes.plot(*points.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
     legend_beside(axes)
     return figure
 
 
-def ways(recording: Recording) -> list[list[Pose]]:
-    """The poses of each body of the run's world. Raises ValueError for a run in which nothing moves."""
+def moving_tracks(recording: Recording) -> list[list[Pose]]:
+    """The poses of each moving body of the run. Raises ValueError for a run in which nothing moves."""
     tracks = body_tracks(recording)
     if not tracks or not all(tracks):
         raise ValueError('this run has no robot to draw: give run() a world, such as world="yard"')
     return tracks
 
 
-def scene(recording: Recording) -> tuple[Plot, Axes]:
-    """The world of a run without what moves in it; axes that hold the world and all ways.
+def world_figure(recording: Recording) -> tuple[Plot, Axes]:
+    """A plot of the static world of a run; the axes' limits include the paths of all bodies.
 
     Raises ValueError for a run in which nothing moves.
     """
-    world, tracks = recording.world, ways(recording)
+    world, tracks = recording.world, moving_tracks(recording)
     figure, axes = plot(6.4, 4.8)
     if recording.drawing is not None:
         draw_ground(axes, world, recording.drawing.ground)
     draw_world(axes, world)
     left, bottom, right, top = world.bounds
     for body, track in zip(recording.bodies, tracks, strict=True):
-        far = reach(body)
-        left, right = min([left, *(p.x - far for p in track)]), max([right, *(p.x + far for p in track)])
-        bottom, top = min([bottom, *(p.y - far for p in track)]), max([top, *(p.y + far for p in track)])
+        radius = extent_radius(body)
+        xs, ys = [pose.x for pose in track], [pose.y for pose in track]
+        left, right = min(left, min(xs) - radius), max(right, max(xs) + radius)
+        bottom, top = min(bottom, min(ys) - radius), max(top, max(ys) + radius)
     axes.set(
         xlim=(left - MARGIN, right + MARGIN),
         ylim=(bottom - MARGIN, top + MARGIN),
@@ -109,7 +110,7 @@ def scene(recording: Recording) -> tuple[Plot, Axes]:
 
 
 def draw_world(axes: Axes, world: World) -> None:
-    """Walls, boxes, pillars, the goal and places with names."""
+    """Draw walls, boxes, pillars, the goal and named locations."""
     axes.add_collection(LineCollection(world.walls, colors=SOLID, linewidths=2.5))
     for box in world.boxes:
         axes.add_patch(Polygon(box.corners(), facecolor=MUTED, edgecolor=SOLID))
@@ -123,7 +124,7 @@ def draw_world(axes: Axes, world: World) -> None:
 
 
 def _draw(axes: Axes, body: Body, pose: Pose, colour: str, alpha: float, label: str | None) -> None:
-    """The body's outline, and which way it looks if it is a robot."""
+    """Draw a body, with its heading if it is a robot."""
     look = {"facecolor": colour, "edgecolor": colour, "alpha": alpha, "label": label}
     if body.outline:
         axes.add_patch(Polygon(placed(body.outline, *pose[1:]), **look))

@@ -1,4 +1,4 @@
-"""The live picture of a run in a notebook: frames and facts go to the page, clicks and keys come back."""
+"""The live view of a run in a notebook: sends frames and status to the page, receives commands from it."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from IPython.display import HTML, DisplayHandle, display
 
 from sim.evidence import Recording
 from sim.notebook import notebook_page
-from sim.view.drawing import live
-from sim.view.geometry import world_data
 from sim.view.graph_data import graph_data
+from sim.view.javascript import script
 from sim.view.replay import replay
-from sim.view.scripts import script
+from sim.view.strokes import visible_strokes
+from sim.view.world_data import world_data
 from sim.world import Scan, World
 
 Command = dict[str, Any]
 WIDGET = "application/vnd.jupyter.widget-view+json"
-BESIDE = "application/vnd.ros2-course.robot+json"  # known to jupyter/labextensions
-LONGEST_NAME = 300  # of a topic
-SPEEDS = (0.01, 1000.0)  # simulated seconds per second that a page may ask for
+PANEL = "application/vnd.ros2-course.robot+json"  # handled by jupyter/labextensions
+MAX_TOPIC_LENGTH = 300  # characters
+SPEEDS = (0.01, 1000.0)  # range of simulated seconds per second that a page may request
 
 
 class LiveView(anywidget.AnyWidget):
-    """Clock, controls and topics of a run that is under way; with a world, its picture and a pad to drive.
+    """Clock, controls and topics of a running run; with a world, also its picture and a drive pad.
 
-    A frame is one binary message; the page draws the newest only.
+    A frame is one binary message; the page draws only the newest.
 
     Attributes:
-        on_command: called with each command of the page that makes sense: {"speed": 2.0}, {"pause": True},
+        on_command: called with each valid command of the page: {"speed": 2.0}, {"pause": True},
             {"step": True}, {"stop": True}, {"topic": name}, {"graph": True} or {"drive": [forward, left]},
             both in [-1, 1].
     """
@@ -43,69 +43,71 @@ class LiveView(anywidget.AnyWidget):
     _esm = script("live.js")
     world = traitlets.Dict(allow_none=True).tag(sync=True)
     status = traitlets.Dict().tag(sync=True)
-    graph = traitlets.Dict().tag(sync=True)  # empty until somebody looks
+    graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
 
     def __init__(self, world: World | None) -> None:
         super().__init__(world=world and world_data(world))
         self.on_command: Callable[[Command], None] | None = None
-        self._place: DisplayHandle | None = None
-        self.on_msg(self._heard)
+        self._display: DisplayHandle | None = None
+        self.on_msg(self._on_message)
 
     def show(self) -> None:
-        """Display the view in the output of the cell that is running."""
+        """Display the view in the output of the running cell."""
         bundle = self._repr_mimebundle_()
         data = bundle[0] if isinstance(bundle, tuple) else bundle
-        # Our JupyterLab shows it beside the notebook, and a line here; others know only the rest.
-        self._place = display({BESIDE: {}, **data}, raw=True, display_id=True)
+        # The course's JupyterLab extension shows it in a panel and a line here; other pages ignore PANEL.
+        self._display = display({PANEL: {}, **data}, raw=True, display_id=True)
         notebook_page().show({WIDGET: data[WIDGET]})
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:
-        """Show all bodies of the world at `stamp` (s); the picture keeps their trails."""
-        self.send({}, [packed(stamp, poses, scan)])
+        """Show all bodies of the world at `stamp` (s); the page stores their trails."""
+        self.send({}, [pack_frame(stamp, poses, scan)])
 
     def state(self, state: dict[str, Any]) -> None:
-        """Show how the run is going; see `Picture.state` in sim/ros/play."""
+        """Show the status of the run; see `Picture.state` in sim/ros/play."""
         speed = state["speed"]
         more = {"speed": speed if math.isfinite(speed) else None}  # JSON has no infinity
         if "drawing" in state:
-            more |= {"drawing": None, "drawn": live(state["drawing"])}
+            more |= {"drawing": None, "drawn": visible_strokes(state["drawing"])}
         self.status = {**state, **more}
 
     def connections(self, recording: Recording) -> None:
-        """Show who is connected to whom by now."""
+        """Show the current connections between nodes."""
         self.graph = graph_data(recording, counted=False) or {}
 
     def finish(self, recording: Recording) -> None:
-        """The run is over: its replay takes the place of the view, which is closed."""
+        """Replace the view by the replay of the finished run, and close the view."""
         try:
-            self._leave(replay(recording))
+            self._replace_output(replay(recording))
         finally:
             self.close()
 
     def close(self) -> None:
-        """End the view; nothing takes its place. Closing again does nothing."""
-        self._leave(HTML(""))
+        """Close the view and clear its output. Closing again does nothing."""
+        self._replace_output(HTML(""))
         self.on_command = None
-        self.layout.close()  # a widget of its own, which ipywidgets would keep
+        self.layout.close()  # a separate widget that ipywidgets would retain
         super().close()
 
-    def _leave(self, instead: Any) -> None:
-        place, self._place = self._place, None
-        if place is not None:
-            place.update(instead)
-            notebook_page().show({"text/html": instead.data if isinstance(instead, HTML) else instead.html})
+    def _replace_output(self, replacement: Any) -> None:
+        handle, self._display = self._display, None
+        if handle is not None:
+            handle.update(replacement)
+            html = replacement.data if isinstance(replacement, HTML) else replacement.html
+            notebook_page().show({"text/html": html})
 
-    def _heard(self, _: Any, content: Any, buffers: Any) -> None:
-        command = checked(content)
+    def _on_message(self, _: Any, content: Any, buffers: Any) -> None:
+        command = parse_command(content)
         if command is not None and self.on_command is not None:
             self.on_command(command)
 
 
-def packed(stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> bytes:
-    """A frame as the page reads it, in float32.
+def pack_frame(stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> bytes:
+    """A frame as the page parses it, in float32.
 
-    The stamp (s), x, y (m) and yaw (rad) of each of the world's bodies, and behind them the newest scan, if
-    there is one: pose and ranges.
+    The stamp (s), then x, y (m) and yaw (rad) of each of the world's bodies, then the newest scan, if there
+    is
+    one: pose and ranges.
     """
     floats = array("f", (stamp, *itertools.chain.from_iterable(poses)))
     if scan is not None:
@@ -114,8 +116,8 @@ def packed(stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan
     return floats.tobytes()
 
 
-def checked(content: Any) -> Command | None:
-    """The command that a message from a page is, or None: anybody can send anything from there."""
+def parse_command(content: Any) -> Command | None:
+    """The command in a message from a page, or None if it is invalid: pages are untrusted."""
     if not isinstance(content, dict) or len(content) != 1:
         return None
     ((name, value),) = content.items()
@@ -123,7 +125,7 @@ def checked(content: Any) -> Command | None:
         return {name: float(value)}
     if (name == "pause" and isinstance(value, bool)) or (name in ("step", "stop", "graph") and value is True):
         return {name: value}
-    if name == "topic" and isinstance(value, str) and len(value) <= LONGEST_NAME:
+    if name == "topic" and isinstance(value, str) and len(value) <= MAX_TOPIC_LENGTH:
         return {name: value}
     if name == "drive" and isinstance(value, list) and len(value) == 2:
         forward, left = value

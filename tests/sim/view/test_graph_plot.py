@@ -12,7 +12,7 @@ from sim.evidence import Endpoint
 from sim.view import plot_graph, png
 from sim.view.figure import WARNING
 from sim.view.graph_data import graph_data
-from sim.view.wiring import wiring
+from sim.view.graph_diagram import graph_diagram
 from tests.bench.avoider import Avoider
 from tests.sim.graphs import DELIVERY, node
 from tests.sim.ros2.nodes import Lamp
@@ -44,7 +44,7 @@ def red(figure):
 
 def test_it_shows_nodes_topics_and_rates_and_says_the_same_in_words():
     figure = plot_graph(run(Avoider, world="room", seconds=3, quiet=True))
-    assert figure.words == WORDS
+    assert figure.description == WORDS
     drawn = {"/avoider", "/robot", "/scan", "20 Hz", "/cmd_vel", "10 Hz", "/bumper  20 Hz"}
     assert drawn <= set(texts(figure))
     assert red(figure) == []
@@ -59,7 +59,7 @@ def test_what_does_not_connect_is_red_broken_and_numbered_with_its_reason_below(
         assert number in shown
         assert any(text.startswith(f"{number}  ") for text in shown)
     assert "1  On /image /camera publishes with reliability best_effort, and" in " ".join(shown)
-    assert delivery.words.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
+    assert delivery.description.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
 
 
 def test_fifteen_nodes_fit_on_a_page_and_no_box_lies_on_another(delivery):
@@ -75,7 +75,7 @@ def test_fifteen_nodes_fit_on_a_page_and_no_box_lies_on_another(delivery):
 
 def test_a_connection_that_fails_with_one_of_two_publishers_is_red_at_that_one():
     nodes = [node("a", ["news"]), node("b", [("news", BEST_EFFORT)]), node("c", [], ["news"])]
-    shown = wiring(run(*nodes, seconds=1, quiet=True))
+    shown = graph_diagram(run(*nodes, seconds=1, quiet=True))
     news = "topic", "/news"
     assert [tuple(arrow) for arrow in shown.arrows.values()] == [
         (("node", "/a"), news, 0),
@@ -87,7 +87,7 @@ def test_a_connection_that_fails_with_one_of_two_publishers_is_red_at_that_one()
 def test_a_node_alone_and_a_run_without_nodes_have_a_picture_too():
     alone = plot_graph(run(Lamp, seconds=1, quiet=True))
     assert texts(alone) == ["/lamp"]  # what every node with a lifecycle offers is left out
-    assert plot_graph(Recording()).words == ""
+    assert plot_graph(Recording()).description == ""
 
 
 def test_equal_graphs_give_equal_pictures():
@@ -109,9 +109,10 @@ def test_of_a_very_large_graph_what_is_missing_comes_first_and_the_rest_is_count
     taken = [("subscription", f"/listener{number}", "/topic0") for number in range(50)]
     figure = plot_graph(recorded(*given, *taken, ("subscription", "/lonely", "/wish")))
     assert "/lonely" in texts(figure) and len(red(figure)) == 1
-    told = "Not shown: 20 nodes, 461 topics, services and actions."
-    assert figure.words.endswith(f"\nMissing:\n1. /lonely waits in vain: nobody publishes on /wish.\n{told}")
-    assert told in texts(figure)
+    omitted = "Not shown: 20 nodes, 461 topics, services and actions."
+    reason = "/lonely waits in vain: nobody publishes on /wish."
+    assert figure.description.endswith(f"\nMissing:\n1. {reason}\n{omitted}")
+    assert omitted in texts(figure)
     assert "and 27 more" in texts(figure)
     assert max(figure.get_size_inches()) < 30
 
@@ -120,7 +121,7 @@ def test_many_missing_connections_are_counted_too():
     wishes = [("subscription", "/lonely", f"/wish{number}") for number in range(20)]
     figure = plot_graph(recorded(*wishes))
     assert len(red(figure)) == 12
-    assert figure.words.endswith("Not shown: 8 missing connections.")
+    assert figure.description.endswith("Not shown: 8 missing connections.")
 
 
 def test_names_that_are_long_or_look_like_a_formula_are_drawn_as_they_are():
@@ -128,13 +129,13 @@ def test_names_that_are_long_or_look_like_a_formula_are_drawn_as_they_are():
     figure = plot_graph(recorded(("publisher", long, "/cost$x^$"), ("subscription", "/shop", "/cost$x^$")))
     assert {"/a" + 20 * "b" + "…" + 21 * "b" + "c", "/cost$x^$"} <= set(texts(figure))
     assert png(figure)
-    assert f"{long} -> /shop" in figure.words
+    assert f"{long} -> /shop" in figure.description
 
 
 def test_a_page_gets_the_same_in_whole_pixels():
     recording = recorded(("publisher", "/a", "/news"), ("subscription", "/b", "/newz"))
     data = graph_data(recording)
-    assert data["words"] == plot_graph(recording).words
+    assert data["words"] == plot_graph(recording).description
     assert data["reasons"] == [
         "/b waits in vain: nobody publishes on /newz, and /a has /news. Is /news a typing slip? "
         "Did you mean /newz?"
