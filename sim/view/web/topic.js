@@ -13,7 +13,7 @@ class Topic {
       make("div", {}, this.title, " ", this.type), this.canvas, this.caption, this.message);
   }
 
-  /** Show the data of ../../ros/play/readings.py; null hides it. */
+  /** Show the data of ../../ros/play/telemetry.py; null hides it. */
   show(topic) {
     this.root.hidden = !topic;
     if (!topic) return;
