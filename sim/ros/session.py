@@ -24,7 +24,7 @@ from sim.ros.fibers.scheduler import active
 from sim.ros.ground_truth import GroundTruth
 from sim.ros.hooks.install import rebind
 from sim.ros.latest import latest
-from sim.ros.launching.program import launched
+from sim.ros.launching.launch_program import as_launch_program
 from sim.ros.robots.programs import programs_of
 from sim.world import World
 
@@ -52,7 +52,7 @@ class Session:
         network: Network | None = None,
     ) -> None:
         self._companions = [as_process(node, caller) for node in companions]
-        self._specs = [as_process(launched(node), caller) for node in nodes]
+        self._specs = [as_process(as_launch_program(node), caller) for node in nodes]
         working = active()
         if working is not None and working.thread == threading.get_ident():
             raise RuntimeError(f"{caller}() can't start another run here: this is a node of one under way.")

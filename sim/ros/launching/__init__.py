@@ -1,1 +1,1 @@
-"""Launch files in a run: which file is meant, what carries it out, and how its programs become the run's."""
+"""Launch files in a run: finding a file, executing it, and starting its programs in simulated time."""

@@ -1,4 +1,4 @@
-"""Which launch file is meant by some words, and what it is given."""
+"""Finds launch files by the arguments of `ros2 launch`, and loads them."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from typing import Any
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 BUNDLED_FILES = Path(__file__).parent / "bundled"  # launch files of ROS packages, unless installed
-KINDS = (".py", ".yaml", ".yml", ".xml", ".launch")
+SUFFIXES = (".py", ".yaml", ".yml", ".xml", ".launch")
 
 
 class NoLaunchFile(Exception):
-    """There is no such launch file. Its words are upstream's."""
+    """There is no such launch file. Its message is upstream's."""
 
 
-def found(words: Sequence[str]) -> tuple[str, list[str]]:
-    """The path of a launch file, and the words after those that name it: a path, or a package and a file.
+def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
+    """The path of a launch file, named by a path or by a package and a file, and the remaining arguments.
 
     Raises NoLaunchFile.
     """
-    first, *rest = words
+    first, *rest = arguments
     if os.path.isfile(first):
         return first, rest
     if not rest or ":=" in rest[0]:
-        if os.sep in first or Path(first).suffix in KINDS:
+        if os.sep in first or Path(first).suffix in SUFFIXES:
             raise NoLaunchFile(f"There is no launch file {first!r} in {os.getcwd()}.")
         raise NoLaunchFile(f"Package '{first}' has launch files: say which, as in {first} bringup.launch.py.")
     return _in_package(first, rest[0]), rest[1:]
@@ -37,7 +37,7 @@ def _in_package(package: str, file: str) -> str:
         share = get_package_share_directory(package)
     except (PackageNotFoundError, ValueError) as error:
         raise NoLaunchFile(f"Package '{package}' not found: {error}") from None
-    paths = _files(Path(share), file) or _files(BUNDLED_FILES / package, file)
+    paths = _matches(Path(share), file) or _matches(BUNDLED_FILES / package, file)
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"
@@ -50,28 +50,28 @@ def _in_package(package: str, file: str) -> str:
     return paths[0]
 
 
-def _files(folder: Path, name: str) -> list[str]:
+def _matches(folder: Path, name: str) -> list[str]:
     return sorted(str(path) for path in folder.rglob(name) if path.is_file())
 
 
-def arguments(words: Iterable[str]) -> dict[str, str]:
-    """Name to value of words such as NAME:=VALUE; the last one counts. Raises NoLaunchFile."""
+def parse_arguments(arguments: Iterable[str]) -> dict[str, str]:
+    """Name to value of arguments NAME:=VALUE; the last value of a name wins. Raises NoLaunchFile."""
     values = {}
-    for word in words:
-        name, between, value = word.partition(":=")
-        if not (name and between and value):
-            raise NoLaunchFile(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
+    for argument in arguments:
+        name, separator, value = argument.partition(":=")
+        if not (name and separator and value):
+            raise NoLaunchFile(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
         values[name] = value
     return values
 
 
-def description(path: str, words: Iterable[str]) -> Any:
-    """The launch description that includes a file with such arguments."""
-    from launch import LaunchDescription  # here, for it takes a while, and most runs do without
+def load_description(path: str, arguments: Iterable[str]) -> Any:
+    """A launch description that includes a file with these arguments. Raises NoLaunchFile."""
+    from launch import LaunchDescription  # imported late, because it is slow and few runs need it
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-    given = list(arguments(words).items())
+    given = list(parse_arguments(arguments).items())
     return LaunchDescription(
         [IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=given)]
     )

@@ -1,4 +1,4 @@
-"""A program that is killed in the middle of a run and started again, as a launch file with `respawn` does."""
+"""Kills a program during a run and starts it again, as a launch file with `respawn` does."""
 
 from __future__ import annotations
 
@@ -11,41 +11,41 @@ from sim.ros.engine.program import Process, program_name
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.fibers.scheduler import engine
 
-_GOLDEN = 0.618034  # its multiples, without their whole parts, are never near each other
+_GOLDEN = 0.618034  # the fractional parts of its multiples are never close to each other
 
 
 def respawned(program: Any, earliest: float, latest: float, delay: float) -> Callable[[], None]:
-    """This program, killed at a moment (s) between two, and back after `delay` (s).
+    """This program, killed once between two times (s), and started again after `delay` (s).
 
-    The remappings with which it is started hold for the program, both times.
-    Of several programs of a run each has a moment of its own, and it is the same in every run.
+    The returned program's remappings apply to both starts. Several programs of a run are killed at different
+    times, which are equal in every run.
     """
     spec = program if isinstance(program, Process) else Process(program)
 
-    def lives() -> None:
+    def body() -> None:
         run = engine()
-        here = run.current.process
-        alike = replace(spec, remappings=[*spec.remappings, *here.spec.remappings])
-        number = [process for process in run.processes if process.from_course == here.from_course].index(here)
-        first = run.start(alike, from_course=here.from_course)
-        _pass(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
+        process = run.current.process
+        restarted = replace(spec, remappings=[*spec.remappings, *process.spec.remappings])
+        number = [each for each in run.processes if each.from_course == process.from_course].index(process)
+        first = run.start(restarted, from_course=process.from_course)
+        _sleep(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
         kill(run, first)
-        _pass(delay)
-        second = run.start(alike, from_course=first.from_course)
+        _sleep(delay)
+        second = run.start(restarted, from_course=first.from_course)
         while run.lives(second):
-            _pass(0.1)
+            _sleep(0.1)
 
-    lives.__name__ = program_name(spec.target)
-    return lives
+    body.__name__ = program_name(spec.target)
+    return body
 
 
 def kill(run: Any, process: Any) -> None:
-    """End a program of the run at once, as SIGKILL does."""
+    """End a program of the run immediately, as SIGKILL does."""
     for fiber in run.fibers:
         if fiber.process is process and not fiber.done:
             fiber.thrown = RunOver()
 
 
-def _pass(seconds: float) -> None:
+def _sleep(seconds: float) -> None:
     run = engine()
     run.wait("time", until=run.now + round(seconds * SECOND))

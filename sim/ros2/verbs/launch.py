@@ -40,13 +40,13 @@ def launch_(voice: Voice, asked: Namespace) -> None:
     said = [asked.package_name, asked.launch_file_name, *asked.launch_arguments]
     words = [word for word in said if word is not None]
     try:
-        path, rest = files.found(words)
+        path, rest = files.find_launch_file(words)
         if asked.show_args:
             return voice.say("\n".join(_shown(path)))
         if asked.print:
             return voice.say(_printed(path))
         need_terminal("launch", f'run("{" ".join(words)}")')
-        description = files.description(path, rest)
+        description = files.load_description(path, rest)
     except files.NoLaunchFile as error:
         raise Wrong(str(error)) from None
     from launch import LaunchService  # here, for it takes a while, and other words do without

@@ -196,7 +196,11 @@ def test_words_of_ros2_are_a_program_too(tmp_path):
             "executable 'drivr' not found on the libexec directory '",
         ),
         (["DeclareLaunchArgument('speed')"], "RuntimeError", "Included launch description missing required"),
-        (["ExecuteProcess(cmd=['no.py'])"], "Refused", "[Errno 2] No such file or directory: 'no.py'"),
+        (
+            ["ExecuteProcess(cmd=['no.py'])"],
+            "UnsupportedProgram",
+            "[Errno 2] No such file or directory: 'no.py'",
+        ),
         (["1 / 0"], "ZeroDivisionError", "division by zero"),
     ],
 )
@@ -221,7 +225,7 @@ def test_what_is_no_python_is_refused_with_what_to_do(package, tmp_path, entity,
     recording = run(description(tmp_path, entity), seconds=2, quiet=True)
     (error,) = recording.errors
     assert error.text == (
-        f"In a run, launch starts programs in Python and words of ros2 alone, and "
+        f"In a run, launch starts Python programs and ros2 commands only, and "
         f"{program.format(package=package)} is neither: `ros2 launch` in a terminal starts anything."
     )
     (line,) = recording.logs

@@ -201,7 +201,7 @@ def test_where_an_installation_has_the_file_that_turtlesim_brings_its_own_is_tak
     own = share / "turtlesim" / "multisim.launch.py"
     own.touch()
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    assert files.found(["turtlesim", "multisim.launch.py", "a:=1"]) == (str(own), ["a:=1"])
+    assert files.find_launch_file(["turtlesim", "multisim.launch.py", "a:=1"]) == (str(own), ["a:=1"])
 
 
 def test_yaml_and_ctrl_c(tmp_path):

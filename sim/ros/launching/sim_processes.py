@@ -1,4 +1,4 @@
-"""The programs of a launch file as programs of the run: Python files and entry points, and words of ros2."""
+"""Starts a launch file's processes as programs of the run: Python programs and ros2 commands."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ from sim.ros.packages import bundled_command, executable, forget_modules
 PYTHON = re.compile(r"python(3(\.\d+)?)?")
 
 
-class Refused(Exception):
-    """A program that can't be one of a run."""
+class UnsupportedProgram(Exception):
+    """A command that can't be a program of a run."""
 
 
-def _refused(program: str) -> Refused:
-    return Refused(
-        f"In a run, launch starts programs in Python and words of ros2 alone, and {program} is neither: "
+def _unsupported(program: str) -> UnsupportedProgram:
+    return UnsupportedProgram(
+        f"In a run, launch starts Python programs and ros2 commands only, and {program} is neither: "
         "`ros2 launch` in a terminal starts anything."
     )
 
 
 class SimProcessStarter:
-    """Starts the processes of a launch file as programs of a run. refused: the first that can't be one."""
+    """Starts the processes of a launch file as programs of a run. error: of the first that can't be one."""
 
     def __init__(self, run: Any) -> None:
-        self.run, self.refused, self._numbers = run, None, count(1)
+        self.run, self.error, self._numbers = run, None, count(1)
         self._bundled: dict[str, Callable[[], None]] = {}
 
     def find_bundled(self, package: str, name: str) -> str | None:
@@ -53,11 +53,11 @@ class SimProcessStarter:
     ) -> SimProcess:
         """As launch's `ProcessStarter`."""
         try:
-            words = shlex.split(" ".join(cmd)) if shell else cmd
-            bundled = self._bundled.get(words[0]) if words else None
-            main, arguments = (bundled, words[1:]) if bundled else _program(words, cwd or ".")
-        except Refused as error:
-            self.refused = self.refused or error
+            command = shlex.split(" ".join(cmd)) if shell else cmd
+            bundled = self._bundled.get(command[0]) if command else None
+            main, arguments = (bundled, command[1:]) if bundled else _as_main(command, cwd or ".")
+        except UnsupportedProgram as error:
+            self.error = self.error or error
             raise
         others = {name for name, value in env.items() if os.environ.get(name) != value}
         if others:
@@ -80,7 +80,7 @@ class SimProcess:
         self._status: asyncio.Future[int] = self._loop.create_future()
 
         def body() -> None:
-            self._go()
+            self._run_main()
 
         body.__name__ = main.__name__
         launch = run.current.process
@@ -88,7 +88,7 @@ class SimProcess:
             Process(body, arguments=arguments, host=launch.host), from_course=launch.from_course
         )
         self._process.reader, self._on_output = self._read, on_output
-        self._rest = {"stdout": "", "stderr": ""}
+        self._partial_lines = {"stdout": "", "stderr": ""}
 
     async def wait(self) -> int:
         """As launch's `Process`."""
@@ -103,7 +103,7 @@ class SimProcess:
         kill(self._run, self._process)
 
     def _read(self, stream: str, text: str) -> None:
-        *lines, self._rest[stream] = f"{self._rest[stream]}{text}".split("\n")
+        *lines, self._partial_lines[stream] = f"{self._partial_lines[stream]}{text}".split("\n")
         for line in lines:
             self._call_in_loop(self._on_output, stream, line)
 
@@ -111,7 +111,7 @@ class SimProcess:
         with contextlib.suppress(RuntimeError):  # the loop is closed already
             self._loop.call_soon_threadsafe(function, *arguments)
 
-    def _go(self) -> None:
+    def _run_main(self) -> None:
         status = 1
         try:
             self._main()
@@ -129,29 +129,29 @@ class SimProcess:
             self._call_in_loop(self._status.set_result, status)
 
 
-def _program(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:
-    """What a command does, and the words that its program is given. Raises Refused."""
+def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:
+    """The main() function of a command, and its arguments. Raises UnsupportedProgram."""
     if not cmd:
-        raise _refused("an empty command")
+        raise _unsupported("an empty command")
     first, *words = cmd
     name = os.path.basename(first)
     if name == "ros2":
-        from sim.ros2.typed import terminal  # which knows all words, and few launch files have any
+        from sim.ros2.typed import terminal  # imported late: few launch files need it
 
         return _named(terminal(shlex.join(["ros2", *words])).target, "ros2"), []
     if PYTHON.fullmatch(name):
         words = words[1:] if words[:1] == ["-u"] else words
         if not words or words[0].startswith("-"):
-            raise _refused(f"`{shlex.join(cmd)}`")
+            raise _unsupported(f"`{shlex.join(cmd)}`")
         first, *words = words
     path = Path(folder, first)
     if not path.is_file():
         if first == name and not path.suffix:
-            raise _refused(f"`{first}`")
-        raise Refused(f"[Errno 2] No such file or directory: '{path}'")
+            raise _unsupported(f"`{first}`")
+        raise UnsupportedProgram(f"[Errno 2] No such file or directory: '{path}'")
     text = path.read_bytes()
     if path.suffix != ".py" and not (text.startswith(b"#!") and b"python" in text.split(b"\n", 1)[0]):
-        raise _refused(f"`{path}`")
+        raise _unsupported(f"`{path}`")
 
     def main() -> None:
         _prepare_imports(path)
@@ -167,7 +167,7 @@ def _named(function: Callable[[], None], name: str) -> Callable[[], None]:
 
 
 def _prepare_imports(path: Path) -> None:
-    """Let a program find the modules beside it, and none that another program has imported."""
+    """Let a program import the modules in its folder, and not those that another program has imported."""
     folder = path.parent.resolve()
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
