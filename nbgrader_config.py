@@ -40,8 +40,8 @@ c.Validator.Execute.timeout = 30
 c.Execute.extra_arguments = ["--IPKernelApp.exec_lines=import sys; sys.stderr.name = 'stdout'"]
 
 # Marking uses private worlds and seeds; Validate never sees the secret they come from.
-c.Autograde.pre_convert_hook = "grader.marking.secret.show"
-c.Autograde.post_convert_hook = "grader.marking.secret.hide"
+c.Autograde.pre_convert_hook = "grader.marking.secret.set_course_secret"
+c.Autograde.post_convert_hook = "grader.marking.secret.remove_course_secret"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
 SAFE = "grader.marking.gradebook.safe_html"

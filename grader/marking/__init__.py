@@ -1,1 +1,1 @@
-"""Marks a whole class with nbgrader: release, samples, private seeds. The only part that knows nbgrader."""
+"""Marks a class with nbgrader: releases, private seeds, gradebook. The only package that imports nbgrader."""

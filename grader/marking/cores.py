@@ -1,7 +1,7 @@
-"""Where a submission is marked: a judge and a student's process that take turns keep to one core.
+"""Pins a submission's processes to one core: a judge and a student's process that take turns.
 
-On two cores each would wake the other across, at every turn, on a core that may have gone to sleep: the same
-run takes a quarter longer.
+On two cores each would wake the other at every turn, on a core that may be in a sleep state: the same run
+takes a quarter longer.
 """
 
 import contextlib
@@ -10,26 +10,26 @@ import queue
 from collections.abc import Iterator
 
 
-def usable() -> list[int]:
+def usable_cores() -> list[int]:
     """The cores that this process may run on, by number."""
     return sorted(os.sched_getaffinity(0))
 
 
 class Cores:
-    """A core for each of so many jobs at a time.
+    """Assigns cores to so many jobs at a time.
 
-    With fewer jobs than cores there is none: another pool on this machine would choose the same ones.
+    With fewer jobs than cores it assigns none: another pool on this machine would choose the same ones.
     """
 
     def __init__(self, jobs: int) -> None:
-        here = usable()
+        here = usable_cores()
         self._free: queue.LifoQueue[int | None] = queue.LifoQueue()
         for job in range(jobs):
             self._free.put(here[job % len(here)] if jobs >= len(here) else None)
 
     @contextlib.contextmanager
     def one(self) -> Iterator[int | None]:
-        """One for the time of a job; None: the kernel may choose."""
+        """A core for the duration of a job; None if the kernel may choose."""
         core = self._free.get()
         try:
             yield core

@@ -1,4 +1,4 @@
-"""All that can keep a class, or one submission, from being marked.
+"""All errors for which a class, or one submission, can't be marked.
 
     MarkingError
     ├── CourseError             the command can't begin or go on; the instructor reads what to do
@@ -7,21 +7,21 @@
     ├── CommandFailed           a command of nbgrader's own failed
     ├── SandboxMissing          this system has no sandbox
     ├── SandboxFailed           the sandbox doesn't work
-    ├── DaskPoolError           on other machines nobody marks any more
-    ├── Unusable                what was handed in can't be marked; the student reads what to do
-    ├── StudentProcessGone      a student's process can't be led any further; its notebook ends there
+    ├── DaskPoolError           no worker on another machine is left
+    ├── Unusable                a submission can't be marked; the student reads what to do
+    ├── StudentProcessGone      a student's process can't be used any further; its notebook ends there
     ├── NotMarked               one submission could not be marked; the instructor has to look
     ├── NotConfirmed            a certificate does not agree with the receipt
-    └── ResultError             what came back is no result
+    └── ResultError             data that is not a result
 """
 
 
 class MarkingError(Exception):
-    """Anything below; the text is for a reader."""
+    """The base class; the text is for the user."""
 
 
 class CourseError(MarkingError):
-    """What keeps the whole command from working; the message says what to do."""
+    """The whole command can't work; the message says what to do."""
 
 
 class GradebookError(CourseError):
@@ -41,7 +41,7 @@ class SandboxMissing(MarkingError):
 
 
 class SandboxFailed(MarkingError):
-    """The sandbox does not work; the text says what it said last."""
+    """The sandbox does not work; the text has its last output."""
 
 
 class DaskPoolError(MarkingError):
@@ -49,11 +49,11 @@ class DaskPoolError(MarkingError):
 
 
 class Unusable(MarkingError):
-    """A submission that cannot be marked. The text says what was expected, what was seen and what to do."""
+    """A submission that cannot be marked. The text says what was expected, what was found and what to do."""
 
 
 class StudentProcessGone(MarkingError):
-    """The process can't be led any further. The text says why, as the end of a sentence."""
+    """A student's process can't be used any further. The text says why, as a sentence."""
 
 
 class NotMarked(MarkingError):
@@ -61,8 +61,8 @@ class NotMarked(MarkingError):
 
 
 class NotConfirmed(MarkingError):
-    """A certificate that can't be confirmed. The text says what does not agree, without a full stop."""
+    """A certificate can't be confirmed. The text says what does not agree, without a full stop."""
 
 
 class ResultError(MarkingError):
-    """Data that is no result; the message says what is wrong with it."""
+    """Data is not a valid result; the message says what is wrong with it."""

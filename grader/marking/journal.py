@@ -1,7 +1,7 @@
-"""Keeps what marking gave until the gradebook has it, and after: class/marking/ASSIGNMENT/STUDENT.json.
+"""Stores the results of marking, before and after they are in the gradebook.
 
-A result is kept before anything else is done with it, so a run that is killed loses the submissions that
-were being marked and nothing more.
+Each is a file class/marking/ASSIGNMENT/STUDENT.json. A result is stored before anything else is done with it, so a run that is killed loses only the submissions
+that were being marked.
 """
 import contextlib
 import fcntl
@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError, ResultError
 from grader.marking.result import Result
-from grader.marking.whole_file import write_whole
 
 SETTINGS = ".settings.json"  # hidden: no student's name begins with a dot
 LOCK = ".lock"
@@ -24,7 +24,7 @@ LOCK = ".lock"
 
 @dataclass(frozen=True)
 class JournalEntry:
-    """A result in the journal. `id` names this marking: the notebooks made from it carry it, too."""
+    """A result in the journal. `id` identifies this marking: the notebooks made from it have it, too."""
 
     id: str
     result: Result
@@ -52,21 +52,21 @@ class Journal:
             file.flush()
             yield
 
-    def keep(self, result: Result) -> JournalEntry:
-        """Write a result in the place of the student's last one. Raises OSError."""
+    def save(self, result: Result) -> JournalEntry:
+        """Store a result in place of the student's last one. Raises OSError."""
         entry = JournalEntry(uuid.uuid4().hex, result)
         body = result.to_json()
         head = json.dumps({"id": entry.id, "sha256": _digest(body)})
-        write_whole(self._file(result.student), f"{head}\n{body}\n", mode=0o600)
+        write_atomically(self._file(result.student), f"{head}\n{body}\n", mode=0o600)
         return entry
 
     def find(self, student: str, key: str) -> JournalEntry | None:
-        """The result of a student's submission with this key, or None where there is none that is whole."""
+        """The result of a student's submission with this key, or None if no valid one is stored."""
         entry = self.last(student)
         return entry if entry and entry.result.key == key else None
 
     def last(self, student: str) -> JournalEntry | None:
-        """A student's last result, or None where there is none that is whole."""
+        """A student's last result, or None if no valid one is stored."""
         try:
             head, body = self._file(student).read_text(encoding="utf-8").rstrip("\n").split("\n", 1)
             known = json.loads(head)
@@ -78,17 +78,17 @@ class Journal:
         result = entry.result
         return entry if (result.student, result.assignment) == (student, self.folder.name) else None
 
-    def forget(self, students: Iterable[str]) -> None:
-        """Drop results, so that these submissions are marked again."""
+    def discard(self, students: Iterable[str]) -> None:
+        """Delete results, so that these submissions are marked again."""
         for student in students:
             self._file(student).unlink(missing_ok=True)
 
-    def keep_settings(self, settings: dict[str, Any]) -> None:
-        """Note how a run was started."""
-        write_whole(self.folder / SETTINGS, json.dumps(settings, indent=2) + "\n")
+    def save_settings(self, settings: dict[str, Any]) -> None:
+        """Store the settings of a run."""
+        write_atomically(self.folder / SETTINGS, json.dumps(settings, indent=2) + "\n")
 
     def settings(self) -> dict[str, Any] | None:
-        """How the last run was started, or None where there was none."""
+        """The settings of the last run, or None if there was none."""
         try:
             return dict(json.loads((self.folder / SETTINGS).read_text()))
         except (OSError, ValueError, TypeError):

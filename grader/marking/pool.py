@@ -1,8 +1,8 @@
-"""Marks submissions in processes of their own, some at a time.
+"""Marks submissions in processes of their own, several at a time.
 
-Two warm processes stay: one forks a judge for each submission, the other, in its sandbox, a student's process
-for each notebook. A third comes with the first package: in a sandbox of its own it forks a process for each
-build. Here in the marker's process nothing of a submission is run.
+Two warm processes live as long as the pool: one forks a judge for each submission, the other, in its sandbox,
+a student's process for each notebook. A third is started for the first package: in a sandbox of its own it
+forks a process for each build. In the marker's own process no code of a submission is run.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from grader.marking.cores import Cores
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result
 from grader.marking.sandbox import ConfinedProcess, ResourceLimits, Sandbox
-from grader.marking.task import RESULT, JudgeOrder, Task, TimeLimits, send_order
+from grader.marking.task import MAX_RESULT_BYTES, JudgeOrder, MarkingTask, TimeLimits, send_order
 from sim.ros.remote import Wire, WireError, WireTimeout
 
 PRELOAD = ("grader.marking.preload",)
 JUDGE_ENTRY = "grader.marking.judge.judge_process:main"
 JUDGE = ResourceLimits(memory_mb=4000, cpu_s=1800, wall_s=3600, file_mb=256)
-SPARE_S = 120.0  # that a submission may take beside its notebooks
-BUILD_S = 420.0  # more for each package, with what it takes until a sandbox for it is there
-END_S = 5.0  # for a process that has hung up to be gone
+SPARE_S = 120.0  # that a submission may take besides its notebooks
+BUILD_S = 420.0  # more for each package, including the start of its sandbox
+END_S = 5.0  # for a process that has closed its connection to end
 TRIES = 2
 
 
 class Pool:
-    """Marks with `jobs` submissions at a time; a context manager, which leaves no process behind.
+    """Marks `jobs` submissions at a time; a context manager, which leaves no process behind.
 
-    unsafe: students' code runs without a sandbox; see Sandbox. secret: where private worlds and seeds come
-    from; "" for the public ones. time_limits, limits: what a submission may take. Raises SandboxMissing and
+    unsafe: students' code runs without a sandbox; see Sandbox. secret: private worlds and seeds are derived
+    from it; "" for the public ones. time_limits, limits: what a submission may use. Raises SandboxMissing and
     SandboxFailed.
     """
 
@@ -56,7 +56,7 @@ class Pool:
         self._unsafe, self._lock = unsafe, threading.Lock()
         self._builders: Sandbox | None = None
         with contextlib.ExitStack() as stack:
-            # The kernel ends a warm process with the thread that started it: these live as long as the pool.
+            # The kernel kills a warm process with the thread that started it: these live as long as the pool.
             self._threads = ThreadPoolExecutor(max(jobs, 2), "mark")
             stack.callback(self._threads.shutdown, cancel_futures=True)
             judges = self._threads.submit(Sandbox, JUDGE_ENTRY, PRELOAD, unsafe=True, limits=JUDGE)
@@ -66,16 +66,16 @@ class Pool:
             stack.callback(self._stop)
             self._stack = stack.pop_all()
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
-        """The results, in the order in which they are ready. Raises nothing for a submission's sake."""
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
+        """Yield the results, in the order in which they are ready. No submission makes it raise."""
         left = iter(tasks)
         running = self._submit(left, self._jobs)
         while running:
             done, running = wait(running, return_when=FIRST_COMPLETED)
-            running |= self._submit(left, len(done))  # first: to file a result takes its time
+            running |= self._submit(left, len(done))  # first: the caller takes time for each result
             yield from (future.result() for future in done)
 
-    def _submit(self, left: Iterator[Task], count: int) -> set[Future[Result]]:
+    def _submit(self, left: Iterator[MarkingTask], count: int) -> set[Future[Result]]:
         return {self._threads.submit(self._mark, task) for task in itertools.islice(left, count)}
 
     def close(self) -> None:
@@ -97,7 +97,7 @@ class Pool:
             process.kill()
 
     def _building(self) -> Sandbox:
-        """Where packages are built; made for the first one, by a thread that lives as long as the pool."""
+        """The sandbox for builds; made for the first one, by a thread that lives as long as the pool."""
         with self._lock:
             if self._closed:
                 raise NotMarked("The marking was stopped.")
@@ -107,23 +107,23 @@ class Pool:
                 )
             return self._builders
 
-    def _mark(self, task: Task) -> Result:
+    def _mark(self, task: MarkingTask) -> Result:
         why = ""
         for _ in range(TRIES):
             try:
-                return self._once(task)
+                return self._mark_once(task)
             except (NotMarked, SandboxFailed) as reason:
                 why = str(reason)
             if self._closed:
                 break
         return refused_result(task, why)
 
-    def _once(self, task: Task) -> Result:
-        """Mark in fresh processes. Raises Failed and SandboxFailed."""
+    def _mark_once(self, task: MarkingTask) -> Result:
+        """Mark in new processes. Raises NotMarked and SandboxFailed."""
         with contextlib.ExitStack() as stack:
             core = stack.enter_context(self._cores.one())
             sock, judge = self._start(self._judges, stack, core)
-            wire = Wire(sock, RESULT)
+            wire = Wire(sock, MAX_RESULT_BYTES)
             deadline = monotonic() + self._longest(task)
             students: list[ConfinedProcess] = []
             builders: list[ConfinedProcess] = []
@@ -157,13 +157,13 @@ class Pool:
             except ResultError as error:
                 raise NotMarked(f"The judge gave no result: {error}") from None
 
-    def _longest(self, task: Task) -> float:
+    def _longest(self, task: MarkingTask) -> float:
         return SPARE_S + len(task.release.notebooks) * (self._time_limits.start + self._time_limits.notebook)
 
     def _start(
         self, sandbox: Sandbox, stack: contextlib.ExitStack, core: int | None
     ) -> tuple[socket.socket, ConfinedProcess]:
-        """A new process, and the socket to it; both are gone when the stack is. core: if it keeps to one."""
+        """A new process and the socket to it, both until the stack is closed. core: pins it, if given."""
         ours, theirs = socket.socketpair()
         stack.enter_context(ours)
         process = sandbox.start(theirs)
@@ -181,14 +181,14 @@ class Pool:
         self._running.discard(process)
 
 
-def refused_result(task: Task, why: str) -> Result:
-    """The result of a submission that could not be marked, for no fault that anybody knows of."""
-    words = "This could not be marked; your instructor will look at it."
-    return Result(task.student, task.assignment, task.key, "refused", f"{words} {why}", flags=[why])
+def refused_result(task: MarkingTask, why: str) -> Result:
+    """The result of a submission that could not be marked for an unknown reason."""
+    reason = f"This could not be marked; your instructor will look at it. {why}"
+    return Result(task.student, task.assignment, task.key, "refused", reason, flags=[why])
 
 
 def _ending(process: ConfinedProcess) -> str:
-    """How a process ended that has hung up, as a sentence; "" if it hasn't ended."""
+    """How a process ended that has closed its connection, as a sentence; "" if it hasn't ended."""
     try:
         return process.wait(END_S).detail
     except TimeoutError:
@@ -201,10 +201,10 @@ def _with_use(
     students: list[ConfinedProcess],
     builders: list[ConfinedProcess],
 ) -> Result:
-    """The result with what its processes used: seconds of computing, and memory of the student's, in MB."""
+    """The result with the usage of its processes: CPU seconds, and the student's peak memory in MB."""
     processes = (judge, *students, *builders)
     for process in processes:
-        process.kill()  # a student's may still be in a cell that nobody could interrupt
+        process.kill()  # a student's may still be in a cell that ignores interrupts
     computing = sum(process.wait().cpu_s for process in processes)
     memory = max((student.memory() for student in students), default=0.0)
     return replace(result, timings=result.timings | {"computing": computing, "memory": memory})

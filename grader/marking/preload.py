@@ -1,6 +1,6 @@
-"""All that a judge or a student's process needs loaded. Processes that fork them load it once, beforehand.
+"""Imports all modules that a judge or a student's process needs, once in the processes that fork them.
 
-Nothing in here may start a thread or open a ROS context: neither lives on in a fork.
+Nothing in here may start a thread or open a ROS context: neither survives a fork.
 """
 
 import contextlib
@@ -35,12 +35,12 @@ for module in pkgutil.walk_packages(sim.ros.__path__, "sim.ros."):
     importlib.import_module(module.name)
 for name in [name for name in sys.modules if re.fullmatch(r"\w+\.(msg|srv|action)", name)]:
     package = name.split(".")[0]
-    support = f"{package}.{package}_s__rosidl_typesupport_c"  # else loaded with the first message
+    support = f"{package}.{package}_s__rosidl_typesupport_c"  # otherwise loaded with the first message
     if importlib.util.find_spec(support):
         importlib.import_module(support)
 for name in World.names():
-    with contextlib.suppress(WorldError):  # a run in it says what is wrong; one without it isn't held up
-        SensorMessages(World.load(name).lidar)  # and what is made for the first message of a type
+    with contextlib.suppress(WorldError):  # a run in this world reports the error; others are not affected
+        SensorMessages(World.load(name).lidar)  # compiles what the first message of a type needs
 PIL.Image.preinit()
-sim.view.png(plot(1, 1)[0])  # the first figure looks for fonts
-nbformat.validate(nbformat.v4.new_notebook())  # the first time, it makes code of the format's rules
+sim.view.png(plot(1, 1)[0])  # the first figure searches for fonts
+nbformat.validate(nbformat.v4.new_notebook())  # the first call compiles the format's schema

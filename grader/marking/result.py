@@ -1,4 +1,4 @@
-"""What marking one submission gives: plain data that crosses processes as JSON and is checked on arrival."""
+"""The result of marking one submission: plain data that crosses processes as JSON and is then checked."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from grader.marking.errors import ResultError
 
 MAX_BYTES = 60_000_000  # of one submission's result
 
-# marked: all went as usual. repaired: the notebook had to be mended first. stopped: the student's code was
-# stopped, or ended its process, before the last cell. refused: there was nothing that could be run.
+# marked: as usual. repaired: the notebook was repaired first. stopped: the student's code was stopped, or ended
+# its process, before the last cell. refused: nothing could be run.
 VERDICTS = ("marked", "repaired", "stopped", "refused")
-SAID = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # what every check's verdict says
+VERDICT_FIELDS = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # texts
 
 
 @dataclass(frozen=True)
 class CellResult:
-    """What one test cell earned, as the instructor's process judged it."""
+    """The result of one test cell, as the instructor's process judged it."""
 
     cell: str  # nbgrader's grade_id
     exercise: str
@@ -27,7 +27,7 @@ class CellResult:
     max: float
     verdicts: list[dict[str, Any]] = field(default_factory=list)  # as in Score.as_dict()
     digests: list[str] = field(default_factory=list)  # of the recordings that were judged
-    needs_look: bool = False  # a check of ours broke: the instructor decides
+    needs_look: bool = False  # a check of the course raised an error: the instructor decides
     games: list[dict[str, Any]] = field(default_factory=list)  # as in Game.as_dict(), in a league alone
 
 
@@ -42,10 +42,10 @@ class NotebookResult:
 
 @dataclass(frozen=True)
 class Result:
-    """All that marking one submission gives.
+    """The result of marking one submission.
 
     key: hexadecimal digest of everything that was marked: submission, release, secret, version.
-    repairs: a sentence for each thing that was mended. flags: for each thing that no honest submission does.
+    repairs: a sentence for each repair. flags: one for each thing that no honest submission does.
     reason: why it was stopped or refused; "" otherwise.
     timings: seconds by name ("total", "start", and each cell as "notebook/cell"; "judged" are simulated
         ones, of the runs that were judged); peak memory in MB as "memory". They are no part of the grade.
@@ -63,19 +63,19 @@ class Result:
 
     @property
     def points(self) -> float:
-        """What the submission earned."""
+        """The points of the submission."""
         return math.fsum(cell.points for notebook in self.notebooks for cell in notebook.cells)
 
     def to_json(self) -> str:
         """As text. The same result gives the same text."""
         data = asdict(self)
         for cell in (cell for notebook in data["notebooks"] for cell in notebook["cells"]):
-            if not cell["games"]:  # marks, and so their digests, are what they were before there were leagues
+            if not cell["games"]:  # only a league has games: without them, digests of results stay the same
                 del cell["games"]
         return json.dumps(data, sort_keys=True, ensure_ascii=False, allow_nan=False)
 
     def grade_json(self) -> str:
-        """The same without what differs from one marking to the next: the timings."""
+        """The same without the timings, which differ from one marking to the next."""
         return replace(self, timings={}).to_json()
 
     @staticmethod
@@ -110,7 +110,7 @@ def _check(result: Result) -> None:
         raise ValueError(f"the verdict is one of {', '.join(VERDICTS)}, not {result.verdict!r}")
     if not (isinstance(result.repairs, list) and isinstance(result.flags, list)):
         raise ValueError("repairs and flags are lists")
-    _check_words("key, reason, repairs and flags", result.key, result.reason, *result.repairs, *result.flags)
+    _check_text("key, reason, repairs and flags", result.key, result.reason, *result.repairs, *result.flags)
     _check_numbers("the timings", *result.timings.values())
     for notebook in result.notebooks:
         cells = notebook.notebook["cells"]
@@ -124,17 +124,17 @@ def _check(result: Result) -> None:
 
 
 def _check_cell(cell: CellResult) -> None:
-    _check_words("a cell's name, its exercise and the digests", cell.cell, cell.exercise, *cell.digests)
+    _check_text("a cell's name, its exercise and the digests", cell.cell, cell.exercise, *cell.digests)
     _check_numbers(f"the points of {cell.cell}", cell.points, cell.max)
     if not 0 <= cell.points <= cell.max:
         raise ValueError(f"{cell.cell} has {cell.points:g} points of {cell.max:g}")
     if not isinstance(cell.needs_look, bool):
         raise ValueError(f"{cell.cell} needs a look or doesn't")
     for verdict in cell.verdicts:
-        _check_words(f"the verdicts of {cell.cell}", *(verdict[key] for key in SAID))
+        _check_text(f"the verdicts of {cell.cell}", *(verdict[key] for key in VERDICT_FIELDS))
 
 
-def _check_words(what: str, *words: object) -> None:
+def _check_text(what: str, *words: object) -> None:
     if not all(isinstance(word, str) for word in words):
         raise ValueError(f"{what} are text")
 

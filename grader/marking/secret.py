@@ -1,4 +1,4 @@
-"""The instructor's secret, from which marking derives worlds and seeds, others for each student.
+"""The instructor's secret, from which marking derives different worlds and seeds for each student.
 
 One line of text in the file `.secret` beside `nbgrader_config.py`, readable by its owner alone and never
 under version control. This makes one:
@@ -19,8 +19,8 @@ from grader.seeds import secret_of_student
 def read(folder: Path) -> str:
     """The secret of the course in `folder`, or "" without the file.
 
-    Raises SystemExit when the file is empty, cannot be read or others may read it: marking would go on with
-    the public seeds.
+    Raises SystemExit when the file is empty, cannot be read or others may read it: otherwise marking would
+    continue with the public seeds.
     """
     file = folder.absolute() / ".secret"
     if not file.exists():
@@ -36,13 +36,13 @@ def read(folder: Path) -> str:
     return text
 
 
-def show(notebooks: Sequence[str] = (), **_: object) -> None:
-    """Hand a student's share of the secret to the kernel that marks, as the variable COURSE_SECRET.
+def set_course_secret(notebooks: Sequence[str] = (), **_: object) -> None:
+    """Pass the secret of one student to the kernel that marks, as the variable COURSE_SECRET.
 
     notebooks: paths of this student's, in class/submitted/STUDENT/ASSIGNMENT/.
 
     nbgrader calls this before it marks a submission (`Autograde.pre_convert_hook`), never for Validate.
-    Raises SystemExit as `read` does: nbgrader only notes other exceptions, and would go on.
+    Raises SystemExit as `read` does: nbgrader only logs other exceptions, and would continue.
     """
     text = read(Path())
     if text:
@@ -50,6 +50,6 @@ def show(notebooks: Sequence[str] = (), **_: object) -> None:
         os.environ[VARIABLE] = secret_of_student(text, student)
 
 
-def hide(**_: object) -> None:
-    """Take the secret back when a submission is marked (`Autograde.post_convert_hook`)."""
+def remove_course_secret(**_: object) -> None:
+    """Remove the variable when a submission is marked (`Autograde.post_convert_hook`)."""
     os.environ.pop(VARIABLE, None)

@@ -1,4 +1,4 @@
-"""A submission to mark and how, as data that crosses processes and machines; intake.py makes the tasks."""
+"""A submission to mark and the order for a judge: data that crosses processes and machines."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from grader.marking.league.contest import Contest
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import SubmittedFiles
 
-RESULT = 250_000_000  # bytes of a result on its way back: JSON, where a letter may take six
+MAX_RESULT_BYTES = 250_000_000  # bytes of a result on its way back: JSON, where a letter may take six
 
 
 @dataclass(frozen=True)
 class TimeLimits:
-    """Seconds of wall time that things may take, however busy the machine is.
+    """Limits of wall time in seconds, which hold however busy the machine is.
 
-    start: until a student's process answers. cell: one cell. test: what a test cell runs. notebook: all of
-    its cells.
+    start: until a student's process is ready. cell: for one cell. test: for the runs of a test cell.
+    notebook: for all its cells.
     """
 
     start: float = 60.0
     cell: float = 60.0
-    test: float = 300.0  # the delivery robot takes one minute, on a machine with nothing else to do
+    test: float = 300.0  # the delivery robot takes one minute on an idle machine
     notebook: float = 600.0
 
 
 @dataclass(frozen=True)
-class Task:
-    """One submission to mark: all that was read of it, so nobody has to read it again.
+class MarkingTask:
+    """One submission to mark, with the contents of all its files.
 
     release: the instructor's, without answers. key: hexadecimal digest of everything that is marked; the
-    Result carries the same. contest: plays in it, instead of being marked.
+    Result has the same. contest: it plays in this one instead of being marked.
     """
 
     student: str
@@ -51,15 +51,15 @@ class Task:
 
 @dataclass(frozen=True)
 class JudgeOrder:
-    """What a judge is told. secret: where private worlds and seeds come from; "" for the public ones."""
+    """An order for a judge. secret: private worlds and seeds are derived from it; "" for the public ones."""
 
-    task: Task
+    task: MarkingTask
     secret: str = field(repr=False)
     time_limits: TimeLimits
 
 
 def send_order(sock: socket.socket, order: JudgeOrder) -> None:
-    """Hand an order to the judge at the other end, through a file: it may be large. Raises OSError."""
+    """Send an order to the judge at the other end, in a file, because it may be large. Raises OSError."""
     with tempfile.TemporaryFile() as file:
         pickle.dump(order, file)
         file.seek(0)
@@ -67,9 +67,9 @@ def send_order(sock: socket.socket, order: JudgeOrder) -> None:
 
 
 def receive_order(sock: socket.socket) -> JudgeOrder:
-    """Take what `send_order` hands over; only from who is believed. Raises OSError where nobody is there."""
+    """Receive what `send_order` sends, from a trusted process. Raises OSError if the other end is closed."""
     _, descriptors, _, _ = socket.recv_fds(sock, 1, 1)
     if not descriptors:
-        raise ConnectionResetError("nobody sent an order")
+        raise ConnectionResetError("no order was sent")
     with os.fdopen(descriptors[0], "rb") as file:
         return pickle.load(file)

@@ -1,4 +1,4 @@
-"""Which code marks, and on what it runs: with another one, grades might be others."""
+"""The versions of the code that marks and of its libraries, on which grades may depend."""
 
 import functools
 import hashlib
@@ -7,13 +7,13 @@ from importlib import metadata
 from pathlib import Path
 
 CODE = Path(__file__).parents[2]
-PACKAGES = ("grader", "sim", "ros_packages")  # in the last are tf2_ros and launch
+PACKAGES = ("grader", "sim", "ros_packages")  # the last has tf2_ros and launch
 LIBRARIES = ("ros-jazzy-rclpy", "numpy", "pymunk", "ipython", "matplotlib")
 
 
 @functools.cache
 def code_version() -> str:
-    """A digest of the code that marks: with other code, submissions are marked again. It is read once."""
+    """A digest of the code that marks: when it changes, submissions are marked again. Computed once."""
     files = (path for package in PACKAGES for path in (CODE / package).rglob("*") if path.is_file())
     digest = hashlib.sha256()
     for path in sorted(path for path in files if "__pycache__" not in path.parts):

@@ -9,7 +9,7 @@ from grader.marking.command.cli import USUAL_JOBS
 from grader.marking.pool import Pool
 from grader.marking.submission.assignment_release import load_release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.bench.report import table
 
 STUDENTS = 8
@@ -21,7 +21,7 @@ def paced(assignment: str, folder: Path) -> list[object]:
     shutil.copytree(COURSE / "solutions" / assignment, folder / assignment)
     released = load_release(COURSE / "exercises" / assignment)
     read = read_folder(folder / assignment, released)
-    tasks = [Task(f"student_{number}", released, read, "0" * 64) for number in range(STUDENTS)]
+    tasks = [MarkingTask(f"student_{number}", released, read, "0" * 64) for number in range(STUDENTS)]
     began = time.perf_counter()
     with Pool(USUAL_JOBS, secret="a secret") as pool:
         results = list(pool.mark(tasks))

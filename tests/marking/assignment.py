@@ -7,7 +7,7 @@ from nbformat.v4 import new_code_cell, new_notebook
 
 from grader.marking.submission.assignment_release import load_release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.tiny import answer, grade
 
 GREETER = """\
@@ -52,7 +52,9 @@ def release(folder: Path, name: str = "two") -> Path:
     return folder
 
 
-def hand_in(folder: Path, released: Path, answers: dict[str, str] | None = None, name: str = "two") -> Task:
+def hand_in(
+    folder: Path, released: Path, answers: dict[str, str] | None = None, name: str = "two"
+) -> MarkingTask:
     """Write a submission with these answers, by the cells' ids; all right where they aren't said."""
     answers = RIGHT | (answers or {})
     notebook = copy.deepcopy(nbformat.read(released / f"{name}.ipynb", 4))
@@ -63,7 +65,7 @@ def hand_in(folder: Path, released: Path, answers: dict[str, str] | None = None,
     return task(folder, released)
 
 
-def task(folder: Path, released: Path) -> Task:
+def task(folder: Path, released: Path) -> MarkingTask:
     """The task of marking what lies in `folder` now, handed in by whom it is called after."""
     known = load_release(released)
-    return Task(folder.name, known, read_folder(folder, known), "0" * 64)
+    return MarkingTask(folder.name, known, read_folder(folder, known), "0" * 64)

@@ -14,7 +14,7 @@ from grader.marking.gradebook.course import Course
 from grader.marking.release.make_exercises import release
 from grader.marking.result import CellResult, NotebookResult, Result
 from grader.marking.submission.assignment_release import load_release
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.tiny import ROOT, answer, grade
 
 ASSIGNMENT = "01_class"
@@ -82,13 +82,13 @@ def released(course: Course) -> NotebookNode:
     return nbformat.read(course.release(ASSIGNMENT) / f"{NOTEBOOK}.ipynb", 4)
 
 
-def tasks(course: Course, secret: str = "") -> list[Task]:
+def tasks(course: Course, secret: str = "") -> list[MarkingTask]:
     """The tasks of marking what lies there now, sorted by student."""
     reader = TaskReader(load_release(course.release(ASSIGNMENT)), secret)
     return [reader.read(*submission) for submission in find_submissions(course, ASSIGNMENT).items()]
 
 
-def result(course: Course, task: Task, **changes: Any) -> Result:
+def result(course: Course, task: MarkingTask, **changes: Any) -> Result:
     """What marking gives, from the submission's own bytes: the same each time, different points for each."""
     notebook = nbformat.reads(task.submitted.contents[f"{NOTEBOOK}.ipynb"].decode(), 4)
     cells = []

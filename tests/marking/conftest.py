@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from grader.marking.gradebook.course import Course
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.assignment import hand_in, release
 from tests.marking.classroom import classroom, submit
 from tests.marking.student_processes import plain_sandbox, start_student, student  # noqa: F401
@@ -28,14 +28,14 @@ def gate(tmp_path) -> Path:
 
 
 @pytest.fixture
-def waiting(tmp_path, gate) -> Task:
+def waiting(tmp_path, gate) -> MarkingTask:
     """A submission whose cell waits at the gate."""
     cell = f"open({str(gate)!r}, 'w').write('x')"
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})
 
 
 @pytest.fixture
-def staying(tmp_path, gate) -> Task:
+def staying(tmp_path, gate) -> MarkingTask:
     """A submission whose cell says at the gate that it is there, and stays."""
     cell = f"open({str(gate)!r}, 'w').write('x')\nopen({str(gate)!r}).read()  # nobody writes"
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"), {"greeting-see": cell})

@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterable, Iterator
 from grader.marking.command.mark_class import OpenMarker, Settings
 from grader.marking.gradebook.course import Course
 from grader.marking.result import Result
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.classroom import result
 
-Change = Callable[[Course, Task], Result]
+Change = Callable[[Course, MarkingTask], Result]
 
 
 class ReadyPool:
@@ -25,7 +25,7 @@ class ReadyPool:
         self.secret = secret
         return contextlib.nullcontext(self)
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         for task in tasks:
             self.marked.append(task.student)
             yield self.change(self.course, task)

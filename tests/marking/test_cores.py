@@ -18,7 +18,7 @@ from tests.marking.sandbox.commanded import Commanded, sandbox
 @pytest.fixture
 def three(monkeypatch):
     """A machine of three cores, of which none is number 1."""
-    monkeypatch.setattr(cores, "usable", lambda: [0, 2, 3])
+    monkeypatch.setattr(cores, "usable_cores", lambda: [0, 2, 3])
 
 
 def taken(jobs: int) -> list[int | None]:
@@ -58,7 +58,7 @@ def test_judge_and_student_take_turns_on_one_core(tmp_path, monkeypatch):
         kept[threading.get_ident()].append(os.sched_getaffinity(process.pid))
 
     monkeypatch.setattr(ConfinedProcess, "keep_to", keep)
-    with Pool(len(cores.usable()), unsafe=True) as pool:
+    with Pool(len(cores.usable_cores()), unsafe=True) as pool:
         assert [result.points for result in pool.mark(tasks)] == [23.0] * 3
     pairs = [pair for places in kept.values() for pair in turns(places)]
     assert len(pairs) == 3
@@ -75,5 +75,5 @@ def test_a_process_that_has_ended_is_kept_nowhere():
     with sandbox(unsafe=True) as box:
         commanded = Commanded(box)
         commanded.leave()
-        commanded.process.keep_to(cores.usable()[0])
+        commanded.process.keep_to(cores.usable_cores()[0])
     assert os.sched_getaffinity(0) == here

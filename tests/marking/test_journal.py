@@ -19,21 +19,21 @@ def journal(course):
 
 
 def test_a_result_that_is_kept_is_found(course, journal, task):
-    kept = journal.keep(result(course, task))
+    kept = journal.save(result(course, task))
     assert journal.find("anna", task.key) == kept
     assert [path.name for path in journal.folder.iterdir()] == ["anna.json"]
     assert os.stat(journal.folder / "anna.json").st_mode & 0o777 == 0o600
 
 
 def test_every_marking_has_an_id_of_its_own(course, journal, task):
-    first, second = (journal.keep(result(course, task)) for _ in range(2))
+    first, second = (journal.save(result(course, task)) for _ in range(2))
     assert first.result == second.result
     assert first.id != second.id
     assert journal.find("anna", task.key) == second
 
 
 def test_a_file_that_is_torn_anywhere_counts_as_none(course, journal, task):
-    journal.keep(result(course, task))
+    journal.save(result(course, task))
     file = journal.folder / "anna.json"
     whole = file.read_bytes()
     for end in [*range(0, 200, 7), *range(200, len(whole) - 1, len(whole) // 40)]:
@@ -44,7 +44,7 @@ def test_a_file_that_is_torn_anywhere_counts_as_none(course, journal, task):
 
 
 def test_a_result_of_another_submission_counts_as_none(course, journal, task):
-    journal.keep(result(course, task))
+    journal.save(result(course, task))
     (course.submitted("anna", ASSIGNMENT) / "nodes.ipynb").write_text("changed")
     assert journal.find("anna", tasks(course)[0].key) is None
     (journal.folder / "anna.json").rename(journal.folder / "bob.json")
@@ -52,8 +52,8 @@ def test_a_result_of_another_submission_counts_as_none(course, journal, task):
 
 
 def test_what_is_forgotten_is_marked_again(course, journal, task):
-    journal.keep(result(course, task))
-    journal.forget(["anna", "unknown"])
+    journal.save(result(course, task))
+    journal.discard(["anna", "unknown"])
     assert journal.find("anna", task.key) is None
 
 
@@ -68,7 +68,7 @@ def test_two_cannot_mark_the_same_assignment_at_once(journal):
 
 def test_settings_are_kept_and_nonsense_counts_as_none(journal):
     assert journal.settings() is None
-    journal.keep_settings({"jobs": 3})
+    journal.save_settings({"jobs": 3})
     assert journal.settings() == {"jobs": 3}
     for nonsense in ("", "3", json.dumps([1])):
         (journal.folder / ".settings.json").write_text(nonsense)

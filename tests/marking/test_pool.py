@@ -12,7 +12,7 @@ import pytest
 from grader.marking.pool import Pool
 from grader.marking.result import Result
 from grader.marking.sandbox import Sandbox
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 from tests.marking.assignment import hand_in, release, task
 from tests.marking.tiny import ROOT
 
@@ -21,7 +21,7 @@ SORRY = "This could not be marked; your instructor will look at it."
 
 
 @pytest.fixture(scope="module")
-def tasks(tmp_path_factory) -> list[Task]:
+def tasks(tmp_path_factory) -> list[MarkingTask]:
     """Six submissions: all right, one answer right, none, an error, damaged, stopped."""
     folder = tmp_path_factory.mktemp("class")
     released = release(folder / "02_two")

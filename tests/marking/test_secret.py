@@ -18,9 +18,9 @@ def secret_file(tmp_path, monkeypatch):
 
 def test_the_secret_shows_while_marking_only(secret_file):
     secret_file.write_text("d1ce\n")
-    secret.show(assignment="01", student="*", notebooks=["/class/submitted/ann/01/tiny.ipynb"])
+    secret.set_course_secret(assignment="01", student="*", notebooks=["/class/submitted/ann/01/tiny.ipynb"])
     assert os.environ["COURSE_SECRET"] == secret_of_student("d1ce", "ann")
-    secret.hide(assignment="01", student="*", notebooks=[])
+    secret.remove_course_secret(assignment="01", student="*", notebooks=[])
     assert "COURSE_SECRET" not in os.environ
 
 
@@ -28,16 +28,16 @@ def test_seeds_differ_by_student_and_are_the_same_in_each_marking(secret_file):
     secret_file.write_text("d1ce")
     shown = []
     for student in ("ann", "bob", "ann"):
-        secret.show(notebooks=[f"class/submitted/{student}/01/tiny.ipynb"])
+        secret.set_course_secret(notebooks=[f"class/submitted/{student}/01/tiny.ipynb"])
         shown.append(private_seed(os.environ["COURSE_SECRET"], "wall", 0))
-    secret.hide()
+    secret.remove_course_secret()
     assert shown == [668764764, 4190639955, 668764764]
     assert secret_of_student("", "ann") == ""
 
 
 def test_without_the_file_marking_uses_the_public_seeds(secret_file):
     secret_file.unlink()
-    secret.show()
+    secret.set_course_secret()
     assert "COURSE_SECRET" not in os.environ
 
 
@@ -45,13 +45,13 @@ def test_a_secret_that_others_may_read_stops_the_marking(secret_file):
     secret_file.write_text("d1ce")
     secret_file.chmod(0o644)
     with pytest.raises(SystemExit) as stopped:
-        secret.show()
+        secret.set_course_secret()
     assert str(stopped.value) == f"Others may read {secret_file}: run `chmod 600 .secret`, then mark again."
 
 
 def test_an_empty_secret_stops_the_marking(secret_file):
     with pytest.raises(SystemExit) as stopped:
-        secret.show()
+        secret.set_course_secret()
     assert str(stopped.value) == f"{secret_file} is empty: write a long random line into it, or delete it."
 
 
@@ -59,7 +59,7 @@ def test_a_secret_that_cannot_be_read_stops_the_marking(secret_file):
     secret_file.unlink()
     secret_file.mkdir(mode=0o700)
     with pytest.raises(SystemExit) as stopped:
-        secret.show()
+        secret.set_course_secret()
     expected = f"{secret_file} cannot be read (Is a directory): mark as the user who owns it."
     assert str(stopped.value) == expected
 

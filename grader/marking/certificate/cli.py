@@ -7,15 +7,15 @@ from datetime import date
 from pathlib import Path
 
 from grader.marking import secret
+from grader.marking.atomic_file import write_atomically
 from grader.marking.certificate.certificate import Certificate
 from grader.marking.certificate.confirm import Now, confirm_number, confirm_page, quoted
 from grader.marking.certificate.marks import Standing, read_standings
 from grader.marking.certificate.receipt import FILE, Receipt
 from grader.marking.errors import CourseError, NotConfirmed
 from grader.marking.gradebook.course import Course
-from grader.marking.progress import printable
+from grader.marking.progress_line import printable
 from grader.marking.version import versions
-from grader.marking.whole_file import write_whole
 
 CERTIFICATE = """Write a page for each student that says which assignments were passed:
 class/certificates/STUDENT.html. What was certified is kept, sealed with your secret, in
@@ -90,7 +90,7 @@ def _write_pages(
     """Write the pages, and take away those of students who have passed nothing any more."""
     for student, standing in standings.items():
         if student in pages:
-            write_whole(course.certificates() / f"{student}.html", pages[student][1])
+            write_atomically(course.certificates() / f"{student}.html", pages[student][1])
         elif standing.marks:  # then the id is the name of a file
             (course.certificates() / f"{student}.html").unlink(missing_ok=True)
 

@@ -6,7 +6,7 @@ from grader.marking.certificate.marks import Standing
 from grader.marking.certificate.page import NUMBER, read_page
 from grader.marking.certificate.receipt import Issued, Receipt
 from grader.marking.errors import NotConfirmed
-from grader.marking.progress import printable
+from grader.marking.progress_line import printable
 
 Now = Callable[[str], Standing]  # of a student
 LONGEST = 80  # characters of a stranger's words

@@ -9,7 +9,7 @@ from grader.marking.certificate.certificate import Mark
 from grader.marking.gradebook.book import Book, BookMark
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
-from grader.marking.progress import printable
+from grader.marking.progress_line import printable
 from grader.marking.result import Result
 
 HEADING = re.compile(r"^# +(.+?)\s*$", re.MULTILINE)

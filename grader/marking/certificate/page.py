@@ -3,7 +3,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 from grader.marking.certificate.certificate import Certificate
-from grader.marking.templates import templates
+from grader.marking.page_templates import template_environment
 
 SAYS = "data-says"  # marks the elements whose text is certified
 NUMBER = "certificate number"
@@ -42,4 +42,4 @@ class _Reader(HTMLParser):
             self.words[self._open] += data
 
 
-_pages = templates(Path(__file__).parent)
+_pages = template_environment(Path(__file__).parent)

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from grader.marking.atomic_file import write_atomically
 from grader.marking.certificate.certificate import Certificate
 from grader.marking.certificate.page import as_page
 from grader.marking.errors import CourseError, NotConfirmed
-from grader.marking.whole_file import write_whole
 
 FILE = "receipt.json"
 PURPOSE = b"certificates"  # apart from all else that is made from the secret: seeds have a space in theirs
@@ -65,7 +65,7 @@ class Receipt:
 
     def write(self) -> None:
         """Put the file into its place, for its owner alone. Raises OSError."""
-        write_whole(self.file, json.dumps(self._lines, indent=1, sort_keys=True) + "\n", mode=0o600)
+        write_atomically(self.file, json.dumps(self._lines, indent=1, sort_keys=True) + "\n", mode=0o600)
 
     def find(self, number: str) -> Issued:
         """What was issued with this number. Raises NotConfirmed."""

@@ -5,17 +5,17 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
+from grader.marking.atomic_file import write_atomically
 from grader.marking.command.mark_class import Marker, OpenMarker, Outcome, Settings, mark_class
 from grader.marking.command.summary import summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
-from grader.marking.cores import usable
+from grader.marking.cores import usable_cores
 from grader.marking.errors import CourseError, DaskPoolError, SandboxFailed, SandboxMissing
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
 from grader.marking.pool import Pool
-from grader.marking.progress import printable
-from grader.marking.whole_file import write_whole
+from grader.marking.progress_line import printable
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
@@ -24,7 +24,7 @@ takes in what comes later. Results are kept in class/marking/; points go to nbgr
 class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
 `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # as a shell says it
-USUAL_JOBS = len(usable())
+USUAL_JOBS = len(usable_cores())
 
 
 def parser() -> argparse.ArgumentParser:
@@ -102,10 +102,10 @@ def _report(options: argparse.Namespace, course: Course, settings: Settings, out
     if outcome.results:
         print(as_text(summary))
     if settings.csv:
-        write_whole(Path(settings.csv), as_csv(options.assignment, outcome.results))
+        write_atomically(Path(settings.csv), as_csv(options.assignment, outcome.results))
     if settings.html:
         links = page_links(course, options.assignment, outcome.results, Path(settings.html))
-        write_whole(Path(settings.html), as_page(summary, links))
+        write_atomically(Path(settings.html), as_page(summary, links))
     all_of_it = f"{len(outcome.results)} of {outcome.total} in all"
     print(f"\n{len(outcome.fresh)} marked now, {all_of_it}, in {outcome.seconds:.1f} s.")
     for problem in outcome.problems:

@@ -16,7 +16,7 @@ from grader.marking.gradebook.course import Course
 from grader.marking.judge import testcells
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder, submission_key
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from grader.marking.version import code_version
 
 REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
@@ -51,11 +51,11 @@ class TaskReader:
         self.release = release
         self._fingerprint, self._version = hashlib.sha256(secret.encode()).hexdigest(), code_version()
 
-    def read(self, student: str, folder: Path) -> Task:
+    def read(self, student: str, folder: Path) -> MarkingTask:
         """The task of marking what lies in a student's folder now. Raises nothing for whatever lies there."""
         submitted = read_folder(folder, self.release)
         key = submission_key(submitted, self.release, self._fingerprint, self._version)
-        return Task(student, self.release, submitted, key)
+        return MarkingTask(student, self.release, submitted, key)
 
 
 def check_release(course: Course, assignment: str, known: Mapping[tuple[str, str], float] | None) -> None:

@@ -23,16 +23,16 @@ from grader.marking.gradebook.marked_notebooks import (
     write_notebooks,
 )
 from grader.marking.journal import Journal, JournalEntry
-from grader.marking.progress import Progress
+from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import load_release
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 
 
 class Marker(Protocol):
     """Marks submissions in processes of their own."""
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         """Yield the results as they are there."""
 
 
@@ -85,10 +85,10 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
     with journal.hold_lock(), Book(course) as book:
         worth = book.cells(assignment)
         check_release(course, assignment, worth)
-        journal.keep_settings(asdict(settings))
+        journal.save_settings(asdict(settings))
         if settings.force:
-            journal.forget(submissions)
-            journal.keep_settings(asdict(replace(settings, force=False)))  # that is done: go on from here
+            journal.discard(submissions)
+            journal.save_settings(asdict(replace(settings, force=False)))  # that is done: go on from here
         outcome = Outcome({}, worth or {}, len(submissions))
         reader = TaskReader(load_release(course.release(assignment)), key)
         run = _ClassRun(course, book, journal, outcome, reader)
@@ -132,7 +132,7 @@ class _ClassRun:
 
     def mark(self, pool: Marker) -> None:
         """Let the pool mark what waits, and file each result as it comes."""
-        progress = Progress(len(self.waiting))
+        progress = ProgressLine(len(self.waiting))
         keys: dict[str, str] = {}  # of what the pool has
         try:
             for result in pool.mark(self._tasks(keys)):
@@ -140,14 +140,14 @@ class _ClassRun:
                 if (result.assignment, result.key) != expected:
                     raise RuntimeError(f"a result for {result.student} came that nobody waits for")
                 del self.waiting[result.student]
-                self.file(self.journal.keep(result))
+                self.file(self.journal.save(result))
                 self.outcome.fresh.append(result.student)
-                progress.done(result)
+                progress.add_result(result)
         finally:
             progress.close()
         self.outcome.problems += [f"{student} was not marked: mark again" for student in self.waiting]
 
-    def _tasks(self, keys: dict[str, str]) -> Iterator[Task]:
+    def _tasks(self, keys: dict[str, str]) -> Iterator[MarkingTask]:
         """What waits, each read when its turn comes: no more of a class is in memory than is marked."""
         for student, folder in list(self.waiting.items()):
             task = self.reader.read(student, folder)

@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 from grader.marking.command.summary import Summary
 from grader.marking.gradebook.course import Course
-from grader.marking.templates import templates
+from grader.marking.page_templates import template_environment
 
 
 def as_page(summary: Summary, links: Mapping[str, str] | None = None) -> str:
@@ -24,5 +24,5 @@ def page_links(course: Course, assignment: str, students: Iterable[str], place: 
     }
 
 
-_pages = templates(Path(__file__).parent)
+_pages = template_environment(Path(__file__).parent)
 _pages.filters["number"] = "{:g}".format

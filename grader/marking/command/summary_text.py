@@ -5,7 +5,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from grader.marking.command.summary import Summary, cells, missed_checks
-from grader.marking.progress import printable
+from grader.marking.progress_line import printable
 from grader.marking.result import Result
 
 WIDTH = 100

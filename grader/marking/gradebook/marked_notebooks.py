@@ -7,11 +7,11 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
+from grader.marking.atomic_file import write_atomically
 from grader.marking.gradebook.course import TIMESTAMP, Course, timestamp
 from grader.marking.journal import JournalEntry
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
-from grader.marking.whole_file import write_whole
 
 NOTICE = "how-this-was-marked"  # id of the cell on top
 MARKING = "marking"  # metadata: the id of the marking that a notebook shows
@@ -54,14 +54,14 @@ def write_notebooks(course: Course, result: Result, shown: dict[str, NotebookNod
     mode = 0o664 if course.directory.groupshared else 0o444
     _, text = timestamp(course.submitted(student, assignment))
     if text:
-        write_whole(folder / TIMESTAMP, text, mode)
+        write_atomically(folder / TIMESTAMP, text, mode)
     else:
         (folder / TIMESTAMP).unlink(missing_ok=True)
     for old in folder.glob("*.ipynb"):
         if old.stem not in shown:
             old.unlink()
     for name, notebook in shown.items():
-        write_whole(folder / f"{name}.ipynb", nbformat.writes(notebook) + "\n", mode)
+        write_atomically(folder / f"{name}.ipynb", nbformat.writes(notebook) + "\n", mode)
 
 
 def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:

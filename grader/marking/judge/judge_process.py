@@ -14,7 +14,7 @@ from grader.marking.build_process.build_request import request_build
 from grader.marking.errors import UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.judge.student_session import StudentSession
-from grader.marking.task import RESULT, receive_order
+from grader.marking.task import MAX_RESULT_BYTES, receive_order
 from grader.workspace.building import Built
 from grader.workspace.sources import Sources
 from sim.ros.remote import Wire, WireError
@@ -25,7 +25,7 @@ ANSWER_S = 60.0  # for an answer of the marker's, on a busy machine
 def main(sock: socket.socket) -> None:
     """Mark the submission that `send_order` sends over the socket."""
     order = receive_order(sock)
-    marker = Wire(sock, RESULT)
+    marker = Wire(sock, MAX_RESULT_BYTES)
 
     def describe_end(of: str) -> str:
         marker.send(ending=of)

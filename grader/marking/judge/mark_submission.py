@@ -18,7 +18,7 @@ from grader.marking.outputs import writable_text
 from grader.marking.result import NotebookResult, Result
 from grader.marking.submission.rebuild import rebuild_submission
 from grader.marking.submission.suspicious_code import find_suspicious_code
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from grader.seeds import secret_of_student
 
 MAX_SUSPICIOUS = 20  # of a notebook that are reported
@@ -87,7 +87,7 @@ STEPS = (rebuild_notebooks, find_exercises, flag_suspicious_code, run_and_judge,
 LEAGUE = (rebuild_notebooks, find_exercises, flag_suspicious_code, choose_last_exercise, run_and_play)
 
 
-def mark_submission(task: Task, secret: str, start_session: StartSession) -> Result:
+def mark_submission(task: MarkingTask, secret: str, start_session: StartSession) -> Result:
     """Mark a submission with worlds and seeds from the secret and the student's name.
 
     With the secret "", they are the public ones. Raises UnknownTest for a release that can't be marked here,

@@ -12,7 +12,7 @@ from grader.marking.judge.cell_outputs import DisplayRegistry
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.result import CellResult
 from grader.marking.submission.rebuild import RebuiltSubmission
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 
 StartSession = Callable[[], StudentSession]  # with a new process, for one notebook
 
@@ -26,7 +26,7 @@ class Marking:
     notebook did not run to its end. timings: see Result.
     """
 
-    task: Task
+    task: MarkingTask
     secret: str
     start_session: StartSession
     rebuilt: RebuiltSubmission = field(default_factory=RebuiltSubmission)

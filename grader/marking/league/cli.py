@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
-from grader.marking.cores import usable
+from grader.marking.cores import usable_cores
 from grader.marking.errors import CourseError, SandboxFailed, SandboxMissing
 from grader.marking.journal import Journal
 from grader.marking.league.contest import Contest
@@ -16,7 +16,7 @@ from grader.marking.league.page import write_pages
 from grader.marking.league.play import Drawing, Marker, Played, draw, play, time_limits
 from grader.marking.league.standings import REFERENCE, Row, anonymous_names, standings
 from grader.marking.pool import Pool
-from grader.marking.progress import printable
+from grader.marking.progress_line import printable
 from grader.marking.sandbox import ResourceLimits
 
 DESCRIPTION = """Let delivery robots work in the same warehouses, and compare them.
@@ -61,7 +61,7 @@ def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None
         entries = _entries(options)
         with journal.hold_lock():
             drawing = _draw(options, journal)
-            journal.keep_settings(drawing.as_dict())
+            journal.save_settings(drawing.as_dict())
             opened = open_pool or _open_pool
             played = play(entries, drawing.contest, journal, lambda: opened(options, drawing.contest))
             if not played.interrupted:
@@ -102,7 +102,7 @@ def _open_pool(options: argparse.Namespace, contest: Contest) -> Pool:
     whole = int(contest.worlds * contest.seconds)
     usual = ResourceLimits()
     limits = replace(usual, cpu_s=usual.cpu_s + whole, wall_s=usual.wall_s + whole)
-    jobs = options.jobs or len(usable())
+    jobs = options.jobs or len(usable_cores())
     return Pool(jobs, options.unsafe, time_limits=time_limits(contest), limits=limits)
 
 

@@ -19,7 +19,7 @@ from grader.marking.submission.submitted_files import (
     submission_key,
 )
 from grader.marking.submission.untrusted_folder import FILE, FolderEntry, read_file
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from grader.marking.version import code_version
 
 
@@ -30,13 +30,13 @@ class Entries:
     release: Release
     read: Mapping[str, Callable[[], SubmittedFiles]]
 
-    def tasks(self, contest: Contest, chosen: Iterable[str]) -> Iterable[Task]:
+    def tasks(self, contest: Contest, chosen: Iterable[str]) -> Iterable[MarkingTask]:
         """The task of each of the chosen, read when its turn comes."""
         version = code_version()
         for student in chosen:
             submitted = self.read[student]()
             key = submission_key(submitted, self.release, repr(contest), version)
-            yield Task(student, self.release, submitted, key, contest)
+            yield MarkingTask(student, self.release, submitted, key, contest)
 
 
 def of_class(folder: Path, assignment: str) -> Entries:

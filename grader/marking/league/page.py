@@ -11,10 +11,10 @@ from pathlib import Path
 
 from markupsafe import Markup
 
+from grader.marking.atomic_file import write_atomically
 from grader.marking.league.contest import Contest
 from grader.marking.league.standings import REFERENCE, Row
-from grader.marking.templates import templates
-from grader.marking.whole_file import write_whole
+from grader.marking.page_templates import template_environment
 from sim.view.ghost_replay import player
 from sim.view.replay import PLAYER_SCRIPT
 
@@ -26,12 +26,12 @@ def write_pages(folder: Path, rows: Sequence[Row], contest: Contest, *, own: boo
     names = [f"warehouse_{number:02}.html" for number in range(1, contest.worlds + 1)]
     shown = {"rows": rows, "contest": contest, "own": own, "pages": names, "ghost": _ghost(rows)}
     index = folder / INDEX
-    write_whole(index, _pages.get_template("table.html").render(**shown).lstrip())
+    write_atomically(index, _pages.get_template("table.html").render(**shown).lstrip())
     for number, name in enumerate(names):
         text = _pages.get_template("warehouse.html").render(
             **shown, number=number, players=_players(rows, number), script=Markup(PLAYER_SCRIPT)
         )
-        write_whole(folder / name, text.lstrip())
+        write_atomically(folder / name, text.lstrip())
     return index
 
 
@@ -54,4 +54,4 @@ def _players(rows: Sequence[Row], number: int) -> list[tuple[Row, Markup]]:
     return found
 
 
-_pages = templates(Path(__file__).parent)
+_pages = template_environment(Path(__file__).parent)

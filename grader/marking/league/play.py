@@ -11,15 +11,15 @@ from typing import Any, Protocol
 from grader.marking.journal import Journal
 from grader.marking.league.contest import Contest
 from grader.marking.league.entries import Entries
-from grader.marking.progress import Progress
+from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 
 
 class Marker(Protocol):
     """Marks submissions, or lets them play, in processes of their own."""
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         """Yield the results as they are there."""
 
 
@@ -48,14 +48,14 @@ def play(
             played.results.append(entry.result)
         else:
             waiting.append(task.student)
-    progress = Progress(len(waiting))
+    progress = ProgressLine(len(waiting))
     try:
         if waiting:
             with open_pool() as pool:
                 for result in pool.mark(entries.tasks(contest, waiting)):
-                    played.results.append(journal.keep(result).result)
+                    played.results.append(journal.save(result).result)
                     played.fresh += 1
-                    progress.tell(f"{result.student.lstrip('.')}: {_done(result)}")
+                    progress.add_line(f"{result.student.lstrip('.')}: {_done(result)}")
     except KeyboardInterrupt:
         played.interrupted = True
     finally:

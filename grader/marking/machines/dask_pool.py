@@ -22,7 +22,7 @@ from grader.marking.machines.workers import Workers
 from grader.marking.pool import refused_result
 from grader.marking.result import Result
 from grader.marking.sandbox import ResourceLimits
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -39,7 +39,7 @@ MISSING = "--dask needs the library distributed, which is not installed: run `ma
 class _Job:
     """A submission on its way. been: at which workers it failed. lost: the worker at `address` has gone."""
 
-    task: Task
+    task: MarkingTask
     failed: int = 0
     why: str = ""
     failed_at: set[str] = field(default_factory=set)
@@ -77,7 +77,7 @@ class DaskPool:
         self._client = _connect(address, wait_s)
         self._workers = Workers(self._client)
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         """The results, in the order in which they are ready. Raises FarError when nobody is left to mark."""
         fresh = map(_Job, tasks)
         waiting = deque(itertools.islice(fresh, 1))  # no more are read than are marked, and one
@@ -197,7 +197,7 @@ def _connect(address: str, wait_s: float) -> Client:
         raise DaskPoolError(f"{what}: `.venv/bin/dask scheduler` starts one") from None
 
 
-def _read_result(text: object, task: Task) -> Result:
+def _read_result(text: object, task: MarkingTask) -> Result:
     """Raises ResultError unless it is a result of this task."""
     if not isinstance(text, str):
         raise ResultError(f"expected text, saw {type(text).__name__}")

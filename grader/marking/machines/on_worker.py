@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from grader.marking.errors import SandboxFailed, SandboxMissing
 from grader.marking.pool import Pool
 from grader.marking.sandbox import ResourceLimits
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 from grader.marking.version import versions
 
 # As this process has loaded them: a later `git pull` changes the files and not what runs here.
@@ -40,7 +40,7 @@ class WorkerPool:
         self._pool: Pool | None = None
         self._over: set[str] = set()
 
-    def mark(self, how: RunSettings, task: Task) -> tuple[str, str]:
+    def mark(self, how: RunSettings, task: MarkingTask) -> tuple[str, str]:
         """Mark what `DaskPool` ordered: MARKED and a Result's JSON, or FAILED or UNFIT and why."""
         try:
             with self._turn:
@@ -83,7 +83,7 @@ def worker_versions() -> dict[str, str]:
     return VERSIONS
 
 
-def mark_task(how: RunSettings, task: Task) -> tuple[str, str]:
+def mark_task(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     """See WorkerPool.mark."""
     return _pool_here.mark(how, task)
 

@@ -7,7 +7,7 @@ from grader.marking.pool import Pool
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 from tests.marking.tiny import answer, grade
 from tests.students.packages import greeter
 
@@ -51,7 +51,7 @@ def results(tmp_path_factory, release) -> dict[str, Result]:
         nbformat.write(nbformat.from_dict({**notebook, "cells": cells}), folder / "tiny.ipynb")
         if name == "link":
             (folder / "ws/src/greeter/more").symlink_to("/etc/passwd")
-        tasks.append(Task(name, release, read_folder(folder, release), name))
+        tasks.append(MarkingTask(name, release, read_folder(folder, release), name))
     with Pool(2, secret="a secret", time_limits=LIMITS) as pool:
         return {result.student: result for result in pool.mark(tasks)}
 

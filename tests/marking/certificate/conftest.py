@@ -12,7 +12,7 @@ from grader.__main__ import main
 from grader.marking.command.cli import main as mark
 from grader.marking.gradebook.course import Course
 from grader.marking.result import Result
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.classroom import ASSIGNMENT, result
 from tests.marking.fake_pool import ReadyPool
 
@@ -20,7 +20,7 @@ ISSUER = "Chair of Robotics, robotics@example.org"
 SCRIPT = "<script>alert(1)</script>"
 
 
-def marked(course: Course, task: Task, line: float = 6.0) -> Result:
+def marked(course: Course, task: MarkingTask, line: float = 6.0) -> Result:
     """All points in the first test cell; in the second those given, and none for bob."""
     (note,) = result(course, task).notebooks
     earned = {"test_counter": 4.0, "test_line": line} if task.student != "bob" else {}

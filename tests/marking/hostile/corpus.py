@@ -30,7 +30,7 @@ from grader.marking.release.samples import submission
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import load_release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 
 ROOT = Path(__file__).parents[3]
 PAGE = Path(__file__).with_name("corpus.txt")
@@ -99,7 +99,7 @@ def mark(folder: Path, names: Sequence[str], jobs: int = 2) -> dict[str, Result]
     """Mark those who handed in; name to result."""
     submitted, released = folder / "class" / "submitted", load_release(folder / "exercises" / ASSIGNMENT)
     read = {name: read_folder(submitted / name / ASSIGNMENT, released) for name in names}
-    tasks = [Task(name, released, submitted, "00") for name, submitted in read.items()]
+    tasks = [MarkingTask(name, released, submitted, "00") for name, submitted in read.items()]
     found = {}
     for limits in (TimeLimits(), QUICK):
         some = [task for task in tasks if (task.student in WITHOUT_END) == (limits == QUICK)]

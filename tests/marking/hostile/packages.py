@@ -24,7 +24,7 @@ from grader.marking.pool import Pool
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.hostile.corpus import SECRET, block, blocks
 from tests.marking.tiny import answer, grade
 from tests.students.packages import crates, greeter
@@ -58,13 +58,13 @@ def mark(folder: Path, names: Iterable[str]) -> dict[str, Result]:
         return {result.student: result for result in pool.mark(tasks)}
 
 
-def _submitted(place: Path, trick: Trick) -> Task:
+def _submitted(place: Path, trick: Trick) -> MarkingTask:
     sources = place / "ws/src"
     _write(sources, RIGHT)
     notebook = copy.deepcopy(RELEASE.notebooks["small"])
     notebook.cells[1].source = trick(sources) or "# mine"
     nbformat.write(notebook, place / "small.ipynb")
-    return Task(place.name, RELEASE, read_folder(place, RELEASE), "00")
+    return MarkingTask(place.name, RELEASE, read_folder(place, RELEASE), "00")
 
 
 def _write(sources: Path, files: Mapping[str, str]) -> None:

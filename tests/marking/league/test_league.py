@@ -19,7 +19,7 @@ from grader.marking.league.page import INDEX
 from grader.marking.league.play import Marker, time_limits
 from grader.marking.pool import Pool
 from grader.marking.result import Result
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 from tests.marking.league.capstones import (
     ASSIGNMENT,
     CRASHES,
@@ -69,7 +69,7 @@ def draw(folder: Path) -> None:
     """Draw the class's league from what is known, so that its names are."""
     contest = {"seed": "words", "worlds": 2, "seconds": 4}
     Journal(folder / "class" / "league" / ASSIGNMENT).folder.mkdir(parents=True)
-    Journal(folder / "class" / "league" / ASSIGNMENT).keep_settings({"contest": contest, "key": KEY})
+    Journal(folder / "class" / "league" / ASSIGNMENT).save_settings({"contest": contest, "key": KEY})
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +164,7 @@ class Interrupted:
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
 
-    def mark(self, tasks: Iterable[Task]) -> Iterator[Result]:
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
         yield next(self._pool.mark(islice(tasks, 1)))
         raise KeyboardInterrupt
 

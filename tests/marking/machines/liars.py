@@ -4,30 +4,30 @@ from dataclasses import replace
 
 from grader.marking.machines.on_worker import RunSettings
 from grader.marking.result import Result
-from grader.marking.task import Task
+from grader.marking.task import MarkingTask
 
 
-def nonsense(how: RunSettings, task: Task) -> tuple[str, str]:
+def nonsense(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     return "marked", "{}"
 
 
-def number(how: RunSettings, task: Task) -> tuple[str, object]:
+def number(how: RunSettings, task: MarkingTask) -> tuple[str, object]:
     return "marked", 100
 
 
-def other(how: RunSettings, task: Task) -> tuple[str, str]:
+def other(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     return _marked(task, student="somebody else")
 
 
-def crash(how: RunSettings, task: Task) -> tuple[str, str]:
+def crash(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     raise ValueError("a worker's own mistake")
 
 
-def failed(how: RunSettings, task: Task) -> tuple[str, str]:
+def failed(how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     return "failed", "OSError: No space left on device"
 
 
-def fails_at_first(first: str, how: RunSettings, task: Task) -> tuple[str, str]:
+def fails_at_first(first: str, how: RunSettings, task: MarkingTask) -> tuple[str, str]:
     """Fails in the process that is asked first, which the file `first` names."""
     with open(first, "a+") as file:
         file.seek(0)
@@ -37,5 +37,5 @@ def fails_at_first(first: str, how: RunSettings, task: Task) -> tuple[str, str]:
     return failed(how, task) if asked == str(os.getpid()) else _marked(task)
 
 
-def _marked(task: Task, **changes: str) -> tuple[str, str]:
+def _marked(task: MarkingTask, **changes: str) -> tuple[str, str]:
     return "marked", replace(Result(task.student, task.assignment, task.key, "marked"), **changes).to_json()

@@ -16,7 +16,7 @@ from grader.marking.errors import DaskPoolError
 from grader.marking.machines import DaskPool
 from grader.marking.pool import Pool
 from grader.marking.result import Result
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 from tests.marking.assignment import hand_in, release, task
 from tests.marking.machines import liars
 from tests.marking.tiny import ROOT
@@ -28,7 +28,7 @@ LOST = "The worker was lost that marked this."
 
 
 @pytest.fixture(scope="module")
-def tasks(tmp_path_factory) -> list[Task]:
+def tasks(tmp_path_factory) -> list[MarkingTask]:
     """A right submission, one half right, and one that ends its process; three that are damaged."""
     folder = tmp_path_factory.mktemp("class")
     released = release(folder / "02_two")

@@ -7,14 +7,14 @@ import pytest
 from grader.marking.machines.on_worker import RunSettings, WorkerPool
 from grader.marking.result import Result
 from grader.marking.sandbox import ResourceLimits
-from grader.marking.task import Task, TimeLimits
+from grader.marking.task import MarkingTask, TimeLimits
 from tests.marking.assignment import hand_in, release
 
 FIRST = RunSettings("first", True, "a secret of this test", TimeLimits(), ResourceLimits())
 
 
 @pytest.fixture
-def right(tmp_path) -> Task:
+def right(tmp_path) -> MarkingTask:
     """A right submission."""
     return hand_in(tmp_path / "ann", release(tmp_path / "02_two"))
 

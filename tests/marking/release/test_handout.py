@@ -66,7 +66,7 @@ def test_students_get_no_solution_no_test_no_marking_and_nothing_of_a_class(hand
     assert {name.split("/")[2] for name in handout if name.startswith("grader/marking/")} == {
         *("build_process", "submission", "judge", "league", "sandbox", "student_process"),
         *("__init__.py", "cores.py", "errors.py", "journal.py", "outputs.py", "pool.py", "preload.py"),
-        *("progress.py", "result.py", "task.py", "templates.py", "version.py", "whole_file.py"),
+        *("progress_line.py", "result.py", "task.py", "page_templates.py", "version.py", "atomic_file.py"),
     }
     assert [name for name in handout if re.search(r"__pycache__|\.egg-info|checkpoints|/build/", name)] == []
 

@@ -1,13 +1,12 @@
-"""Files that are either whole or not there, whenever the process is killed."""
+"""Writes files that are either complete or absent, whenever the process is killed."""
 import os
 from pathlib import Path
 
 
-def write_whole(path: Path, content: str | bytes, mode: int = 0o644) -> None:
-    """Put `content` into the place of whatever is at `path`, at once and for good.
+def write_atomically(path: Path, content: str | bytes, mode: int = 0o644) -> None:
+    """Replace the file at `path` atomically, and flush it to the disk. Raises OSError with its name.
 
-    It is written beside it first, under a name of its own that the next writing takes again. Raises OSError
-    with the name of `path`.
+    The content is first written to a temporary file beside it, whose name the next call uses again.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.part")
@@ -21,13 +20,13 @@ def write_whole(path: Path, content: str | bytes, mode: int = 0o644) -> None:
         os.replace(beside, path)
     except OSError as error:
         beside.unlink(missing_ok=True)
-        error.filename = str(path)  # a full disk names none
+        error.filename = str(path)  # the error of a full disk has no name
         raise
     _sync_folder(path.parent)
 
 
 def _sync_folder(folder: Path) -> None:
-    """A new name outlasts a power cut only when its folder is on the disk, too."""
+    """Flush a folder: otherwise a power cut may undo the renaming."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)

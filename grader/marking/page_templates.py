@@ -1,12 +1,12 @@
-"""Pages from templates that lie beside a module: all words in them are escaped."""
+"""Loads the HTML templates beside a module; all values in them are escaped."""
 
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 
-def templates(folder: Path) -> Environment:
-    """The templates of a folder; a name that a template uses and nobody gives is an error."""
+def template_environment(folder: Path) -> Environment:
+    """The templates of a folder; an undefined name in a template is an error."""
     return Environment(
         loader=FileSystemLoader(folder),
         autoescape=True,

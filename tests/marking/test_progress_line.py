@@ -2,7 +2,7 @@ import io
 
 import pytest
 
-from grader.marking.progress import Progress, printable
+from grader.marking.progress_line import ProgressLine, printable
 from grader.marking.result import CellResult, NotebookResult, Result
 
 
@@ -18,9 +18,9 @@ class Terminal(io.StringIO):
 
 def test_elsewhere_each_submission_has_a_line():
     stream = io.StringIO()
-    progress = Progress(2, stream)
-    progress.done(marked("anna"))
-    progress.done(marked("b\x1b[2Job"))
+    progress = ProgressLine(2, stream)
+    progress.add_result(marked("anna"))
+    progress.add_result(marked("b\x1b[2Job"))
     progress.close()
     assert stream.getvalue() == (
         "1 of 2  anna: 3.5 of 10 points, marked\n2 of 2  b [2Job: 3.5 of 10 points, marked\n"
@@ -34,8 +34,8 @@ FAST, SLOW = "0.5 each second, 6 s left", "0.01 each second, 5 min 0 s left"
 def test_on_a_terminal_one_line_changes_and_goes(now, left, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     stream, times = Terminal(), iter([0.0, now])
-    progress = Progress(4, stream, lambda: next(times))
-    progress.done(marked("anna"))
+    progress = ProgressLine(4, stream, lambda: next(times))
+    progress.add_result(marked("anna"))
     assert stream.getvalue() == f"\r\x1b[K1 of 4, {left}  anna: 3.5 of 10 points, marked"
     progress.close()
     assert stream.getvalue().endswith("marked\r\x1b[K")
@@ -44,7 +44,7 @@ def test_on_a_terminal_one_line_changes_and_goes(now, left, monkeypatch):
 def test_a_narrow_terminal_gets_a_short_line(monkeypatch):
     monkeypatch.setenv("COLUMNS", "20")
     stream = Terminal()
-    Progress(4, stream).done(marked("anna"))
+    ProgressLine(4, stream).add_result(marked("anna"))
     assert len(stream.getvalue().removeprefix("\r\x1b[K")) == 19
 
 

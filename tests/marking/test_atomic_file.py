@@ -2,7 +2,7 @@ import os
 
 import pytest
 
-from grader.marking.whole_file import write_whole
+from grader.marking.atomic_file import write_atomically
 
 
 def names(folder):
@@ -11,8 +11,8 @@ def names(folder):
 
 def test_a_file_takes_the_place_of_another(tmp_path):
     target = tmp_path / "new" / "file.json"
-    write_whole(target, "first")
-    write_whole(target, b"second", mode=0o600)
+    write_atomically(target, "first")
+    write_atomically(target, b"second", mode=0o600)
     assert target.read_bytes() == b"second"
     assert os.stat(target).st_mode & 0o777 == 0o600
     assert names(target.parent) == ["file.json"]
@@ -20,7 +20,7 @@ def test_a_file_takes_the_place_of_another(tmp_path):
 
 def test_what_a_killed_writer_left_is_taken_over(tmp_path):
     (tmp_path / ".file.json.part").write_text("torn")
-    write_whole(tmp_path / "file.json", "whole")
+    write_atomically(tmp_path / "file.json", "whole")
     assert names(tmp_path) == ["file.json"]
     assert (tmp_path / "file.json").read_text() == "whole"
 
@@ -28,5 +28,5 @@ def test_what_a_killed_writer_left_is_taken_over(tmp_path):
 def test_where_it_fails_the_old_file_stays(tmp_path):
     (tmp_path / "file.json").mkdir()
     with pytest.raises(OSError, match="Is a directory"):
-        write_whole(tmp_path / "file.json", "new")
+        write_atomically(tmp_path / "file.json", "new")
     assert names(tmp_path) == ["file.json"]
