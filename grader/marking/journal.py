@@ -1,7 +1,7 @@
 """Stores the results of marking, before and after they are in the gradebook.
 
-Each is a file class/marking/ASSIGNMENT/STUDENT.json. A result is stored before anything else is done with it, so a run that is killed loses only the submissions
-that were being marked.
+Each is a file class/marking/ASSIGNMENT/STUDENT.json. A result is stored before anything else is done with it,
+so a run that is killed loses only the submissions that were being marked.
 """
 import contextlib
 import fcntl

@@ -11,8 +11,8 @@ from grader.marking.errors import ResultError
 
 MAX_BYTES = 60_000_000  # of one submission's result
 
-# marked: as usual. repaired: the notebook was repaired first. stopped: the student's code was stopped, or ended
-# its process, before the last cell. refused: nothing could be run.
+# marked: as usual. repaired: the notebook was repaired first. stopped: the student's code was stopped, or
+# ended its process, before the last cell. refused: nothing could be run.
 VERDICTS = ("marked", "repaired", "stopped", "refused")
 VERDICT_FIELDS = ("name", "sentence", "status", "expected", "saw", "hint", "alarm")  # texts
 

@@ -9,8 +9,9 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 
-from grader.marking.command.intake import TaskReader, find_submissions
+from grader.marking.command.task_reader import TaskReader
 from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.release.make_exercises import release
 from grader.marking.result import CellResult, NotebookResult, Result
 from grader.marking.submission.assignment_release import load_release

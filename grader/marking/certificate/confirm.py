@@ -9,7 +9,7 @@ from grader.marking.errors import NotConfirmed
 from grader.marking.progress_line import printable
 
 Now = Callable[[str], Standing]  # of a student
-LONGEST = 80  # characters of a stranger's words
+MAX_TEXT_CHARS = 80  # characters of a stranger's words
 
 
 def confirm_page(page: str, receipt: Receipt, now: Now | None = None) -> str:
@@ -78,4 +78,4 @@ def _changes(certificate: Certificate, standing: Standing) -> list[str]:
 def quoted(words: str) -> str:
     """Words that may be a stranger's, for a sentence on a terminal."""
     plain = printable(words)
-    return f"“{plain if len(plain) <= LONGEST else plain[: LONGEST - 1] + '…'}”"
+    return f"“{plain if len(plain) <= MAX_TEXT_CHARS else plain[: MAX_TEXT_CHARS - 1] + '…'}”"

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from grader.marking.certificate.certificate import Mark
-from grader.marking.gradebook.book import Book, BookMark
+from grader.marking.gradebook.book import Book, GradebookMark
 from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
 from grader.marking.progress_line import printable
@@ -44,7 +44,7 @@ def read_standings(course: Course, students: Collection[str] = ()) -> dict[str, 
     return dict(sorted(found.items()))
 
 
-def _doubt(mark: BookMark, result: Result | None) -> str:
+def _doubt(mark: GradebookMark, result: Result | None) -> str:
     """Why a mark can't be certified, or ""."""
     if result is None:
         return f"was not marked by `python -m grader mark {mark.assignment}`"

@@ -1,1 +1,1 @@
-"""`python -m grader mark`: what to mark, what is marked already, and what the instructor hears of it."""
+"""`python -m grader mark`: marks the submissions that are not marked yet, and prints a summary."""

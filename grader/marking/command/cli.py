@@ -23,7 +23,7 @@ What is marked and has not changed since is not marked again, so the same comman
 takes in what comes later. Results are kept in class/marking/; points go to nbgrader's gradebook, notebooks to
 class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
 `nbgrader generate_feedback`."""
-INTERRUPTED = 130  # as a shell says it
+INTERRUPTED = 130  # the exit status of shells
 USUAL_JOBS = len(usable_cores())
 
 
@@ -46,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None) -> int:
-    """Run the command in the course's folder; returns the exit status. open_pool: who marks, if not ours."""
+    """Run the command in the course's folder; returns the exit status. open_pool: opens another pool."""
     options = parser().parse_args(arguments)
     try:
         course = Course(Path.cwd())
@@ -54,8 +54,8 @@ def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None
         outcome = mark_class(course, options.assignment, settings, open_pool or _open_pool)
         _report(options, course, settings, outcome)
     except (CourseError, SandboxMissing, SandboxFailed) as error:
-        said = f"Not marked: {error}"
-        print(said if said.endswith((".", "?")) else f"{said}.", file=sys.stderr)
+        text = f"Not marked: {error}"
+        print(text if text.endswith((".", "?")) else f"{text}.", file=sys.stderr)
         return 1
     except OSError as error:
         return _stopped(f"{error.filename or 'a file'} could not be written ({error.strerror})", options)
@@ -65,7 +65,7 @@ def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None
 
 
 def _settings(options: argparse.Namespace, course: Course) -> Settings:
-    """How to mark: as the options say, or as the last run was started."""
+    """The settings of the options, or of the last run."""
     jobs = options.jobs or USUAL_JOBS
     given = Settings(
         sorted(options.student),
@@ -80,18 +80,18 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     if not options.resume:
         return given
     if given != Settings(jobs=jobs, dask=options.dask):
-        beside = "give none beside it but --jobs and --dask"
-        raise CourseError(f"--resume takes the options of the last run: {beside}")
-    kept = Journal(course.journal(options.assignment)).settings()
-    if kept is None:
+        advice = "give none beside it but --jobs and --dask"
+        raise CourseError(f"--resume takes the options of the last run: {advice}")
+    stored = Journal(course.journal(options.assignment)).settings()
+    if stored is None:
         raise CourseError(f"there is no run of {options.assignment} to go on with: leave --resume out")
-    anew = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
-    return replace(Settings(**kept), **anew)
+    changed = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
+    return replace(Settings(**stored), **changed)
 
 
 def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[Marker]:
     if settings.dask:
-        from grader.marking.machines import DaskPool  # half a second, which others need not wait
+        from grader.marking.machines import DaskPool  # this import takes half a second
 
         return DaskPool(settings.dask, settings.unsafe, secret)
     return Pool(settings.jobs, settings.unsafe, secret)

@@ -1,7 +1,7 @@
-"""Marks a class: plans, lets the pool mark, keeps each result, writes gradebook and pages.
+"""Marks a class: finds what is not marked yet, marks it in a pool, and writes journal, gradebook and pages.
 
-In this order for each submission: journal, gradebook, notebooks. Each step can be done again, and the last
-one names the marking it shows; so whenever a run is killed, the next one does what is left.
+The order for each submission is journal, gradebook, notebooks. Each step can be repeated, and the notebooks
+have the id of the marking that they show; so when a run is killed, the next one does what is left.
 """
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -11,11 +11,13 @@ from pathlib import Path
 from typing import Protocol
 
 from grader.marking import secret
-from grader.marking.command.intake import TaskReader, check_release, find_submissions
+from grader.marking.command.check_release import check_release
+from grader.marking.command.task_reader import TaskReader
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course
 from grader.marking.gradebook.feedback import is_stale, make_feedback
+from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import (
     is_shown,
     marked_notebooks,
@@ -33,12 +35,12 @@ class Marker(Protocol):
     """Marks submissions in processes of their own."""
 
     def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
-        """Yield the results as they are there."""
+        """Yield the results as they are ready."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How a run was started: plain data, kept for --resume.
+    """The settings of a run: plain data, stored for --resume.
 
     students: only these, if any. force: mark again what is marked already. jobs: submissions at a time.
     unsafe: without the sandbox. feedback: make the students' pages. csv, html: files for the summary, or "".
@@ -60,11 +62,11 @@ OpenMarker = Callable[[Settings, str], AbstractContextManager[Marker]]  # from s
 
 @dataclass
 class Outcome:
-    """What a run did.
+    """The outcome of a run.
 
     results: of all submissions that are marked, now or before, by student; without the notebooks' contents.
-    worth: the points of each test cell, by notebook and cell. fresh: who was marked now. seconds: of it all.
-    problems: a sentence for each thing that is left to do. interrupted: whether Ctrl-C ended it.
+    worth: the points of each test cell, by notebook and cell. fresh: the students marked now. seconds: of the
+    whole run. problems: a sentence for each thing that is left to do. interrupted: whether Ctrl-C ended it.
     """
 
     results: dict[str, Result]
@@ -77,7 +79,7 @@ class Outcome:
 
 
 def mark_class(course: Course, assignment: str, settings: Settings, open_pool: OpenMarker) -> Outcome:
-    """Mark what is not marked yet, and bring gradebook and pages up to date. Raises CourseError, OSError."""
+    """Mark what is not marked yet, and update gradebook and pages. Raises CourseError, OSError."""
     begin = time.monotonic()
     key = secret.read(course.root)
     submissions = find_submissions(course, assignment, settings.students)
@@ -88,7 +90,7 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
         journal.save_settings(asdict(settings))
         if settings.force:
             journal.discard(submissions)
-            journal.save_settings(asdict(replace(settings, force=False)))  # that is done: go on from here
+            journal.save_settings(asdict(replace(settings, force=False)))  # --resume does not repeat that
         outcome = Outcome({}, worth or {}, len(submissions))
         reader = TaskReader(load_release(course.release(assignment)), key)
         run = _ClassRun(course, book, journal, outcome, reader)

@@ -1,4 +1,4 @@
-"""What the instructor wants to know of a marked class: points, common mistakes, times, what to look at."""
+"""Summarises a marked class for the instructor: points, common mistakes, times, what to look at."""
 import math
 import re
 import statistics
@@ -17,8 +17,8 @@ NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
 
 
 @dataclass(frozen=True)
-class Row:
-    """A student's marks: points by notebook and cell, and what else the class table shows."""
+class StudentRow:
+    """A student's row in the class table; points by notebook and cell."""
 
     student: str
     points: dict[tuple[str, str], float]
@@ -28,8 +28,8 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Mistake:
-    """A check that students missed, with the most frequent words (the numbers are one student's)."""
+class CommonMistake:
+    """A check that students missed, with the most frequent texts (the numbers are one student's)."""
 
     exercise: str
     sentence: str
@@ -40,15 +40,15 @@ class Mistake:
 
 @dataclass(frozen=True)
 class Concern:
-    """Something that the instructor should look at: whose it is, a student's or a cell's, and what it is."""
+    """Something that the instructor should look at, of a student or a cell."""
 
     whose: str
     what: str
 
 
 @dataclass(frozen=True)
-class Times:
-    """Seconds of each submission, the median and the longest; and the cells with the longest median."""
+class MarkingTimes:
+    """Seconds per submission, median and longest; and the cells with the longest median."""
 
     median: float
     longest: float
@@ -57,25 +57,25 @@ class Times:
 
 @dataclass(frozen=True)
 class Summary:
-    """All about a marked class. worth: the points of each test cell. names: what to call it.
+    """The summary of a marked class. worth: the points of each test cell. names: their titles.
 
-    unstarted: how many students did not begin an exercise, where some did not.
+    unstarted: how many students did not begin an exercise, for those that some did not begin.
     """
 
     assignment: str
     worth: Mapping[tuple[str, str], float]
     names: dict[tuple[str, str], str]
-    rows: list[Row]
+    rows: list[StudentRow]
     unstarted: dict[str, int]
-    mistakes: list[Mistake]
+    mistakes: list[CommonMistake]
     concerns: list[Concern]
-    times: Times | None
+    times: MarkingTimes | None
 
 
 def summarise(
     assignment: str, worth: Mapping[tuple[str, str], float], results: Mapping[str, Result]
 ) -> Summary:
-    """Look through the results of a class. worth: points by notebook and cell. results: by student."""
+    """Summarise the results of a class. worth: points by notebook and cell. results: by student."""
     ordered = [results[student] for student in sorted(results)]
     names = dict.fromkeys(worth, "")
     for result in ordered:
@@ -83,9 +83,9 @@ def summarise(
     titles = {key: name or key[1] for key, name in names.items()}
     concerns = [*_by_hand(worth, ordered), *(concern for result in ordered for concern in _concerns(result))]
     every = [(result.student, cell) for result in ordered for _, cell in cells(result)]
-    unstarted = Counter(cell.exercise for _, cell in every if _unstarted(cell))
-    begun = [(student, cell) for student, cell in every if not _unstarted(cell)]
-    rows, times = [_row(result) for result in ordered], _times(ordered)
+    unstarted = Counter(cell.exercise for _, cell in every if _is_unstarted(cell))
+    begun = [(student, cell) for student, cell in every if not _is_unstarted(cell)]
+    rows, times = [_student_row(result) for result in ordered], _times(ordered)
     return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), concerns, times)
 
 
@@ -101,24 +101,24 @@ def missed_checks(cell: CellResult) -> list[dict[str, Any]]:
     return [verdict for verdict in cell.verdicts if verdict.get("status") == "failed"]
 
 
-def _row(result: Result) -> Row:
+def _student_row(result: Result) -> StudentRow:
     points = {key: cell.points for key, cell in cells(result)}
-    return Row(result.student, points, result.points, result.verdict, len(result.flags))
+    return StudentRow(result.student, points, result.points, result.verdict, len(result.flags))
 
 
-def _unstarted(cell: CellResult) -> bool:
+def _is_unstarted(cell: CellResult) -> bool:
     return any(verdict["sentence"] == NOT_STARTED for verdict in missed_checks(cell))
 
 
-def _mistakes(marked: list[tuple[str, CellResult]]) -> list[Mistake]:
-    """Checks that were missed, the most frequent first. Words that differ in numbers alone count as one."""
+def _mistakes(marked: list[tuple[str, CellResult]]) -> list[CommonMistake]:
+    """Checks that were missed, the most frequent first. Texts that differ in numbers alone count as equal."""
     seen: dict[tuple[str, str, str], dict[str, tuple[str, str]]] = {}
     for student, cell in marked:
         for verdict in missed_checks(cell):
             who = seen.setdefault((cell.exercise, verdict["name"], verdict["sentence"]), {})
             who[student] = (verdict["saw"], verdict["hint"])
     found = [
-        Mistake(exercise, sentence, len(who), *_most_frequent(list(who.values())))
+        CommonMistake(exercise, sentence, len(who), *_most_frequent(list(who.values())))
         for (exercise, _, sentence), who in seen.items()
     ]
     return sorted(found, key=lambda mistake: -mistake.students)
@@ -141,29 +141,29 @@ def _by_hand(worth: Mapping[tuple[str, str], float], results: list[Result]) -> I
 def _concerns(result: Result) -> Iterator[Concern]:
     if result.verdict in ("refused", "stopped"):
         yield Concern(result.student, f"{result.verdict}: {result.reason}")
-    yield from _mended_in_vain(result)
+    yield from _repaired_with_few_points(result)
     unsure = {f"The test cell {quote(cell.cell)}:" for _, cell in cells(result) if cell.needs_look}
     for flag in result.flags:
         by_hand = " Set its points by hand." if flag.startswith(tuple(unsure)) else ""
         yield Concern(result.student, f"{flag}{by_hand}")
     for (notebook, name), cell in cells(result):
-        told = any(flag.startswith(f"The test cell {quote(name)}:") for flag in result.flags)
-        if cell.needs_look and not told:
+        flagged = any(flag.startswith(f"The test cell {quote(name)}:") for flag in result.flags)
+        if cell.needs_look and not flagged:
             alarms = [str(verdict.get("alarm", "")).strip() for verdict in cell.verdicts]
             last = next((alarm.splitlines()[-1] for alarm in alarms if alarm), "see its outputs")
-            said = f"a check of {notebook}/{name} is broken ({last}): set the points by hand"
-            yield Concern(result.student, said)
+            what = f"a check of {notebook}/{name} is broken ({last}): set the points by hand"
+            yield Concern(result.student, what)
 
 
-def _mended_in_vain(result: Result) -> Iterator[Concern]:
-    """What was mended and has few points: maybe it was mended wrongly."""
+def _repaired_with_few_points(result: Result) -> Iterator[Concern]:
+    """A repaired submission with few points: the repair may be wrong."""
     most = math.fsum(cell.max for _, cell in cells(result))
     if result.repairs and result.verdict != "refused" and result.points < FEW * most:
         earned = f"mended, and has {result.points:g} of {most:g} points"
         yield Concern(result.student, f"{earned}: {' '.join(result.repairs)}")
 
 
-def _times(results: list[Result]) -> Times | None:
+def _times(results: list[Result]) -> MarkingTimes | None:
     totals = [result.timings["total"] for result in results if "total" in result.timings]
     if not totals:
         return None
@@ -174,4 +174,4 @@ def _times(results: list[Result]) -> Times | None:
                 spent.setdefault(name, []).append(seconds)
     medians = [(name, statistics.median(times)) for name, times in spent.items()]
     slowest = sorted(medians, key=lambda cell: -cell[1])[:SLOWEST]
-    return Times(statistics.median(totals), max(totals), slowest)
+    return MarkingTimes(statistics.median(totals), max(totals), slowest)

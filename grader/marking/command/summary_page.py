@@ -1,4 +1,4 @@
-"""The summary of a class as one HTML page: no scripts, nothing from elsewhere, everything escaped."""
+"""The summary of a class as one HTML page: no scripts, no external resources, everything escaped."""
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -10,15 +10,15 @@ from grader.marking.page_templates import template_environment
 
 
 def as_page(summary: Summary, links: Mapping[str, str] | None = None) -> str:
-    """The whole page. links: the address of each student's own page, where there is one."""
+    """The whole page. links: the address of each student's own page, if there is one."""
     return _pages.get_template("summary.html").render(summary=summary, links=links or {}).lstrip()
 
 
-def page_links(course: Course, assignment: str, students: Iterable[str], place: Path) -> dict[str, str]:
-    """The students' first pages, as addresses for a file at `place`."""
+def page_links(course: Course, assignment: str, students: Iterable[str], page: Path) -> dict[str, str]:
+    """The addresses of the students' first pages, relative to `page`."""
     found = {student: sorted(course.feedback(student, assignment).glob("*.html")) for student in students}
     return {
-        student: quote(os.path.relpath(pages[0], place.absolute().parent))
+        student: quote(os.path.relpath(pages[0], page.absolute().parent))
         for student, pages in found.items()
         if pages
     }

@@ -12,7 +12,7 @@ WIDTH = 100
 MISTAKES = 8
 ABOUT = "student assignment verdict notebook cell exercise points max missed needs_look"
 FIELDS = [*ABOUT.split(), "flags", "repairs", "reason", "seconds"]
-RUNS = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet takes words that begin so for a formula
+RUNS = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet takes text that begins so for a formula
 
 
 def as_text(summary: Summary, mistakes: int = MISTAKES) -> str:
@@ -94,7 +94,7 @@ def _csv_rows(assignment: str, result: Result) -> Iterator[dict[str, object]]:
 
 
 def _inert(value: object) -> object:
-    """The value without what a terminal would obey, or a spreadsheet."""
+    """The value without control characters, and quoted where a spreadsheet would take it for a formula."""
     if not isinstance(value, str):
         return value
     return f"'{printable(value)}" if value.startswith(RUNS) else printable(value)

@@ -1,1 +1,1 @@
-"""A class as nbgrader keeps it: its folders, its gradebook, its notebooks and pages."""
+"""A class in nbgrader's form: its folders, its gradebook, its notebooks and pages."""

@@ -1,4 +1,4 @@
-"""The one writer to nbgrader's gradebook. What it writes is what `nbgrader autograde` would."""
+"""Reads and writes nbgrader's gradebook, as `nbgrader autograde` does."""
 import contextlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -24,8 +24,8 @@ from grader.marking.errors import GradebookError
 from grader.marking.gradebook.course import Course
 from grader.marking.result import CellResult, Result
 
-PATIENCE = 60.0  # seconds to wait where another program holds an SQLite file, if its address names none
-NO_RESPONSE = "No response."  # nbgrader's own words for an answer that is as it was given out
+PATIENCE = 60.0  # seconds to wait for a locked SQLite file, if its address has no timeout
+NO_RESPONSE = "No response."  # nbgrader's own comment on an untouched answer
 ADVICE = {
     "locked": "another program holds it: close the formgrader's page or wait, then mark again",
     "readonly": "it is read-only: mark as the user who owns it",
@@ -35,11 +35,11 @@ ADVICE = {
 
 
 @dataclass(frozen=True)
-class BookMark:
-    """A student's mark in an assignment, as the gradebook has it.
+class GradebookMark:
+    """A student's mark for an assignment in the gradebook.
 
-    name: first and last, or the id. points: with what was entered by hand and what being late cost.
-    by_marking: what each test cell earned, by notebook and cell; None where it was not marked.
+    name: first and last, or the id. points: with points entered by hand and late penalties.
+    by_marking: the points of each test cell, by notebook and cell; None if it was not marked.
     """
 
     student: str
@@ -60,7 +60,7 @@ class Book:
         url = self._address
         if url.get_backend_name() == "sqlite" and "timeout" not in url.query:
             url = url.update_query_dict({"timeout": str(PATIENCE)})
-        with self._telling():
+        with self._translated_errors():
             self._gradebook = Gradebook(url.render_as_string(hide_password=False), course.name)
 
     def __enter__(self) -> "Book":
@@ -72,7 +72,7 @@ class Book:
         self._gradebook.close()
 
     def cells(self, assignment: str) -> dict[tuple[str, str], float] | None:
-        """The points of each test cell by notebook and name, or None for an assignment it doesn't know."""
+        """The points of each test cell by notebook and name, or None for an unknown assignment."""
         with self._transaction() as book:
             try:
                 notebooks = book.find_assignment(assignment).notebooks
@@ -81,7 +81,7 @@ class Book:
             return {(note.name, cell.name): cell.max_score for note in notebooks for cell in note.grade_cells}
 
     def has(self, assignment: str, student: str, timestamp: datetime | None) -> bool:
-        """Whether it knows this submission as the one of this time."""
+        """Whether it has this submission, with this time."""
         with self._transaction() as book:
             try:
                 submission = book.find_submission(assignment, student)
@@ -89,24 +89,24 @@ class Book:
                 return False
             return timestamp is None or submission.timestamp == timestamp
 
-    def marks(self) -> list[BookMark]:
+    def marks(self) -> list[GradebookMark]:
         """All marks of the class, by assignment and student."""
         with self._transaction() as book:
             submissions = [found for each in book.assignments for found in each.submissions]
             return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
 
     def write(self, result: Result, pages: Mapping[str, NotebookNode], timestamp: datetime | None) -> None:
-        """Write a result: all of it, or nothing where this raises.
+        """Write a result: all of it, or nothing if this raises.
 
-        pages: the notebooks as they were marked, with nbgrader's metadata, by name. timestamp: UTC. What an
-        instructor entered by hand stays, and asks for another look, as after `nbgrader autograde`.
+        pages: the notebooks as they were marked, with nbgrader's metadata, by name. timestamp: UTC. Points
+        entered by hand stay, and are marked for another look, as after `nbgrader autograde`.
         """
         with self._transaction() as book:
             _name(book.update_or_create_student(result.student))
             when = {} if timestamp is None else {"timestamp": timestamp}
-            with book.db.no_autoflush:  # the submission is not in the session before it is complete
+            with book.db.no_autoflush:  # the submission must not be in the session before it is complete
                 book.update_or_create_submission(result.assignment, result.student, **when)
-            book.db.expire_all()  # so that what nbgrader's methods have added shows
+            book.db.expire_all()  # so that the rows of nbgrader's methods are read again
             submission = book.find_submission(result.assignment, result.student)
             for notebook in submission.notebooks:
                 _enter(notebook, result, _graded_cells(pages.get(notebook.name)))
@@ -115,10 +115,10 @@ class Book:
     def _penalise(
         self, book: Gradebook, submission: SubmittedAssignment, notebook: SubmittedNotebook
     ) -> None:
-        """Let the late penalty plugin, if any, say what being late costs."""
+        """Set the penalty of the late submission plugin, if there is one."""
         notebook.late_submission_penalty = None
         book.db.flush()
-        book.db.refresh(notebook)  # its score is a sum that the database makes
+        book.db.refresh(notebook)  # its score is a sum that the database computes
         if submission.total_seconds_late > 0:
             step = AssignLatePenalties(parent=self._app)
             step.init_plugin()
@@ -130,12 +130,12 @@ class Book:
 
     @contextlib.contextmanager
     def _transaction(self) -> Iterator[Gradebook]:
-        """All changes inside go in together, or none does. nbgrader's methods would commit each by itself."""
+        """Commit all changes inside together, or none; nbgrader's methods would commit each by itself."""
         session = self._gradebook.db
         commit = session.commit
         session.commit = session.flush
         try:
-            with self._telling():
+            with self._translated_errors():
                 yield self._gradebook
                 commit()
         finally:
@@ -144,7 +144,7 @@ class Book:
             session.remove()
 
     @contextlib.contextmanager
-    def _telling(self) -> Iterator[None]:
+    def _translated_errors(self) -> Iterator[None]:
         try:
             yield
         except (SQLAlchemyError, InvalidEntry) as error:
@@ -152,14 +152,14 @@ class Book:
             reason = str(getattr(first, "orig", first)).strip()
             advice = (words for sign, words in ADVICE.items() if sign in reason)
             place = self._address.render_as_string(hide_password=True)
-            said = f"the gradebook {place} can't be used ({reason})"
-            raise GradebookError(f"{said}: {next(advice, 'repair it, then mark again')}") from None
+            problem = f"the gradebook {place} can't be used ({reason})"
+            raise GradebookError(f"{problem}: {next(advice, 'repair it, then mark again')}") from None
 
 
-def _mark(found: SubmittedAssignment) -> BookMark:
+def _mark(found: SubmittedAssignment) -> GradebookMark:
     who = found.student
     cells = {(note.name, grade.name): grade.auto_score for note in found.notebooks for grade in note.grades}
-    return BookMark(
+    return GradebookMark(
         student=who.id,
         name=" ".join(part for part in (who.first_name, who.last_name) if part) or who.id,
         assignment=found.assignment.name,
@@ -171,13 +171,13 @@ def _mark(found: SubmittedAssignment) -> BookMark:
 
 
 def _name(student: Student) -> None:
-    """The formgrader would call who has no name "None, None"."""
+    """Set a missing name, which the formgrader would show as "None, None"."""
     if student.first_name is None and student.last_name is None:
         student.first_name, student.last_name = "", student.id
 
 
 def _graded_cells(page: NotebookNode | None) -> dict[str, NotebookNode]:
-    """The cells of a notebook that the gradebook knows of, by name and in order."""
+    """The cells of a notebook that are in the gradebook, by name and in order."""
     cells = [] if page is None else page.cells
     kinds = (is_grade, is_solution, is_task)
     return {cell.metadata.nbgrader.grade_id: cell for cell in cells if any(kind(cell) for kind in kinds)}
@@ -204,9 +204,9 @@ def _enter(notebook: SubmittedNotebook, result: Result, cells: Mapping[str, Note
 
 
 def _score(grade: Grade, earned: CellResult | None, cell: NotebookNode | None) -> None:
-    """Set what one cell earned, and whether somebody has to look at it."""
+    """Set the points of one cell, and whether an instructor has to look at it."""
     if cell is not None and is_task(cell):
-        return  # nobody but a person marks these
+        return  # these are marked by hand only
     look = False
     if earned is not None:
         grade.auto_score = min(earned.points, grade.max_score)
@@ -219,7 +219,7 @@ def _score(grade: Grade, earned: CellResult | None, cell: NotebookNode | None) -
 
 
 def _no_response(cell: NotebookNode | None) -> str | None:
-    """What nbgrader says of an answer that is as it was given out."""
+    """Nbgrader's comment, if the answer is as in the release."""
     if cell is None or is_task(cell):
         return None
     return NO_RESPONSE if cell.metadata.nbgrader.get("checksum") == compute_checksum(cell) else None

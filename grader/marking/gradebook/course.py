@@ -1,4 +1,4 @@
-"""A class as nbgrader's configuration describes it: where its folders lie and where its gradebook is."""
+"""A class as nbgrader's configuration describes it: the paths of its folders and gradebook."""
 import contextlib
 import glob
 import logging
@@ -15,8 +15,8 @@ from grader.marking.errors import CourseError
 
 CONFIGURATION = "nbgrader_config.py"
 TIMESTAMP = "timestamp.txt"
-LONGEST_TIMESTAMP = 200  # bytes
-LONGEST_NAME = 200  # bytes: a file's name may have 255, and students' files have a bit more than their names
+MAX_TIMESTAMP_BYTES = 200
+MAX_NAME_BYTES = 200  # a file's name may have 255, and students' files have longer names than the students
 SHOWN = 60  # characters of a name that can't be used
 
 
@@ -33,8 +33,8 @@ class Course:
             raise CourseError(f"expected {CONFIGURATION} in {self.root}, saw none: go to the course's folder")
         self.app = NbGrader()
         self.app.raise_config_file_errors = True
-        self.app.log_level = "CRITICAL"  # it tells of every step; what matters is said by us
-        logging.getLogger("tornado.application").disabled = True  # where its gradebook prints tracebacks
+        self.app.log_level = "CRITICAL"  # it logs every step; what matters is printed by the commands
+        logging.getLogger("tornado.application").disabled = True  # to which its gradebook logs tracebacks
         try:
             with contextlib.chdir(self.root):
                 self.app.initialize([], root=str(self.root))
@@ -57,11 +57,11 @@ class Course:
         return self._path(self.directory.source_directory, ".", assignment)
 
     def release(self, assignment: str) -> Path:
-        """The assignment as students got it."""
+        """The assignment as it is handed out."""
         return self._path(self.directory.release_directory, ".", assignment)
 
     def submitted(self, student: str, assignment: str) -> Path:
-        """What a student handed in."""
+        """A student's submission."""
         return self._path(self.directory.submitted_directory, student, assignment)
 
     def autograded(self, student: str, assignment: str) -> Path:
@@ -73,11 +73,11 @@ class Course:
         return self._path(self.directory.feedback_directory, student, assignment)
 
     def journal(self, assignment: str) -> Path:
-        """Where marking keeps its results, beside what nbgrader makes of them."""
+        """The folder in which marking stores its results, beside nbgrader's."""
         return (self.root / self.directory.autograded_directory).parent / "marking" / assignment
 
     def certificates(self) -> Path:
-        """Where certificates and their receipt lie."""
+        """The folder of certificates and their receipt."""
         return (self.root / self.directory.autograded_directory).parent / "certificates"
 
     def assignments(self) -> list[str]:
@@ -85,7 +85,7 @@ class Course:
         return sorted({notebook.parent.name for notebook in self.release("*").parent.glob("*/*.ipynb")})
 
     def students(self, assignment: str) -> dict[str, Path]:
-        """Every student who handed the assignment in, with the folder. Raises CourseError for odd names."""
+        """The students who handed the assignment in, with folders. Raises CourseError for invalid names."""
         place = self.directory.format_path(
             self.directory.submitted_directory, "(?P<student>.*)", re.escape(assignment), escape=True
         )
@@ -102,15 +102,15 @@ class Course:
 
 
 def _check_name(student: str, folder: Path) -> None:
-    """Files are called after students, and the gradebook holds text."""
+    """Raise CourseError for a name that can't be the name of a file or a text in the gradebook."""
     length = len(os.fsencode(student))
     plain = student.encode(errors="replace").decode()
-    if plain == student and length <= LONGEST_NAME and "\n" not in student:
+    if plain == student and length <= MAX_NAME_BYTES and "\n" not in student:
         return
     saw = f"{length} bytes" if plain == student else "bytes that are no UTF-8"
     saw = "two lines" if "\n" in student else saw
     shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
-    expected = f"expected one line of at most {LONGEST_NAME} bytes"
+    expected = f"expected one line of at most {MAX_NAME_BYTES} bytes"
     raise CourseError(
         f"a student's folder has the name {shown!r}, {saw}; {expected}: "
         f"rename it in {str(folder.parent.parent).encode(errors='replace').decode()}"
@@ -118,14 +118,14 @@ def _check_name(student: str, folder: Path) -> None:
 
 
 def timestamp(folder: Path) -> tuple[datetime | None, str]:
-    """When a submission was handed in (UTC), from its timestamp.txt, with the file's own text.
+    """When a submission was handed in (UTC), from its timestamp.txt, with the text of this file.
 
-    None and "" where there is none, where it is no ordinary file, or where it holds no time.
+    None and "" if there is none, if it is not a regular file, or if it has no time.
     """
     try:
         with open(os.open(folder / TIMESTAMP, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as file:
-            ordinary = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
-            text = file.read(LONGEST_TIMESTAMP).decode() if ordinary else ""
+            regular = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+            text = file.read(MAX_TIMESTAMP_BYTES).decode() if regular else ""
         return (parse_utc(text.strip()), text) if text.strip() else (None, "")
     except (OSError, ValueError, OverflowError):
         return None, ""

@@ -1,4 +1,4 @@
-"""The students' pages, by nbgrader's own `generate_feedback`, for what was marked anew."""
+"""Makes the students' pages with nbgrader's `generate_feedback`, for submissions that were marked anew."""
 import contextlib
 import os
 import signal
@@ -15,12 +15,12 @@ from nbgrader.utils import temp_attrs
 from grader.marking.gradebook.course import Course
 from grader.marking.sandbox.linux import die_with_parent
 
-FEW = 10  # students whose pages are made in the time that a process takes to start
+SHARE = 10  # students whose pages take as long as the start of a process
 END = b"</html>"
 
 
 class _Feedback(GenerateFeedback):
-    """The converter for a choice of students; nbgrader's own takes one or all."""
+    """nbgrader's converter for chosen students; its own takes one or all."""
 
     def choose(self, folders: Collection[Path]) -> None:
         self.chosen = {str(folder): sorted(map(str, folder.glob("*.ipynb"))) for folder in folders}
@@ -30,8 +30,8 @@ class _Feedback(GenerateFeedback):
 
 
 def make_feedback(course: Course, assignment: str, students: Sequence[str], jobs: int = 1) -> list[str]:
-    """Make the pages of these students anew, in up to `jobs` processes; return whose could not be made."""
-    shares = [students[first : first + FEW] for first in range(0, len(students), FEW)]
+    """Make the pages of these students anew, in up to `jobs` processes; return those that failed."""
+    shares = [students[first : first + SHARE] for first in range(0, len(students), SHARE)]
     if jobs == 1 or len(shares) < 2:
         _make(course, assignment, students)
     else:
@@ -46,12 +46,12 @@ def _make(course: Course, assignment: str, students: Sequence[str]) -> None:
         converter = _Feedback(coursedir=course.directory, parent=course.app)
         converter.force = True
         converter.choose([course.autograded(student, assignment) for student in students])
-        with contextlib.suppress(NbGraderException):  # it goes on to the end and raises then
+        with contextlib.suppress(NbGraderException):  # raised after all pages were tried
             converter.start()
 
 
 def _begin() -> None:
-    """A worker leaves Ctrl-C to the process that it works for, and ends with it."""
+    """Ignore Ctrl-C in a worker, which ends with the process that started it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent(signal.SIGKILL)
 
@@ -62,7 +62,7 @@ def _make_apart(root: Path, assignment: str, students: Sequence[str]) -> None:
 
 
 def is_stale(course: Course, assignment: str, student: str) -> bool:
-    """Whether a page is missing, older than its notebook, or was cut off while it was written."""
+    """Whether a page is missing, older than its notebook, or truncated."""
     folder = course.feedback(student, assignment)
     notebooks = course.autograded(student, assignment).glob("*.ipynb")
     return any(not _shows(folder / f"{notebook.stem}.html", notebook) for notebook in notebooks)

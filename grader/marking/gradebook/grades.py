@@ -1,18 +1,18 @@
-"""`nbgrader export`: all points as class/grades.csv, of the assignments that somebody has handed in."""
+"""`nbgrader export`: all points as class/grades.csv, of the assignments with submissions."""
 from pathlib import Path
 
 from nbgrader.api import Gradebook
 from nbgrader.plugins import CsvExportPlugin
 
-PLACE = Path("class", "grades.csv")  # where git takes nothing
+FILE = Path("class", "grades.csv")  # git ignores this folder
 
 
 class Grades(CsvExportPlugin):
-    """nbgrader's own, which has a 0 for every student in every assignment that is not handed out yet."""
+    """nbgrader's exporter, without assignments that have no submissions, where it gives 0 to all."""
 
     def export(self, gradebook: Gradebook) -> None:
-        """Write the file. `--to` and `--assignment` say otherwise."""
-        self.to = self.to or str(PLACE)
+        """Write the file, unless `--to` or `--assignment` are given."""
+        self.to = self.to or str(FILE)
         submitted = [each.name for each in gradebook.assignments if each.num_submissions]
-        self.assignment = self.assignment or submitted or ["none"]  # an empty list would stand for all
+        self.assignment = self.assignment or submitted or ["none"]  # an empty list would mean all
         super().export(gradebook)

@@ -1,4 +1,4 @@
-"""The notebooks of a marked submission in class/autograded/, as formgrader and feedback read them."""
+"""Writes the notebooks of marked submissions into class/autograded/, for formgrader and feedback."""
 import copy
 from collections.abc import Iterable
 from datetime import datetime
@@ -24,7 +24,7 @@ OPENINGS = {
 
 
 def marked_notebooks(entry: JournalEntry, release: Release) -> dict[str, NotebookNode]:
-    """The notebooks to show, by name. Of a refused submission it is the release: what was to be done."""
+    """The notebooks to show, by name. For a refused submission, those of the release."""
     shown = {note.name: nbformat.from_dict(note.notebook) for note in entry.result.notebooks}
     if not shown:
         shown = copy.deepcopy(dict(release.notebooks))
@@ -37,7 +37,7 @@ def marked_notebooks(entry: JournalEntry, release: Release) -> dict[str, Noteboo
 
 
 def notice(result: Result) -> str:
-    """What a student is told about the marking itself, as Markdown; "" where all went as usual."""
+    """The notice for the student about the marking itself, as Markdown; "" if all was as usual."""
     opening = OPENINGS[result.verdict] or (OPENINGS["repaired"] if result.repairs else "")
     if not opening:
         return ""
@@ -48,7 +48,7 @@ def notice(result: Result) -> str:
 
 
 def write_notebooks(course: Course, result: Result, shown: dict[str, NotebookNode]) -> None:
-    """Put the notebooks into the student's folder, with the submission's time. Raises OSError."""
+    """Write the notebooks into the student's folder, with the submission's time. Raises OSError."""
     student, assignment = result.student, result.assignment
     folder = course.autograded(student, assignment)
     mode = 0o664 if course.directory.groupshared else 0o444
@@ -71,7 +71,7 @@ def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
 
 
 def submission_time(course: Course, result: Result) -> datetime | None:
-    """When the submission was handed in (UTC), where that is known."""
+    """When the submission was handed in (UTC), if that is known."""
     return timestamp(course.submitted(result.student, result.assignment))[0]
 
 

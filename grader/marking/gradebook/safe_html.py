@@ -1,10 +1,10 @@
-"""What of a submission's HTML may show in feedback pages and in the formgrader.
+"""Cleans the HTML of submissions for feedback pages and the formgrader.
 
-nbconvert's own filter drops the tables, pictures and folded hints that scores and tasks are made of, and
+nbconvert's own filter drops the tables, pictures and folded hints that scores and tasks consist of, and
 nbgrader's pages show Markdown unfiltered: a submission's script would run with the instructor's rights.
 
-A replay is data in a `div` and a script that plays it. The data stays, whoever made it, since the player
-only draws its numbers; every script goes, and the course's own player takes its place.
+A replay is data in a `div` and a script that plays it. The data is allowed from any source, because the
+player only draws its numbers; every script is dropped, and the course's own player is added.
 """
 
 import re
@@ -22,7 +22,7 @@ TEXT = "p h1 h2 h3 h4 h5 h6 br hr del s sub sup kbd small mark details summary p
 TABLE = "table caption colgroup col thead tbody tfoot tr th td"
 FIGURE = "img figure figcaption"
 TAGS = {*WORDS.split(), *TEXT.split(), *TABLE.split(), *FIGURE.split()}
-# No `id`: the formgrader finds its buttons and fields by ids, a cell's own could stand in for them.
+# No `id`: the formgrader finds its buttons and fields by ids, which a cell could imitate.
 ATTRIBUTES = {
     "*": {"class", "style", "title"},
     "a": {"href"},
@@ -31,7 +31,7 @@ ATTRIBUTES = {
     "td": {"colspan", "rowspan", "align"},
     "th": {"colspan", "rowspan", "align", "scope"},
 }
-# No `position`, nothing that reaches out of the cell or loads something.
+# No `position`, nothing that extends beyond the cell or loads something.
 TEXT_STYLES = "color font-family font-size font-style font-weight line-height text-align text-decoration"
 BOX_STYLES = "background-color height max-width overflow overflow-x vertical-align white-space width"
 SIDES = ("", "-top", "-right", "-bottom", "-left")
@@ -43,8 +43,8 @@ STYLES = {
 }
 PROTOCOLS = {"http", "https", "mailto", "data"}  # data: pictures inside the page, and nothing else
 LINK = re.compile(r"(https?://|mailto:|#).*", re.DOTALL)
-# Of pictures: inside the page. One from this server would do what its address does, such as /hub/logout; one
-# from elsewhere would tell its server who reads the page.
+# Of pictures: embedded ones only. One from this server could trigger an action, such as /hub/logout; one from
+# another server would tell it who reads the page.
 INSIDE = re.compile(r"data:image/(png|jpeg|gif|webp|svg\+xml);base64,[A-Za-z0-9+/=\s]*")
 LENGTH = r"(\d*\.?\d+(px|em|ex|rem|ch|pt|%)?|auto)"  # with a minus, it would cover what is not its own
 MARGIN = re.compile(rf"\s*{LENGTH}(\s+{LENGTH}){{0,3}}\s*")
@@ -54,19 +54,19 @@ CLASSES = re.compile(r"ros2-replay|dataframe|highlight|anchor-link|[a-z]{1,2}\d?
 REPLAY = re.compile(r"[A-Za-z0-9+/]{1,400000}={0,2}")  # its data: base64, so many characters at most
 PICTURE = {"width": int, "height": int, "alt": str}  # pixels, words
 RUNS = {"application/javascript", "application/vnd.jupyter.widget-view+json", "text/vnd.mermaid"}
-# Up to the end where the end tag is missing, as browsers read it: one pass, whatever a submission holds.
+# Up to the end of the text if the end tag is missing, as in browsers: one pass for any input.
 UNSEEN = re.compile(r"<(script|style)\b.*?(</\1[^<>]*>?|\Z)", re.IGNORECASE | re.DOTALL)
 
 
 def clean(html: object) -> str:
-    """Return the HTML, without all that could run or leave its place."""
+    """Return the HTML without anything that could run or cover the page."""
     text = html.decode(errors="replace") if isinstance(html, bytes) else str(html)
     seen = UNSEEN.sub("", text)
     return f"<p>{TOO_LONG}</p>" if too_long(seen) else _cleaner.clean(seen)
 
 
 def clean_output(html: object) -> str:
-    """The same for a cell's output, where a replay plays: with the course's own player after it."""
+    """The same for a cell's output; the course's own player is added if it has a replay."""
     safe = clean(html)
     if "data-replay=" not in safe:
         return safe
@@ -76,7 +76,7 @@ def clean_output(html: object) -> str:
 
 
 class Attachments(dict[str, Any]):
-    """Pictures that belong to a Markdown cell. One that is missing shows its words, and stops nothing."""
+    """The attached pictures of a Markdown cell. A missing one shows its description and raises nothing."""
 
     def __contains__(self, name: object) -> bool:
         return True
@@ -87,14 +87,14 @@ class Attachments(dict[str, Any]):
 
 @pass_context
 def markdown(context: Context, source: str) -> str:
-    """The filter that makes HTML of Markdown; `clean` comes after it. A picture may be missing."""
+    """A filter of nbconvert: converts Markdown to HTML, before `clean`. A picture may be missing."""
     cell = context.get("cell") or {}
     renderer = IPythonRenderer(escape=False, attachments=Attachments(cell.get("attachments") or {}))
     return MarkdownWithMath(renderer=renderer).render(source)
 
 
 def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
-    """A preprocessor of nbconvert: drops what only runs, and of pictures' metadata all but size and words.
+    """A preprocessor of nbconvert: drops active content, and metadata except pictures' size and text.
 
     The templates write a size without quotes, so that any other value could become a script.
     """
@@ -111,7 +111,7 @@ def plain_outputs(notebook: Any, resources: Any) -> tuple[Any, Any]:
 
 
 def _kept(tag: str, name: str, value: str) -> str | None:
-    """The value of an attribute that stays, or None."""
+    """The value of an allowed attribute, or None."""
     holds = {
         "class": lambda: all(CLASSES.fullmatch(word) for word in value.split()),
         "data-replay": lambda: REPLAY.fullmatch(value),
@@ -124,7 +124,7 @@ def _kept(tag: str, name: str, value: str) -> str | None:
 
 
 def _stays(rule: str) -> bool:
-    """Whether a rule such as "margin: 1em" leaves things in their place."""
+    """Whether a CSS rule such as "margin: 1em" moves nothing over the page."""
     name, _, value = rule.partition(":")
     return not name.strip().lower().startswith("margin") or bool(MARGIN.fullmatch(value))
 

@@ -1,7 +1,7 @@
-"""How much of a notebook its pages show: to colour code and to clean HTML takes time that grows with them.
+"""Shortens notebooks for their pages, because highlighting code and cleaning HTML take time.
 
-A notebook may be such that its page would take hours or all memory; the feedback of a class, and the
-formgrader, would wait for it. The notebook itself keeps everything.
+The page of a hostile notebook could take hours or all memory; the feedback of a class, and the formgrader,
+would wait for it. The notebook itself is not shortened.
 """
 
 import re
@@ -9,26 +9,26 @@ from typing import Any
 
 from nbformat.v4 import new_output
 
-LONGEST = 50_000  # characters of one text
-PAGE = 1_000_000  # of all texts of a page
+MAX_TEXT_CHARS = 50_000  # of one text
+MAX_PAGE_CHARS = 1_000_000  # of all texts of a page
 OUTPUT = 500  # characters that an output counts for at least
 REPLAY = 40_000  # that a replay counts for: its player is in the page, too
-MARKUP = 4  # times as much as other text: it takes longer
-DATA = re.compile(r"[A-Za-z0-9+/=]{100,}")  # of a picture or a replay: nothing in it is looked at
+MARKUP = 4  # weight of a character of markup, which takes longer than other text
+DATA = re.compile(r"[A-Za-z0-9+/=]{100,}")  # of a picture or a replay, which is not processed
 TOO_LONG = "This is too long to be shown here."
 
 
 def too_long(html: str) -> bool:
-    """Whether there is more in it than can be cleaned soon."""
-    return _length(html) > LONGEST
+    """Whether it is too long to be cleaned in a short time."""
+    return _length(html) > MAX_TEXT_CHARS
 
 
 def shorten(notebook: Any, resources: Any) -> tuple[Any, Any]:
-    """A preprocessor of nbconvert: leaves out what is too long, and what comes when the page is full."""
-    room = PAGE
+    """A preprocessor of nbconvert: leaves out texts that are too long, and outputs when the page is full."""
+    room = MAX_PAGE_CHARS
     for cell in notebook.cells:
         room -= len(cell.source)
-        if len(cell.source) > LONGEST or room < 0:
+        if len(cell.source) > MAX_TEXT_CHARS or room < 0:
             cell.source = f"# {TOO_LONG}" if cell.cell_type == "code" else TOO_LONG
         for number, output in enumerate(cell.get("outputs", ())):
             room -= _cost(output)

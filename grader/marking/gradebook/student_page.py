@@ -1,6 +1,6 @@
 """A student's page of one notebook: nbgrader's feedback with the student's name and contents by exercise.
 
-nbgrader makes it with this exporter (`GenerateFeedback.exporter_class`). It has all that it shows in it.
+nbgrader uses this exporter (`GenerateFeedback.exporter_class`). The page needs no external resources.
 """
 
 import re
@@ -23,8 +23,8 @@ MARKS = str.maketrans("", "", "`*")
 
 
 @dataclass(frozen=True)
-class Part:
-    """A line of the contents. anchor: where it leads. earned, worth: points; None for a comment."""
+class ContentsEntry:
+    """A line of the contents. anchor: its target. earned, worth: points; None for a comment."""
 
     title: str
     anchor: str
@@ -33,11 +33,11 @@ class Part:
 
 
 class StudentPage(HTMLExporter):
-    """Exports a marked notebook for the student whose it is."""
+    """Exports a marked notebook for its student."""
 
     @property
     def default_config(self) -> Config:
-        """Its own template, whatever the configuration of nbgrader's pages says."""
+        """Its own template, independent of the configuration of nbgrader's pages."""
         places = [str(Path(__file__).parent / "templates")]
         config = Config({"StudentPage": {"template_name": "student_page", "extra_template_basedirs": places}})
         config.merge(super().default_config)
@@ -46,7 +46,7 @@ class StudentPage(HTMLExporter):
     def from_notebook_node(
         self, nb: NotebookNode, resources: dict[str, Any] | None = None, **kw: Any
     ) -> tuple[str, dict[str, Any]]:
-        """As HTMLExporter. resources: nbgrader's, which say whose notebook it is."""
+        """As HTMLExporter. resources: nbgrader's, with student and assignment."""
         about = (resources or {})["nbgrader"]
         self.environment.globals["page"] = {
             "name": _name(about),
@@ -60,14 +60,14 @@ class StudentPage(HTMLExporter):
         return super().from_notebook_node(nb, resources, **kw)
 
     def _preprocess(self, nb: NotebookNode, resources: dict[str, Any]) -> tuple[NotebookNode, dict[str, Any]]:
-        """As HTMLExporter. In here nbgrader enters the scores; the contents come after it."""
+        """As HTMLExporter. nbgrader's preprocessors enter the scores; the contents need them."""
         nb, resources = super()._preprocess(nb, resources)
-        self.environment.globals["page"]["parts"] = list(_parts(nb))
+        self.environment.globals["page"]["contents"] = list(_contents(nb))
         return nb, resources
 
 
 def _name(about: dict[str, Any]) -> str:
-    """The student's name with the id, as far as the gradebook has one."""
+    """The student's id, with the name if the gradebook has one."""
     student = about["student"]
     try:
         with Gradebook(about["db_url"]) as book:
@@ -82,15 +82,16 @@ def _for_instructor(output: NotebookNode) -> bool:
     return output.get("metadata", {}).get(FOR_INSTRUCTOR) is True
 
 
-def _parts(notebook: NotebookNode) -> Iterator[Part]:
+def _contents(notebook: NotebookNode) -> Iterator[ContentsEntry]:
     """Each cell that gives points, by the last heading above it."""
     title = ""
     for cell in notebook.cells:
-        told = cell.metadata.get("nbgrader", {})
-        if cell.cell_type == "markdown" and not told.get("solution"):
+        settings = cell.metadata.get("nbgrader", {})
+        if cell.cell_type == "markdown" and not settings.get("solution"):
             found = HEADING.findall(cell.source)
             title = WORTH.sub("", found[-1]).translate(MARKS) if found else title
-        if told.get("grade") or told.get("task"):
-            yield Part(title or told["grade_id"], told["grade_id"], told.get("score"), told.get("points"))
-        if told.get("comment") and (told.get("solution") or told.get("task")):
-            yield Part(f"Comment on {title or told['grade_id']}", f"comment-{told['grade_id']}")
+        name = settings.get("grade_id", "")
+        if settings.get("grade") or settings.get("task"):
+            yield ContentsEntry(title or name, name, settings.get("score"), settings.get("points"))
+        if settings.get("comment") and (settings.get("solution") or settings.get("task")):
+            yield ContentsEntry(f"Comment on {title or name}", f"comment-{name}")

@@ -43,8 +43,8 @@ def of_class(folder: Path, assignment: str) -> Entries:
     """All that was handed in, in the course in a folder, and the reference. Raises CourseError."""
     if importlib.util.find_spec("grader.marking.command") is None:  # this is the handout
         raise CourseError("only instructors have what a class handed in: name your notebooks")
-    from grader.marking.command.intake import find_submissions
     from grader.marking.gradebook.course import Course
+    from grader.marking.gradebook.find_submissions import find_submissions
 
     course = Course(folder)
     found = find_submissions(course, assignment)

@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from grader.diagnosis.fault import NOT_STARTED
-from grader.marking.command.summary import Concern, Mistake, summarise
+from grader.marking.command.summary import CommonMistake, Concern, summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
 from grader.marking.result import CellResult, NotebookResult, Result
@@ -87,7 +87,7 @@ def test_mistakes_are_counted_by_student_and_named_by_what_most_of_them_did():
         cell = replace(lined(0), verdicts=[missed, missed])
         results[str(number)] = student(str(number), cell)
     (mistake,) = summarise("01_class", WORTH, results).mistakes
-    assert mistake == Mistake("line", "It keeps time.", 3, "0.5 lines in 1e-0 s", "Look at the timer.")
+    assert mistake == CommonMistake("line", "It keeps time.", 3, "0.5 lines in 1e-0 s", "Look at the timer.")
 
 
 def test_who_has_not_begun_an_exercise_has_made_no_mistake_in_it(results):

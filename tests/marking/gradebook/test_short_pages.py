@@ -3,7 +3,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_output, new_raw_cell
 
 from grader.marking.gradebook.safe_html import clean
-from grader.marking.gradebook.short_pages import LONGEST, PAGE, TOO_LONG, shorten
+from grader.marking.gradebook.short_pages import MAX_PAGE_CHARS, MAX_TEXT_CHARS, TOO_LONG, shorten
 
 NOTE = new_output("stream", text=f"{TOO_LONG}\n")
 
@@ -31,13 +31,14 @@ def test_html_that_would_take_an_hour_to_clean_is_left_out(text):
 
 
 def test_a_cell_too_long_to_be_coloured_is_left_out():
-    long = "x" * (LONGEST + 1)
+    long = "x" * (MAX_TEXT_CHARS + 1)
     cells = shortened(new_code_cell(long), new_markdown_cell(long), new_raw_cell(long))
     assert [cell.source for cell in cells] == [f"# {TOO_LONG}", TOO_LONG, TOO_LONG]
 
 
 def test_when_the_page_is_full_the_rest_is_left_out():
-    full = new_code_cell("x", outputs=[new_output("stream", text="x" * (PAGE - 2000)), *[html("")] * 3])
+    long = new_output("stream", text="x" * (MAX_PAGE_CHARS - 2000))
+    full = new_code_cell("x", outputs=[long, *[html("")] * 3])
     behind = new_code_cell("y", outputs=[html(""), html("")])
     first, last = shortened(full, behind)
     assert first.outputs == [*full.outputs[:3], NOTE]

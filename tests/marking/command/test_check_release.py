@@ -3,9 +3,10 @@ import shutil
 import nbformat
 import pytest
 
-from grader.marking.command.intake import check_release, find_submissions
+from grader.marking.command.check_release import check_release
 from grader.marking.errors import CourseError
 from grader.marking.gradebook.book import Book
+from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.release.make_exercises import release
 from tests.marking.classroom import ASSIGNMENT, POINTS, WRITTEN, tasks
 

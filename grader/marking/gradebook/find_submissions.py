@@ -1,0 +1,36 @@
+"""Finds the submissions of an assignment."""
+import difflib
+from collections.abc import Collection, Iterable
+from pathlib import Path
+
+from grader.marking.errors import CourseError
+from grader.marking.gradebook.course import Course
+
+REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enters it into the gradebook"
+
+
+def find_submissions(course: Course, assignment: str, chosen: Collection[str] = ()) -> dict[str, Path]:
+    """The folders handed in for an assignment, sorted by student; only those of the chosen, if any.
+
+    Raises CourseError if there is no such assignment, no such student, or no submission.
+    """
+    names = course.assignments()
+    if assignment not in names:
+        released = f"{course.release(assignment).parent} has no assignment {assignment}"
+        known = f"there are {', '.join(names)}" if names else REMAKE
+        raise CourseError(f"{released}: {_near(assignment, names) or known}")
+    found = course.students(assignment)
+    place = course.submitted("STUDENT", assignment)
+    if not found:
+        raise CourseError(f"nobody has handed in {assignment}: put the notebooks into {place}")
+    for student in chosen:
+        if student not in found:
+            here = course.submitted(student, assignment)
+            advice = _near(student, found) or f"{len(found)} students have handed it in"
+            raise CourseError(f"{student} has not handed in {assignment}, {here} is missing: {advice}")
+    return {student: folder for student, folder in sorted(found.items()) if not chosen or student in chosen}
+
+
+def _near(name: str, names: Iterable[str]) -> str:
+    near = difflib.get_close_matches(name, list(names), n=1)
+    return f"did you mean {near[0]}?" if near else ""
