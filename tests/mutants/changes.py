@@ -168,12 +168,20 @@ def _instead_of_a_statement(node: ast.AST, parent: ast.AST) -> Iterator[ast.AST]
             yield ast.Pass()
         case ast.Assign() if isinstance(parent, ast.If | ast.For | ast.While | ast.With | ast.Try):
             yield ast.Pass()
-        case ast.Return(value=ast.expr() as value) if getattr(value, "value", value):
+        case ast.Return(value=ast.expr() as value) if not _is_empty(value):
             yield ast.Return(ast.Constant(None))
         case ast.Continue():
             yield ast.Break()
         case ast.Break():
             yield ast.Continue()
+
+
+def _is_empty(value: ast.expr) -> bool:
+    """Whether it is None, "" or the like: what takes it can seldom tell them apart."""
+    try:
+        return not ast.literal_eval(value)
+    except ValueError:
+        return False
 
 
 def _has_text(*nodes: ast.AST) -> bool:

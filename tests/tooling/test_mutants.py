@@ -155,7 +155,7 @@ def changes(source):
         ("while a > b:\n  continue", ["a > b → a >= b", "continue → break"]),
         ("raise a", ["raise a → pass"]),
         ("def f(a=1):\n  'A text.'\n  return a", ["a=1 → a=2", "a=1 → a=0", "return a → return None"]),
-        ("def f():\n  return None", []),
+        ("def f():\n  return None\n  return {}", []),
         ("@dataclass(frozen=True)\nclass A:\n  b: Literal['c d'] = c", []),
         ("__all__ = ['a b']\nif TYPE_CHECKING:\n  import a", []),
     ],

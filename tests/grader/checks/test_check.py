@@ -41,17 +41,43 @@ def test_points_are_a_finite_number_from_0_up(points):
         check(points=points)(documented)
 
 
+@pytest.mark.parametrize("points", [0, 0.5])
+def test_a_check_may_give_no_points_or_less_than_one(points):
+    assert check(points=points)(documented).points == points
+
+
+def test_a_check_holds_in_all_scenarios_or_in_those_it_names():
+    everywhere, one = new_check(documented, 1), new_check(documented, 1, only="windy")
+    two = new_check(documented, 1, only=("windy", "calm"))
+    scenarios = ("", "windy", "calm")
+    assert [everywhere.holds_in(name) for name in scenarios] == [True, True, True]
+    assert [one.holds_in(name) for name in scenarios] == [False, True, False]
+    assert [two.holds_in(name) for name in scenarios] == [False, True, True]
+
+
+def test_a_check_lasts_to_the_end_of_the_run_where_it_says_so_or_builds_on_others():
+    assert not new_check(documented, 1).lasts
+    assert not sentence("made by hand").lasts
+    assert new_check(documented, 1, lasts=True).lasts
+    assert new_check(documented, 1, after=sentence("first")).lasts
+
+
 def test_after_is_one_check_or_several():
     first, second = sentence("first"), sentence("second")
     assert check(points=1, after=first)(documented).after == (first,)
     assert check(points=1, after=(first, second))(documented).after == (first, second)
 
 
-@pytest.mark.parametrize("credit", [True, False, 1.5, -0.1, math.nan])
+@pytest.mark.parametrize("credit", [True, False, 1.1, 1.5, -0.1, math.nan])
 def test_a_credit_is_a_fraction(credit):
     with pytest.raises(ValueError) as caught:
         Missed("1 Hz", "2 Hz", credit=credit)
     assert str(caught.value) == f"a credit is the earned fraction, from 0 to 1; this one is {credit!r}"
+
+
+@pytest.mark.parametrize("credit", [0, 0.9, 1])
+def test_a_credit_may_be_nothing_and_all(credit):
+    assert Missed("1 Hz", "2 Hz", credit=credit).credit == credit
 
 
 def test_a_check_takes_a_recording_and_all_results_or_none():
@@ -87,6 +113,9 @@ def test_a_miss_is_data():
         "topics",
     )
     assert str(miss) == "expected 1 Hz; saw 2 Hz"
+    plain = Missed("1 Hz", "2 Hz")
+    assert (plain.hint, plain.guess, plain.credit, plain.picture) == ("", "", 0.0, "")
+    assert (plain.measured, plain.typo, plain.unsafe, plain.about) == (None, None, False, ())
 
 
 def documented(recording):
@@ -135,3 +164,31 @@ def test_a_miss_with_a_hint_of_its_own_keeps_it():
     with pytest.raises(Missed) as caught:
         new_check(counts, 1, hints=HINTS)(Recording())
     assert caught.value.hint == "Its own."
+
+
+@pytest.mark.parametrize(
+    ("own", "guess", "expected"),
+    [("", "Perhaps so.", "Perhaps so."), ("", HINTS, "It is 2 too many."), ("Its own.", HINTS, "Its own.")],
+)
+def test_a_miss_without_a_guess_has_that_of_the_check_which_may_be_a_table(own, guess, expected):
+    def counts(recording):
+        """A sentence."""
+        raise Missed("1", "3", guess=own, about=(3,))
+
+    with pytest.raises(Missed) as caught:
+        new_check(counts, 1, guess=guess)(Recording(ended=Ended("time", 1.0, "")))
+    assert (caught.value.hint, caught.value.guess) == ("", expected)
+
+
+def test_two_checks_are_the_same_whatever_their_hints_and_guesses():
+    assert new_check(documented, 1, hints=HINTS, guess="Perhaps so.") == new_check(documented, 1)
+
+
+def test_a_miss_without_a_table_of_hints_has_none():
+    def counts(recording):
+        """A sentence."""
+        raise Missed("1", "3")
+
+    with pytest.raises(Missed) as caught:
+        new_check(counts, 1)(Recording())
+    assert caught.value.hint == ""

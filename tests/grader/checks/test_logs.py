@@ -1,3 +1,5 @@
+import itertools
+
 import pytest
 from std_msgs.msg import Float32, String
 
@@ -64,6 +66,35 @@ def test_logs_tells_printing_from_logging():
     assert miss.hint == "Use self.get_logger().info(...) instead of print(...)."
 
 
+def from_course(run, *indices):
+    """The run, with these log lines by a program of the course."""
+    for index in indices:
+        run.logs[index] = run.logs[index]._replace(node="robot", from_course=True)
+    return run
+
+
+def test_logs_leaves_out_what_the_course_logs():
+    run = from_course(logged((1.0, "INFO", "count 1"), (2.0, "INFO", "count 2")), 0)
+    assert [line.stamp for line in logs(run, "count")] == [2.0]
+
+
+def test_logs_shows_the_first_of_several_lines():
+    run = logged((1.0, "INFO", "count 1"), (2.0, "DEBUG", "count 2"))
+    assert missed(logs, run, "count", level="WARN").saw == "“count 1” at level INFO"
+    run = logged((1.0, "INFO", "one"), (2.0, "INFO", "two"))
+    assert missed(logs, run, "count").saw == "no such line; the first line is “one”"
+    run = logged((1.0, "INFO", "Count: 1"), (2.0, "INFO", "count: 1"), (3.0, "INFO", "other"))
+    assert missed(logs, run, r"^count = \d$", example="count = 1").saw == "“Count: 1”"
+    run = logged((1.0, "INFO", "count 1"), (2.0, "INFO", "count 2"), (3.0, "INFO", "count 3"))
+    assert missed(logs, run, "count", at_least=4).saw == "3; the last at 3 s"
+
+
+def test_logs_takes_a_line_for_similar_where_seven_of_ten_letters_are_the_same():
+    near, far = logged((1.0, "INFO", "abcdefg---")), logged((1.0, "INFO", "abcdef----"))
+    assert missed(logs, near, "abcdefghij").saw == "“abcdefg---”"
+    assert missed(logs, far, "abcdefghij").saw == "no such line; the first line is “abcdef----”"
+
+
 def test_logs_counts():
     miss = missed(logs, logged((1.0, "INFO", "count 1"), (2.0, "INFO", "count 2")), "count", at_least=3)
     assert (miss.expected, miss.saw) == ("3 log lines like “count”", "2; the last at 2 s")
@@ -86,6 +117,44 @@ def test_come_every_gives_the_lines_that_come_from_start_to_end():
     run = beats(1.0, 2.05, 3.0, 4.0, timers=[1.0])
     lines = logs(run, "beat")
     assert come_every(run, lines, 1.0) == lines
+
+
+@pytest.mark.parametrize(("period", "gaps"), [(1.0, (1.09, 0.91)), (0.5, (0.54, 0.46))])
+def test_come_every_allows_gaps_that_are_a_tenth_off(period, gaps):
+    stamps = [period, *itertools.accumulate(gaps, initial=2 * period)]
+    run = beats(*stamps, timers=[period]).during(0.0, stamps[-1] + period)
+    assert len(come_every(run, logs(run, "beat"), period)) == 4
+
+
+@pytest.mark.parametrize(
+    ("period", "stamps"),
+    [(1.0, (1.0, 2.11, 3.1)), (1.0, (1.0, 1.89, 2.9)), (0.5, (0.5, 1.055, 1.55)), (2.0, (2.0, 4.22))],
+)
+def test_come_every_misses_a_gap_that_is_more_than_a_tenth_off(period, stamps):
+    miss = pace(beats(*stamps, timers=[period]), period)
+    assert miss.expected == f"a line every {period:g} s, from start to end"
+    assert miss.hint.startswith("One timer sets the pace")
+
+
+@pytest.mark.parametrize(
+    ("period", "first", "last", "moment"),
+    [
+        (1.0, 1.5, 3.5, ""),
+        (1.0, 1.7, 3.7, "1.7"),
+        (1.0, 1.3, 3.3, "3.3"),
+        (0.5, 0.75, 4.25, ""),
+        (0.5, 0.85, 4.35, "0.85"),
+        (0.5, 0.65, 4.15, "4.15"),
+    ],
+)
+def test_come_every_allows_a_start_that_is_late_and_an_end_that_is_early_by_16_tenths_of_a_period(
+    period, first, last, moment
+):
+    run = beats(*(first + n * period for n in range(round((last - first) / period) + 1)), timers=[period])
+    if moment:
+        assert pace(run, period).hint == f"What changes at {moment} s?"
+    else:
+        assert come_every(run, logs(run, "beat"), period)
 
 
 def test_come_every_counts_the_start_and_the_end_of_a_window_of_time():
@@ -119,6 +188,11 @@ def test_come_every_says_the_pace_and_that_one_timer_sets_it():
         ((2.0,), "one line, at 2 s"),
         ((0.0, 0.0, 0.0), "3 lines at once, at 0 s"),
         ((1.0, 2.0, 2.5, 4.0), "pauses between 0.5 s and 1.5 s"),
+        ((0.0, 0.0, 1.0), "pauses between 0 s and 1 s"),
+        ((1.0, 1.0 + 4e-7, 1.0 + 8e-7), "3 lines at once, at 1 s"),
+        ((1.0, 1.0005, 1.001), "a line every 0.0005 s, from 1 s to 1 s"),
+        ((1.0, 1.5, 2.0 + 5e-7), "a line every 0.5 s, from 1 s to 2 s"),
+        ((1.0, 1.5, 2.0005), "pauses between 0.5 s and 0.501 s"),
     ],
 )
 def test_come_every_tells_lines_without_a_pace_and_asks_for_a_timer(stamps, saw):
@@ -150,6 +224,19 @@ def test_come_every_gives_the_lines_to_later_checks_where_they_earn_something_th
     assert (miss.credit, miss.measured) == (0.5, logs(run, "beat"))
 
 
+def test_come_every_gives_no_credit_unless_it_is_said():
+    assert pace(beats(0.0)).credit == 0.0
+
+
+@pytest.mark.parametrize(
+    ("lines", "begin", "period", "credit"),
+    [(50, 0.0, 1.0, 0.5), (51, 0.0, 1.0, 0.0), (100, 0.0, 0.5, 0.5), (101, 0.0, 0.5, 0.0), (21, 3.0, 1.0, 0.0)],
+)
+def test_come_every_gives_no_credit_for_more_than_ten_times_as_many_lines(lines, begin, period, credit):
+    run = beats(*(begin + n / lines for n in range(lines))).during(begin)
+    assert pace(run, period, credit=0.5).credit == credit
+
+
 def conversation(*lines):
     run = published("/command", [(1.0, String(data="stand")), (2.0, String(data="walk"))])
     run.logs = logged(*lines).logs
@@ -169,6 +256,28 @@ def test_answers_gives_credit_for_the_part_that_is_answered():
     assert miss.expected == "a log line like “walk” after each message on /command"
     assert miss.saw == "“stand!” (INFO) within 0.5 s of the message at 2 s"
     assert miss.credit == 0.5
+
+
+def test_answers_gives_no_credit_for_less_than_half():
+    run = published("/command", [(float(n), String(data="go")) for n in range(1, 10)])
+    run.logs = logged(*((float(n), "INFO", "go") for n in range(1, 5))).logs
+    miss = missed(answers, run, "/command", "go")
+    assert (miss.saw, miss.credit) == ("no line within 0.5 s of the message at 5 s", 0.0)
+
+
+def test_answers_shows_the_first_message_without_an_answer_and_the_first_line_after_it():
+    lines = (1.0, "INFO", "one"), (1.1, "DEBUG", "two")
+    miss = missed(answers, conversation(*lines), "/command", said)
+    assert miss.expected == "a log line like “stand” after each message on /command"
+    assert miss.saw == "“one” (INFO) within 0.5 s of the message at 1 s"
+
+
+def test_answers_may_be_of_the_moment_of_the_message_and_not_of_the_course():
+    run = conversation((1.0, "INFO", "stand!"), (2.0, "INFO", "walk!"))
+    answers(run, "/command", said)
+    assert missed(answers, from_course(run, 1), "/command", said).expected == (
+        "a log line like “walk” after each message on /command"
+    )
 
 
 def test_answers_wants_the_level_and_the_time():
@@ -221,6 +330,18 @@ def test_answers_misses_a_line_after_a_message_that_wants_none():
     miss = missed(answers, warned((2.0, "WARN"), (3.0, "WARN")), "/level", **LOW)
     assert (miss.expected, miss.saw) == ("no other log line at level WARN", "“low” at 3 s")
     assert miss.credit == 0.5
+
+
+def test_answers_shows_the_first_line_that_should_not_be_there():
+    run = warned((1.2, "WARN"), (2.0, "WARN"), (3.0, "WARN"))
+    assert missed(answers, run, "/level", **LOW).saw == "“low” at 1.2 s"
+    run.logs = [line._replace(text=f"low {n}") for n, line in enumerate(run.logs)]
+    assert missed(answers, run, "/level", **LOW).saw == "“low 0” at 1.2 s"
+
+
+def test_answers_minds_other_lines_only_where_it_is_said():
+    answers(warned((2.0, "WARN"), (3.0, "WARN")), "/level", **{**LOW, "only": False})
+    answers(conversation((0.5, "INFO", "hello"), (1.0, "INFO", "stand"), (2.0, "INFO", "walk")), "/command", said)
 
 
 def test_answers_misses_a_line_before_the_first_message():
