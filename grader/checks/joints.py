@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -14,16 +15,30 @@ from grader.checks.motion import Point, distances_to_line
 from grader.checks.topics import series
 from sim.evidence import Pose, Recording, Seconds
 
+FOLLOW_TRAJECTORY = "/arm_controller/follow_joint_trajectory", "control_msgs/action/FollowJointTrajectory"
+"""The action of an arm's driver, and its type."""
 
-def described_limits(recording: Recording) -> dict[str, tuple[float, float]]:
-    """The limits (rad) of each joint that has some, by the description that the course publishes."""
+
+class JointLimits(NamedTuple):
+    """The lowest and the highest position of a joint, rad."""
+
+    lower: float
+    upper: float
+
+    def margin(self, position: float) -> float:
+        """Return how far (rad) a position is from the nearer limit; below 0 beyond it."""
+        return min(position - self.lower, self.upper - position)
+
+
+def described_limits(recording: Recording) -> dict[str, JointLimits]:
+    """The limits of each joint that has some, by the description that the course publishes."""
     text = next(row for row in recording.messages("/robot_description") if row.from_course).message.data
-    found = {}
-    for joint in ElementTree.fromstring(text).iter("joint"):
-        limit = joint.find("limit")
-        if limit is not None:
-            found[joint.get("name", "")] = float(limit.get("lower", "")), float(limit.get("upper", ""))
-    return found
+    joints = ElementTree.fromstring(text).iterfind("joint[limit]")
+    limits = {joint.get("name", ""): joint.find("limit") for joint in joints}
+    return {
+        name: JointLimits(float(limit.get("lower")), float(limit.get("upper")))
+        for name, limit in limits.items()
+    }
 
 
 def tip_path(recording: Recording) -> list[Pose]:

@@ -1,4 +1,4 @@
-"""A lift that gets stuck, and a caller who requests positions, some of them beyond its limits."""
+"""A lift that gets stuck, and requests for positions, some of them beyond its limits."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, String
 
 from grader.companions.qos import LATCHED
+from grader.companions.schedule import Schedule
 from sim.world.machines import JointModel, urdf
 from sim.world.machines.urdf import EFFORT
 
@@ -122,28 +123,10 @@ class Lift(Node):
         self.states.publish(message)
 
 
-class Caller(Node):
-    """Requests one position after another on /wanted (Float64)."""
-
-    def __init__(self, requests: list[float]) -> None:
-        super().__init__("caller")
-        self.requests = requests[::-1]
-        self.publisher = self.create_publisher(Float64, "/wanted", 10)
-        self.begin = self.create_timer(BEGIN, self.start)
-
-    def start(self) -> None:
-        """Request the first position."""
-        self.begin.cancel()
-        self.call()
-        self.create_timer(PAUSE, self.call)
-
-    def call(self) -> None:
-        """Request the next position, if there is one."""
-        if self.requests:
-            self.publisher.publish(Float64(data=self.requests.pop()))
-
-
 def lift(seed: int) -> list[Callable[[], Node]]:
-    """Return the lift of a seed and its caller, as companions of a run."""
+    """Return the lift of a seed, and a program that requests positions on /wanted (Float64)."""
     made = plan(seed)
-    return [functools.partial(Lift, made), functools.partial(Caller, made.requests)]
+    rows = [
+        (BEGIN + number * PAUSE, "/wanted", Float64(data=one)) for number, one in enumerate(made.requests)
+    ]
+    return [functools.partial(Lift, made), functools.partial(Schedule, "caller", rows)]

@@ -5,10 +5,11 @@ import math
 
 import pytest
 
+from grader.companions.figure import figure
+from grader.companions.joint_paths import CRUISE, LESSON, NAMES, paths
+from grader.companions.joint_positions import poses, stations
 from grader.companions.lift import plan
-from grader.exercises.joints.crew import CRUISE, LESSON, NAMES, paths, poses, stations
-from grader.exercises.joints.designer import figure
-from grader.exercises.joints.places import EDGE, arm_of, desk_of, joint_of, side_of
+from grader.worlds.arms import EDGE, arm_of, desk_of, joint_of, side_of
 
 SEEDS = range(100)
 

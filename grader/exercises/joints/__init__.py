@@ -1,15 +1,16 @@
 """The exercises of 08_joints, from seven positions to an arm that draws."""
 
+from grader.companions.figure import Designer, designer
+from grader.companions.joint_paths import teacher
+from grader.companions.joint_positions import foreman, gymnast
 from grader.companions.lift import lift
-from grader.exercises.joints.arriving import arrive
+from grader.exercises.joints.arrive import arrive
 from grader.exercises.joints.careful import careful
-from grader.exercises.joints.crew import foreman, gymnast, teacher
-from grader.exercises.joints.designer import Designer, designer
-from grader.exercises.joints.drawing import draw
-from grader.exercises.joints.following import trajectory
-from grader.exercises.joints.places import arm_of, desk_of, joint_of
-from grader.exercises.joints.publishing import seven
-from grader.exercises.joints.watching import limits
+from grader.exercises.joints.draw import draw
+from grader.exercises.joints.limits import limits
+from grader.exercises.joints.seven import seven
+from grader.exercises.joints.trajectory import trajectory
+from grader.worlds.arms import arm_of, desk_of, joint_of
 
 __all__ = [
     "Designer",

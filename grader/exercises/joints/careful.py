@@ -7,7 +7,7 @@ import math
 from typing import Any, NamedTuple
 
 from grader.checks import Missed, answers, commands_within, otherwise, publishes
-from grader.checks.joints import described_limits
+from grader.checks.joints import JointLimits, described_limits
 from grader.companions.lift import JOINT, lift
 from grader.exercise import Exercise
 from grader.responses import Stimuli, Stimulus, Window, from_course, last_before, same
@@ -47,7 +47,7 @@ def publishes_commands(run: Recording) -> None:
             lambda run, request: _silent_since_a_refusal(run, request)
         ),
         "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.": (
-            lambda run, request: dict(zip(("lower", "upper"), _limits(run), strict=True))
+            lambda run, request: _limits(run)._asdict()
         ),
     },
 )
@@ -113,7 +113,7 @@ def says_so(run: Recording) -> None:
             lambda run, jam, later: later and {"sent": later[0]}
         ),
         "Stuck is when abs(effort) is as high as the description's limit, and abs(velocity) is 0, for half a "
-        "second. Read them by the joint's name, remember since when, and compare with now.": (otherwise),
+        "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
     },
 )
 def frees_what_is_stuck(run: Recording) -> None:
@@ -139,13 +139,12 @@ def frees_what_is_stuck(run: Recording) -> None:
             )
 
 
-def _limits(run: Recording) -> tuple[float, float]:
+def _limits(run: Recording) -> JointLimits:
     return described_limits(run)[JOINT]
 
 
 def _is_within(run: Recording, message: Any) -> bool:
-    lower, upper = _limits(run)
-    return lower <= message.data <= upper
+    return _limits(run).margin(message.data) >= 0
 
 
 def _refused(run: Recording) -> list[Stimulus]:

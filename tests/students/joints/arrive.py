@@ -217,3 +217,21 @@ class LongEnoughForAll(Patient):
         if self.positions:
             self.target = self.next()
             self.publisher.publish(Float64(data=self.target))
+
+
+class Rounded(Patient):
+    """Publishes the positions with one decimal."""
+
+    def take(self, msg):
+        self.positions = [round(position, 1) for position in msg.data]
+
+
+class TooCautious(Patient):
+    """Waits for 4.5 s at each position, and gets to the end of the run."""
+
+    def has_arrived(self, position, velocity):
+        self.since = getattr(self, "since", 0) + 1 if super().has_arrived(position, velocity) else 0
+        if self.since < 90:
+            return False
+        self.since = 0
+        return True

@@ -180,3 +180,7 @@ class StaysWhereItIs(Artist):
 
     def inverse(self, x, y):
         return 0.0, 0.0
+
+
+class OtherNames(Artist):
+    names = ("shoulder", "elbow")

@@ -161,3 +161,12 @@ class OtherTopic(Watcher):
         self.publisher = self.create_publisher(String, "/near_limit", 10)
         self.create_subscription(String, "/robot_description", self.read, LATCHED)
         self.create_subscription(JointState, "/joints", self.watch, 10)
+
+
+class LimitsForAll(Watcher):
+    """As if each joint without limits could turn from 0 to 1 rad."""
+
+    def watch(self, msg):
+        for name, position in zip(msg.name, msg.position, strict=False):
+            self.limits.setdefault(name, (0.0, 1.0))
+            self.look_at(name, position)

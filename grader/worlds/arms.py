@@ -19,7 +19,7 @@ def _between(draw: random.Random, low: float, high: float) -> float:
 
 @functools.lru_cache(maxsize=64)
 def joint_of(seed: int) -> World:
-    """The world joint with a motor that may be slow or quick, and limits of its own."""
+    """Return the world joint with a motor that may be slow or quick, and limits of its own."""
     draw = random.Random(f"joint {seed}")
     model = JointModel(
         lower=-_between(draw, 1.2, 2.0),
@@ -32,7 +32,7 @@ def joint_of(seed: int) -> World:
 
 @functools.lru_cache(maxsize=64)
 def arm_of(seed: int) -> World:
-    """The world arm with limits of its own, no two alike; its driver may name the elbow first."""
+    """Return the world arm with limits of its own, no two alike; its driver may name the elbow first."""
     draw = random.Random(f"arm {seed}")
     shoulder = JointModel(-_between(draw, 1.0, 1.4), _between(draw, 1.6, 2.0), 0.0, 1.5, 4.0, 0.5)
     elbow = JointModel(-_between(draw, 2.0, 2.4), _between(draw, 0.7, 0.9), 0.0, 2.0, 6.0, 0.4)
@@ -42,16 +42,15 @@ def arm_of(seed: int) -> World:
 
 @functools.lru_cache(maxsize=64)
 def desk_of(seed: int) -> World:
-    """The world arm with links of other lengths and a table's edge beside it, on either side."""
+    """Return the world arm with links of other lengths and a table's edge beside it, on either side."""
     draw = random.Random(f"desk {seed}")
     shoulder = JointModel(-2.6, 2.6, 0.0, 1.5, 4.0, _between(draw, 0.45, 0.6))
     elbow = JointModel(-2.6, 2.6, 0.0, 2.0, 6.0, _between(draw, 0.38, 0.44))
-    side = -1 if side_of(seed) > 0 else 1
-    edge = ((-1.1, side * EDGE), (1.1, side * EDGE))
+    y = -side_of(seed) * EDGE
     model = ArmModel(shoulder, elbow, elbow_first=draw.random() < 0.5)
-    return replace(World.load("arm"), machine=model, walls=(edge,), name=f"desk_{seed}")
+    return replace(World.load("arm"), machine=model, walls=(((-1.1, y), (1.1, y)),), name=f"desk_{seed}")
 
 
 def side_of(seed: int) -> int:
-    """On which side of the x axis the figure is: 1 to the left, -1 to the right."""
+    """Return on which side of the x axis the figure is: 1 to the left, -1 to the right."""
     return random.Random(f"side {seed}").choice((1, -1)) if seed > 2 else (1, -1)[seed % 2]

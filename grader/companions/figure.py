@@ -1,4 +1,4 @@
-"""A node of ours for the last exercise of 08_joints: it has figures to be drawn."""
+"""A figure that an arm has to draw."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from collections.abc import Callable
 from geometry_msgs.msg import Point32, Polygon
 from rclpy.node import Node
 
-from grader.exercises.joints.crew import LATCHED
-from grader.exercises.joints.places import desk_of, side_of
+from grader.companions.qos import LATCHED
+from grader.geometry import Point
+from grader.worlds.arms import desk_of, side_of
 
 POINTS = 36
 SHAPES = {
@@ -21,8 +22,8 @@ SHAPES = {
 }
 
 
-def figure(seed: int) -> list[tuple[float, float]]:
-    """A closed figure in front of the arm of `desk_of(seed)`, as points (m) in its base_link."""
+def figure(seed: int) -> list[Point]:
+    """Return a closed figure in front of the arm of `desk_of(seed)`, as points (m) in its base_link."""
     draw, arm = random.Random(f"figure {seed}"), desk_of(seed).machine
     shape = SHAPES[draw.choice(sorted(SHAPES)) if seed > 2 else "circle"]
     far = (arm.shoulder.length + arm.elbow.length) * draw.uniform(0.58, 0.64)
@@ -34,14 +35,14 @@ def figure(seed: int) -> list[tuple[float, float]]:
 
 
 class Designer(Node):
-    """Says once, for all who come, what to draw: /figure (Polygon), latched."""
+    """Publishes a figure to be drawn once on /figure (Polygon), latched."""
 
-    def __init__(self, points: list[tuple[float, float]]) -> None:
+    def __init__(self, points: list[Point]) -> None:
         super().__init__("designer")
         self.publisher = self.create_publisher(Polygon, "/figure", LATCHED)
         self.publisher.publish(Polygon(points=[Point32(x=x, y=y) for x, y in points]))
 
 
 def designer(seed: int) -> list[Callable[[], Node]]:
-    """The designer of a seed, as companions of a run in `desk_of(seed)`."""
+    """Return the designer of a seed, as companions of a run in `desk_of(seed)`."""
     return [functools.partial(Designer, figure(seed))]

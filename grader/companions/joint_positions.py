@@ -1,0 +1,82 @@
+"""Positions for a joint to go to, and programs that move an arm near its limits."""
+
+from __future__ import annotations
+
+import functools
+import random
+from collections.abc import Callable
+
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+
+from grader.companions.qos import LATCHED
+from grader.companions.schedule import Schedule
+from grader.worlds.arms import arm_of, joint_of
+from sim.world.machines import JointModel
+
+STATIONS, VISIT = 4, 2.2  # positions; s from pose to pose
+BEGIN = 0.1  # s
+NEAR, FAR = (0.03, 0.07), (0.25, 0.6)  # rad from a limit: near for sure, and not near for sure
+
+
+def stations(seed: int) -> list[float]:
+    """Return positions (rad) for the joint of a seed, far enough apart, and near enough to be quick."""
+    draw, model = random.Random(f"stations {seed}"), joint_of(seed).machine
+    places, now = [], 0.0
+    while len(places) < STATIONS:
+        place = round(draw.uniform(model.lower, model.upper), 2)
+        far = abs(place - now) / model.max_velocity  # s
+        if 0.8 <= far <= 4.0 and (far > 2.5 or len(places) != 1):  # to one, two seconds are not enough
+            places.append(place)
+            now = place
+    return places
+
+
+def foreman(seed: int) -> list[Callable[[], Node]]:
+    """Return a program that publishes the positions for `joint_of(seed)`: latched, on /positions.
+
+    It waits until all programs have discovered each other: a command sent in response is received.
+    """
+    row = BEGIN, "/positions", Float64MultiArray(data=stations(seed))
+    return [functools.partial(Schedule, "foreman", [row], LATCHED)]
+
+
+class Gripper(Node):
+    """Another driver that publishes /joint_states, of its own joint only."""
+
+    def __init__(self) -> None:
+        super().__init__("gripper")
+        self.publisher = self.create_publisher(JointState, "/joint_states", 10)
+        self.create_timer(0.13, self.report)
+
+    def report(self) -> None:
+        """Publish how far the gripper is open (m)."""
+        self.publisher.publish(JointState(name=["gripper_joint"], position=[0.04], velocity=[0.0]))
+
+
+def poses(seed: int) -> list[list[float]]:
+    """Return poses for the arm of a seed: each joint is near each of its limits once, and then away again."""
+    draw, joints = random.Random(f"poses {seed}"), arm_of(seed).machine.joints
+    near = [(index, upper) for index in (0, 1) for upper in (False, True)]
+    draw.shuffle(near)
+    rows = []
+    for index, upper in near:
+        row = [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]
+        row[index] = _place(draw, joints[index], upper, NEAR)
+        rows += [row, [_place(draw, joint, draw.random() < 0.5, FAR) for joint in joints]]
+    return rows[:-1]
+
+
+def _place(draw: random.Random, joint: JointModel, upper: bool, margin: tuple[float, float]) -> float:
+    away = draw.uniform(*margin)
+    return joint.upper - away if upper else joint.lower + away
+
+
+def gymnast(seed: int) -> list[Callable[[], Node]]:
+    """Return a program that moves the arm of `arm_of(seed)` from pose to pose, and a gripper."""
+    rows = [
+        (number * VISIT, "/joint_commands", Float64MultiArray(data=pose))
+        for number, pose in enumerate(poses(seed), start=1)
+    ]
+    return [functools.partial(Schedule, "gymnast", rows), Gripper]

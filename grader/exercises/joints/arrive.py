@@ -1,0 +1,157 @@
+"""Send a joint to the next position when it has arrived, and not when some time has passed."""
+
+from __future__ import annotations
+
+import itertools
+
+from grader.checks import Missed, otherwise, publishes, tip_at, tip_path
+from grader.companions.joint_positions import foreman
+from grader.exercise import Exercise
+from grader.responses import Window, from_course, listed, matches, same
+from grader.worlds.arms import joint_of
+from sim.evidence import Message, Recording, Seconds
+
+COMMANDS = "/joint_commands"
+CLOSE, STANDS = 0.03, 0.1  # rad, rad/s
+SOON = 0.6  # s
+UNEVEN = 1.0  # s: a node that looks at the joint is late by about the same each time
+
+arrive = Exercise("arrive", "Wait for arrival", world=joint_of, seconds=18, companions=foreman, seeds=(1, 2))
+
+NOT_ALL = {
+    "The time is over before all had their turn, the last one at {last:.3g} s: don't wait so long.": (
+        lambda run, sent: 1 < len(sent) < len(_positions(run)) and {"last": _commands(run)[-1].stamp}
+    ),
+    "It never counts as arrived. Compare the position, in radians, with the target, with a tolerance such as "
+    "0.01 rad, and not with ==.": lambda run, sent: len(sent) < len(_positions(run)),
+    "Take them in their order, from the front: self.positions.pop(0).": (
+        lambda run, sent: len(sent) == len(_positions(run))
+    ),
+    "After the last one there is nothing more to send.": otherwise,
+}
+
+
+@arrive.check(2)
+def publishes_commands(run: Recording) -> None:
+    """The node publishes Float64 messages on /joint_commands."""
+    publishes(run, COMMANDS, "std_msgs/msg/Float64")
+
+
+@arrive.check(
+    2,
+    after=publishes_commands,
+    hints={
+        "The positions are radians already, and /joint_commands wants radians.": (
+            lambda run, first: abs(first) > 3.2
+        ),
+        "Begin with the first: self.positions.pop(0) gives it, and pop() the last.": lambda run, first: any(
+            same(first, other) for other in _positions(run)[1:]
+        ),
+        "Publish the numbers of /positions as they are; they come once, latched.": otherwise,
+    },
+)
+def begins_with_the_first(run: Recording) -> None:
+    """The first command is the first position of /positions."""
+    first, expected = _commands(run)[0].message.data, _positions(run)[0]
+    if not same(first, expected):
+        raise Missed(f"{expected:g} first", f"{first:g}", about=(first,))
+
+
+@arrive.check(
+    6,
+    after=begins_with_the_first,
+    hints={
+        "A command every {period:.3g} s, whatever the joint does: time says nothing about arrival. Compare "
+        "its position on /joint_states with the target.": lambda run, commands, gap: _period(commands),
+        "It is there, but it still moves: arrived means that the velocity is nearly 0, too.": (
+            lambda run, commands, gap: gap <= CLOSE
+        ),
+        "Arrived means abs(position - target) < 0.01, with abs, or any position below the target would do; "
+        "and abs(velocity) < 0.01 as well, which alone is true before the joint has begun to move.": (
+            lambda run, commands, gap: True
+        ),
+        **NOT_ALL,
+    },
+)
+def waits_for_arrival(run: Recording) -> None:
+    """No command comes before the joint stands where the one before has sent it."""
+    commands, count = _commands(run), len(_positions(run))
+    for before, after in itertools.pairwise(commands):
+        target = before.message.data
+        gap, speed = abs(tip_at(run, after.stamp).yaw - target), _speed(run, after.stamp)
+        if gap > CLOSE or speed > STANDS:
+            when = f"when the next command comes ({after.stamp:.3g} s)"
+            saw = f"{gap:.2f} rad left to go, at {speed:.2f} rad/s"
+            expected = f"the joint standing at {target:g} rad {when}"
+            raise Missed(expected, saw, about=(commands, gap), picture="path")
+    _does_not_count_time(run, commands)
+    share = (len(commands) - 1) / (count - 1)
+    if share < 1.0:
+        saw = "one command, and no other" if len(commands) == 1 else f"{len(commands)} of them"
+        sent = [row.message.data for row in commands]
+        raise Missed(f"a command for each of {count} positions", saw, about=(sent,), credit=share)
+
+
+@arrive.check(3, after=waits_for_arrival, hints=NOT_ALL)
+def goes_to_all(run: Recording) -> None:
+    """The joint is sent to all of the positions, in their order, each of them once."""
+    positions, sent = _positions(run), [row.message.data for row in _commands(run)]
+    if len(sent) != len(positions) or not matches(sent, positions):
+        raise Missed(listed(positions), listed(sent), about=(sent,))
+
+
+@arrive.check(3, after=goes_to_all)
+def wastes_no_time(run: Recording) -> None:
+    """Each command comes within 0.6 s of the joint's arrival."""
+    for before, after in itertools.pairwise(_commands(run)):
+        arrived = _arrival(run, before, after.stamp)
+        if after.stamp - arrived > SOON:
+            where = f"the arrival at {before.message.data:g} rad ({arrived:.3g} s)"
+            raise Missed(
+                f"the next command within {SOON:g} s of {where}",
+                f"{after.stamp - arrived:.2g} s later",
+                "Look at each message on /joint_states: as soon as the joint has arrived, send the next one.",
+            )
+
+
+def _positions(run: Recording) -> list[float]:
+    return list(from_course(run, "/positions")[0].message.data)
+
+
+def _commands(run: Recording) -> list[Message]:
+    """The commands; the first one of equal ones in a row."""
+    rows = itertools.groupby(run.messages(COMMANDS), key=lambda row: row.message.data)
+    return [next(equal) for _, equal in rows]
+
+
+def _does_not_count_time(run: Recording, commands: list[Message]) -> None:
+    """Raise Missed where commands come regularly, with pauses that are long enough for each movement."""
+    pairs = itertools.pairwise(commands)
+    waits = [after.stamp - _arrival(run, before, after.stamp) for before, after in pairs]
+    if waits and max(waits) - min(waits) > UNEVEN:
+        raise Missed(
+            "the next command because the joint has arrived",
+            f"it once {min(waits):.2g} s after that, and once {max(waits):.2g} s",
+            "No way takes longer than that, and most take less: time says nothing about arrival. Compare the "
+            "position on /joint_states with the target.",
+            picture="path",
+        )
+
+
+def _period(commands: list[Message]) -> dict[str, Seconds] | None:
+    """The time between two commands, where it is always the same."""
+    gaps = [after.stamp - before.stamp for before, after in itertools.pairwise(commands)]
+    regular = len(gaps) > 1 and max(gaps) - min(gaps) < 1e-3 and gaps[0] > 0.2
+    return {"period": gaps[0]} if regular else None
+
+
+def _speed(run: Recording, stamp: Seconds) -> float:
+    return abs(tip_at(run, stamp).yaw - tip_at(run, stamp - 0.05).yaw) / 0.05
+
+
+def _arrival(run: Recording, command: Message, end: Seconds) -> Seconds:
+    """When the joint came to stand at a command's position; the end if it did not."""
+    for pose in Window(command.stamp, end).rows(tip_path(run)):
+        if abs(pose.yaw - command.message.data) < CLOSE and _speed(run, pose.stamp) < STANDS:
+            return pose.stamp
+    return end

@@ -1,0 +1,97 @@
+"""The project on joints: inverse kinematics, and a figure that the arm's tip draws."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks import Missed, draws, hinting, keeps_off, otherwise, sends_goals
+from grader.checks.joints import FOLLOW_TRAJECTORY
+from grader.companions.figure import designer
+from grader.exercise import Exercise
+from grader.geometry import Point
+from grader.responses import from_course
+from grader.worlds.arms import desk_of
+from sim.evidence import Goal, Recording
+
+TOLERANCE = 0.015  # m
+
+draw = Exercise("draw", "An arm that draws", world=desk_of, seconds=10, companions=designer, seeds=(1, 2))
+
+
+@draw.check(2)
+def sends_a_goal(run: Recording) -> list[Goal]:
+    """The node sends a goal to /arm_controller/follow_joint_trajectory."""
+    with hinting("Send it when the figure and the description have come, in the callback of the later one."):
+        return sends_goals(run, *FOLLOW_TRAJECTORY)
+
+
+@draw.check(
+    3,
+    after=sends_a_goal,
+    hints={
+        "Each point comes later than the one before: the first after 3 s, then 0.15 s more for each.": (
+            lambda run, reason: "time_from_start" in reason
+        ),
+        "Angles beyond the limits come of degrees, or of a wrong quadrant: use atan2(y, x), radians.": (
+            lambda run, reason: "limits" in reason
+        ),
+        "Read the reason: it says which point or joint it is about.": otherwise,
+    },
+)
+def can_be_followed(run: Recording, goals: list[Goal]) -> None:
+    """The arm accepts it, and comes to its end."""
+    for goal in goals:
+        if goal.status != "succeeded":
+            errors = [line.text for line in run.logs if line.from_course and line.level == "ERROR"]
+            reason = goal.result.error_string if goal.result else next(iter(errors), "no reason given")
+            raise Missed("a goal that succeeds", f"{goal.status or 'no answer'}: {reason}", about=(reason,))
+
+
+@draw.check(
+    10,
+    after=can_be_followed,
+    hints={
+        "That is the figure, mirrored at the x axis: look at the sign of y.": lambda run: _comes_near(
+            run, [(x, -y) for x, y in _figure(run)]
+        ),
+        "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.": (
+            lambda run: _points(run)[0].time_from_start.sec < 1
+        ),
+        "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "
+        "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder take away what the bent elbow adds?": (
+            lambda run: not _comes_near(run, _figure(run)[:1])
+        ),
+        "The figure has {figure} points, and the trajectory {sent}: each becomes one.": lambda run: (
+            len(_points(run)) < len(_figure(run)) and {"figure": len(_figure(run)), "sent": len(_points(run))}
+        ),
+        "It comes near the figure, and not onto it. Are the lengths those of /robot_description? The elbow's "
+        "origin says how long the upper arm is, and the tip's how long the forearm is.": lambda run: True,
+    },
+)
+def draws_the_figure(run: Recording) -> None:
+    """The tip draws the whole figure, and nothing else once it has begun, within 1.5 cm."""
+    draws(run, _figure(run), tolerance=TOLERANCE)
+
+
+@draw.check(5, after=draws_the_figure)
+def keeps_off_the_table(run: Recording) -> None:
+    """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
+    keeps_off(
+        run,
+        "To every place there are two ways to bend the arm, mirrored. Take the one whose elbow is on the "
+        "figure's side, away from the table: its angle negative where y > 0, positive where y < 0.",
+    )
+
+
+def _figure(run: Recording) -> list[Point]:
+    return [(point.x, point.y) for point in from_course(run, "/figure")[0].message.points]
+
+
+def _points(run: Recording) -> list:
+    """The points of the first goal."""
+    return run.goals_of(FOLLOW_TRAJECTORY[0])[0].request.trajectory.points
+
+
+def _comes_near(run: Recording, points: list[Point]) -> bool:
+    """Whether the tip came near all of these points."""
+    return all(min(math.dist(point, pose[1:3]) for pose in run.tip) < 4 * TOLERANCE for point in points)

@@ -1,0 +1,120 @@
+"""Read the joints' limits from the robot's description, and name each joint that comes near one."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.joints import described_limits
+from grader.checks.no_data import no_data
+from grader.companions.joint_positions import gymnast
+from grader.exercise import Exercise
+from grader.responses import Window, from_course, last_before, text_of
+from grader.worlds.arms import arm_of
+from sim.evidence import Message, Recording, Seconds
+
+NAME, STRING = "/near_limit", "std_msgs/msg/String"
+NEAR, CLEAR = 0.1, 0.13  # rad: the margin in the task, and one that is not near for sure
+SOON = 0.2  # s
+
+limits = Exercise("limits", "Near the limit", world=arm_of, seconds=18, companions=gymnast, seeds=(1, 2))
+
+
+class Visit(NamedTuple):
+    """A joint near one of its limits, until it is away again."""
+
+    name: str
+    begin: Seconds
+    end: Seconds
+
+    def names(self, messages: list[Message], until: Seconds) -> list[Message]:
+        """Return the messages that name the joint in the time up to `until`."""
+        inside = Window(self.begin, until).rows(messages)
+        return [row for row in inside if row.message.data == self.name]
+
+
+@limits.check(2)
+def hears_both(run: Recording) -> None:
+    """The node subscribes to /joint_states and to /robot_description."""
+    with hinting("All drivers speak on /joint_states; what the arm looks like is on /robot_description."):
+        subscribes(run, "/joint_states", "sensor_msgs/msg/JointState")
+        subscribes(run, "/robot_description", STRING)
+
+
+@limits.check(
+    8,
+    after=hears_both,
+    hints={
+        "The description was sent once, before your node was there. Who wants to hear it asks for durability "
+        "TRANSIENT_LOCAL.": lambda run: all(
+            end.qos["durability"] == "volatile"
+            for end in run.graph.subscriptions("/robot_description")
+            if not end.from_course
+        ),
+        "The description has no limits for it: it names {names}. Leave others alone.": lambda run, wrong: (
+            wrong.message.data not in described_limits(run) and {"names": ", ".join(described_limits(run))}
+        ),
+        "That is another joint's position. Drivers list their joints in an order of their own: "
+        "for name, position in zip(msg.name, msg.position).": lambda run, wrong: _another_is_near(run, wrong),
+        "Its limits are {lower:g} and {upper:g} rad. Take them from the description of this robot; they are "
+        "radians, as the positions are, and the lower one has a sign of its own.": (
+            lambda run, wrong: described_limits(run)[wrong.message.data]._asdict()
+        ),
+    },
+)
+def names_those_near(run: Recording) -> list[Visit]:
+    """The name of each joint that comes within 0.1 rad of a limit goes out on /near_limit, and no other."""
+    messages, visits = publishes(run, NAME, STRING), _visits(run)
+    for row in messages:
+        if not any(visit.names([row], visit.end + SOON) for visit in visits):
+            saw = f"“{row.message.data}” at {row.stamp:.3g} s"
+            raise Missed("the name of a joint that is near one of its limits", saw, about=(row,))
+    for visit in visits:
+        window = Window.after(visit.begin, SOON)
+        if window.is_over(run) and not visit.names(messages, window.end):
+            raise Missed(
+                f"“{visit.name}” within {SOON:g} s of {visit.begin:.3g} s, when it comes near its limit",
+                ", ".join(text_of(row.message.data) for row in window.rows(messages)) or "nothing",
+                "Look at both limits of each joint that the description names: position - lower, and "
+                "upper - position. And remember that it was away, when it is.",
+            )
+    return visits
+
+
+@limits.check(5, after=names_those_near)
+def once_for_each(run: Recording, visits: list[Visit]) -> None:
+    """Each time it comes near, it is named once, and not again as long as it stays there."""
+    for visit in visits:
+        count = len(visit.names(run.messages(NAME), visit.end + SOON))
+        if count > 1:
+            raise Missed(
+                f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s",
+                f"{count}",
+                "Remember which joints are near already: a set of names. Speak when one comes in, and take "
+                "it out when it is away.",
+            )
+
+
+def _visits(run: Recording) -> list[Visit]:
+    """When each joint was near a limit, by the joint states of the course's drivers."""
+    known, since, found = described_limits(run), {}, []
+    for row in from_course(run, "/joint_states"):
+        for name, position in zip(row.message.name, row.message.position, strict=True):
+            if name not in known:
+                continue
+            margin = known[name].margin(position)
+            if margin < NEAR:
+                since.setdefault(name, row.stamp)
+            elif name in since and margin > CLEAR:
+                found.append(Visit(name, since.pop(name), row.stamp))
+    found += [Visit(name, begin, run.ended.stamp) for name, begin in since.items()]
+    if len(found) < 2:
+        raise no_data(run, "two joints near a limit", f"{len(found)}", run.graph.publishers("/joint_states"))
+    return sorted(found, key=lambda visit: visit.begin)
+
+
+def _another_is_near(run: Recording, wrong: Message) -> bool:
+    """Whether a position that was published last for another name is near this joint's limit."""
+    name, states = wrong.message.data, last_before(from_course(run, "/joint_states"), wrong.stamp).message
+    others = [place for other, place in zip(states.name, states.position, strict=True) if other != name]
+    return any(described_limits(run)[name].margin(place) < NEAR for place in others)

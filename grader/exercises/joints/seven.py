@@ -1,0 +1,76 @@
+"""Publish seven positions for a joint, one every two seconds, and end."""
+
+from __future__ import annotations
+
+import itertools
+
+from grader.checks import Missed, otherwise, publishes
+from grader.exercise import Exercise
+from grader.responses import listed
+from sim.evidence import Recording
+
+COMMANDS = "/joint_commands"
+POSITIONS = [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]  # rad
+PERIOD = 2.0  # s
+
+seven = Exercise("seven", "Seven positions", world="joint", seconds=20, may_end=True)
+
+
+@seven.check(2)
+def publishes_commands(run: Recording) -> None:
+    """The node publishes Float64 messages on /joint_commands."""
+    publishes(run, COMMANDS, "std_msgs/msg/Float64")
+
+
+@seven.check(
+    4,
+    after=publishes_commands,
+    hints={
+        "Joints are told radians: a right angle is 1.57. Publish the numbers of the task as they are.": (
+            lambda run, sent: any(abs(value) > 3.2 for value in sent)
+        ),
+        "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
+            (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
+        ),
+        "After the seventh it is over: compare self.index with len(self.positions).": lambda run, sent: (
+            sent[: len(POSITIONS)] == POSITIONS
+        ),
+        "Each call sends the same one: self.positions[self.index], and then self.index += 1.": (
+            lambda run, sent: len(set(sent)) == 1
+        ),
+        "Publish self.positions[self.index], and then self.index += 1.": otherwise,
+    },
+)
+def sends_all_seven(run: Recording) -> None:
+    """It sends the seven positions, one after the other, and no others."""
+    sent = [round(row.message.data, 6) for row in run.messages(COMMANDS)]
+    if sent != POSITIONS:
+        raise Missed(listed(POSITIONS), listed(sent), about=(sent,))
+
+
+@seven.check(3, after=sends_all_seven)
+def every_two_seconds(run: Recording) -> None:
+    """The first one comes at 2 s, and then one every 2 s."""
+    stamps = [row.stamp for row in run.messages(COMMANDS)]
+    for number, (before, stamp) in enumerate(itertools.pairwise([0.0, *stamps]), start=1):
+        if abs(stamp - before - PERIOD) > 0.05:
+            raise Missed(
+                f"position {number} at {PERIOD * number:g} s",
+                f"it at {stamp:.3g} s",
+                "One timer with a period of 2.0 s calls send(), and each call publishes one position.",
+            )
+
+
+@seven.check(3, after=sends_all_seven)
+def ends_by_itself(run: Recording) -> None:
+    """When all are sent it ends: its node is gone, ROS is shut down, and there is no error."""
+    last, end = run.messages(COMMANDS)[-1].stamp, run.all_exited_at
+    if run.errors:
+        raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")
+    if end is None or end > last + PERIOD + 0.1:
+        raise Missed(
+            f"the program at its end, at most {PERIOD:g} s after the last position (at {last:.3g} s)",
+            f"it still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s",
+            "When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
+            "rclpy.spin() returns, and main() comes to its end.",
+        )

@@ -1,0 +1,202 @@
+"""A client of FollowJointTrajectory: send paths, report the feedback, and how each goal ended."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any, NamedTuple
+
+from grader.checks import Missed, hinting, otherwise, publishes, sends_goals
+from grader.checks.joints import FOLLOW_TRAJECTORY
+from grader.companions.joint_paths import CRUISE, teacher
+from grader.exercise import Exercise
+from grader.responses import Window, from_course, last_before, same
+from grader.worlds.arms import arm_of
+from sim.evidence import Goal, Message, Recording, Seconds
+from sim.nanoseconds import in_seconds
+
+SOON = 0.5  # s
+SLOW = 1.5  # times as long as needed, and
+REST = 0.5  # s more, is still fine
+
+trajectory = Exercise(
+    "trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher, seeds=(1, 2)
+)
+
+
+class Lesson(NamedTuple):
+    """A path that was requested, and the goal that was sent for it."""
+
+    path: Message
+    goal: Goal
+
+
+class Part(NamedTuple):
+    """The way to a point of a goal: how long it takes, and how long it should take at least."""
+
+    point: int  # 1 for the first
+    begin: Seconds  # since the start of the goal
+    end: Seconds
+    needed: Seconds
+
+
+@trajectory.check(2)
+def sends_a_goal(run: Recording) -> None:
+    """The node sends goals to /arm_controller/follow_joint_trajectory."""
+    with hinting("Send it in the callback of /path: self.client.send_goal_async(goal, self.on_feedback)."):
+        sends_goals(run, *FOLLOW_TRAJECTORY)
+
+
+@trajectory.check(
+    5,
+    after=sends_a_goal,
+    hints={
+        "The path has radians, and so has the goal: no degrees.": lambda run, path, sent: any(
+            abs(value) > 3.2 for point in sent.points for value in point.positions
+        ),
+        "Every point of the path becomes a point of the goal: a new JointTrajectoryPoint for each.": (
+            lambda run, path, sent: len(sent.points) != len(path.points)
+        ),
+        "The path says in joint_names which number belongs to which joint, and the order differs from "
+        "path to path. Copy path.joint_names into the goal with the positions.": (
+            lambda run, path, sent: list(path.joint_names) != list(sent.joint_names)
+        ),
+        "Copy the positions as they are: list(point.positions).": otherwise,
+    },
+)
+def by_their_names(run: Recording) -> list[Lesson]:
+    """Each path becomes one goal: the same points, each joint under its own name."""
+    lessons = _lessons(run)
+    for row, goal in lessons:
+        path, sent = row.message, goal.request.trajectory
+        pairs = itertools.zip_longest(_by_name(path), _by_name(sent))
+        for number, (expected, saw) in enumerate(pairs, start=1):
+            if expected != saw:
+                where = f"at point {number} of the goal at {goal.requested:.3g} s"
+                raise Missed(f"{_point_text(expected)} {where}", _point_text(saw), about=(path, sent))
+    return lessons
+
+
+@trajectory.check(
+    4,
+    after=by_their_names,
+    hints={
+        "time_from_start is not set: Duration(seconds=time).to_msg().": lambda run, parts, wrong: (
+            not any(part.end for part in parts)
+        ),
+        "time_from_start counts from the start of the whole trajectory, and not from the point before: "
+        "it must rise from point to point. time += ...": lambda run, parts, wrong: (
+            wrong.begin and same(wrong.end, wrong.needed, 0.02)
+        ),
+        "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.": (
+            lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1
+        ),
+        "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
+        "the arm is now, by /joint_states and by name; and the next one where the point before is.": (
+            lambda run, parts, wrong: wrong.end - wrong.begin < wrong.needed
+        ),
+        "The way (rad) divided by 0.8 rad/s is the time (s); and it starts anew with each goal.": otherwise,
+    },
+)
+def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
+    """From point to point, and from where the arm is to the first, the faster joint turns at 0.8 rad/s."""
+    for _, goal in lessons:
+        parts = _parts(run, goal)
+        for part in parts:
+            if not part.needed - 0.01 <= part.end - part.begin <= SLOW * part.needed + REST:
+                where = f"on the way to point {part.point} of the goal at {goal.requested:.3g} s"
+                raise Missed(
+                    f"{part.needed:.3g} s or a little more {where}",
+                    f"{part.end - part.begin:.3g} s (time_from_start is {part.end:.3g} s)",
+                    about=(parts, part),
+                )
+
+
+@trajectory.check(4, after=by_their_names)
+def tells_how_far_off(run: Recording, lessons: list[Lesson]) -> None:
+    """With each feedback, the larger of the two joints' errors goes out on /worst_error, without a sign."""
+    feedback = [row for _, goal in lessons for row in goal.feedback]
+    if not feedback:
+        hint = "Without a goal that is accepted there is no feedback: see the other lines first."
+        raise Missed("feedback of an arm that follows a path", "none", hint)
+    published = publishes(run, "/worst_error", "std_msgs/msg/Float64")
+    for row in feedback:
+        window, error = Window.after(row.stamp, SOON), max(map(abs, row.message.error.positions))
+        sent = [answer.message.data for answer in window.rows(published)]
+        if window.is_over(run) and not any(same(value, error) for value in sent):
+            raise Missed(
+                f"{error:.4f} on /worst_error after the feedback at {row.stamp:.3g} s",
+                f"{sent[0]:.4f}" if sent else "nothing",
+                "max(abs(error) for error in msg.feedback.error.positions): abs for each of them, then max.",
+            )
+
+
+@trajectory.check(
+    5,
+    after=by_their_names,
+    hints={
+        "The first answer says whether the goal is accepted: if not handle.accepted, there is no result "
+        "to wait for, and that is the end.": lambda run, expected, sent: expected == "rejected",
+        "That a result came doesn't mean that it is good: future.result().status is STATUS_SUCCEEDED or "
+        "STATUS_ABORTED, and result.error_string says why.": lambda run, expected, sent: (
+            expected.startswith("aborted") and sent and sent[0].startswith("succeeded")
+        ),
+        "get_result_async() gives a future. In its callback look at future.result().status, and publish the "
+        "word; with the result's error_string if it was aborted.": otherwise,
+    },
+)
+def tells_how_it_ended(run: Recording, lessons: list[Lesson]) -> None:
+    """Each goal's end goes out on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
+    published = publishes(run, "/outcome", "std_msgs/msg/String")
+    for path, goal in lessons:
+        if goal.ended is None or not Window.after(goal.ended, SOON).is_over(run):
+            continue
+        later = [other.stamp for other, _ in lessons if other is not path and other.stamp >= goal.ended]
+        window = Window(path.stamp, goal.ended + SOON).before(min(later, default=math.inf))
+        expected = f"aborted: {goal.result.error_string}" if goal.status == "aborted" else goal.status
+        sent = [row.message.data for row in window.rows(published)]
+        if sent != [expected]:
+            raise Missed(
+                f"“{expected}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path",
+                ", ".join(f"“{text}”" for text in sent[:4]) or "nothing",
+                about=(expected, sent),
+            )
+
+
+def _lessons(run: Recording) -> list[Lesson]:
+    """The paths that had time for a goal, each with its goal. Raises Missed unless there is just one."""
+    found, goals = [], sends_goals(run, *FOLLOW_TRAJECTORY)
+    for path in from_course(run, "/path", at_least=2, settled=SOON, what="two paths"):
+        sent = [goal for goal in goals if Window.after(path.stamp, SOON).contains(goal.requested)]
+        if len(sent) != 1:
+            raise Missed(
+                f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s",
+                f"{len(sent)} of them",
+                "Send one goal in the callback of /path, each time it is called. Don't wait there for the "
+                "answer: a node that waits in a callback hears nothing, not even the answer.",
+            )
+        found.append(Lesson(path, sent[0]))
+    return found
+
+
+def _by_name(path: Any) -> list[dict[str, float]]:
+    return [dict(zip(path.joint_names, point.positions, strict=False)) for point in path.points]
+
+
+def _point_text(point: dict[str, float] | None) -> str:
+    if point is None:
+        return "no point"
+    return ", ".join(f"{name} {value:.3g}" for name, value in sorted(point.items())) or "no joint"
+
+
+def _parts(run: Recording, goal: Goal) -> list[Part]:
+    """The parts of a goal; the first begins where the arm is by the joint states that came last."""
+    state = last_before(from_course(run, "/joint_states"), goal.requested).message
+    begin, before, found = 0.0, dict(zip(state.name, state.position, strict=True)), []
+    sent = goal.request.trajectory
+    for point, positions in zip(sent.points, _by_name(sent), strict=True):
+        needed = max(abs(positions[name] - before[name]) for name in positions) / CRUISE
+        end = in_seconds(point.time_from_start)
+        found.append(Part(len(found) + 1, begin, end, needed))
+        begin, before = end, positions
+    return found
