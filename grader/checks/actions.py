@@ -99,7 +99,7 @@ def _unfinished(
     goal: Goal, status: str, right: Callable[[Any], Mapping[str, Any]], within: Seconds | None
 ) -> tuple[str, str] | None:
     ended, in_time = goal.at(status), f" within {within:g} s" if within is not None else ""
-    if goal.status != status or ended is None:
+    if ended is None:
         return f"{_named(goal)} {status}{in_time}", state(goal)
     took = ended - (goal.at("accepted") or 0.0)
     if within is not None and took > within + 1e-9:

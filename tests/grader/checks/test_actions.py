@@ -1,12 +1,13 @@
 import math
 
 import pytest
+from example_interfaces.action import Fibonacci
 from nav2_msgs.action import NavigateToPose
 
 from grader import Missed
 from grader.checks import accepts, cancels, finishes, gives_feedback, rejects, sends_goals, serves_action
 from sim import run
-from sim.evidence import Goal, Message
+from sim.evidence import Endpoint, Goal, Message
 from sim.ros.messages.codec import encode
 from tests.grader.recordings import recording
 from tests.students import service_misfits as misfits
@@ -34,17 +35,32 @@ def fibonacci(request):
     return {"sequence": numbers}
 
 
-def driven(*distances, end=4.0):
+def driven(*distances, end=4.0, begin=0.0, period=1.0):
     """A goal for /navigate whose feedback gives these distances, one a second."""
     feedback = [
-        Message(float(n), "/navigate/_action/feedback", f"{NAVIGATE}_Feedback", "/navigator", encode(message))
+        Message(stamp, "/navigate/_action/feedback", f"{NAVIGATE}_Feedback", "/navigator", encode(message))
         for n, distance in enumerate(distances, 1)
-        for message in [NavigateToPose.Feedback(distance_remaining=distance)]
+        for stamp, message in [(begin + n * period, NavigateToPose.Feedback(distance_remaining=distance))]
     ]
-    events = [(0.0, "accepted"), (0.0, "executing"), (end, "succeeded")]
+    events = [(begin, "accepted"), (begin, "executing"), (end, "succeeded")]
     raw = encode(NavigateToPose.Goal())
     goal = Goal("/navigate", NAVIGATE, "/client", "00" * 16, raw, 0.0, "/navigator", events, feedback)
     return recording(goals=[goal])
+
+
+def asked(*goals):
+    """A run with goals for /fibonacci, given as their order, the events, and the result's numbers if any."""
+    rows = []
+    for order, events, *sequence in goals:
+        request = encode(Fibonacci.Goal(order=order))
+        row = Goal("/fibonacci", FIBONACCI, "/client", "00" * 16, request, 0.0, "/server", list(events))
+        row.raw_result = encode(Fibonacci.Result(sequence=sequence[0])) if sequence else None
+        rows.append(row)
+    return recording(goals=rows)
+
+
+def succeeded(begin, end):
+    return (begin, "accepted"), (begin, "executing"), (end, "succeeded")
 
 
 def test_serves_action_finds_the_server():
@@ -75,6 +91,8 @@ def test_sends_goals_gives_the_goals():
 def test_sends_goals_misses_a_client_and_its_goals():
     miss = missed(sends_goals, ran(actions.Server), "/fibonacci")
     assert (miss.expected, miss.saw) == ("an action client for /fibonacci", "nobody has a client for it")
+    miss = missed(sends_goals, ran(actions.Server), "/fibonacci", FIBONACCI)
+    assert miss.expected == f"an action client for /fibonacci of type {FIBONACCI}"
     miss = missed(sends_goals, ran(actions.Client, seconds=1), "/fibonacci", FIBONACCI)
     assert (miss.expected, miss.saw) == ("a goal for /fibonacci", "a client, but no goal")
     miss = missed(sends_goals, ran(goals.asks_nobody), "/fibonacci", at_least=2)
@@ -94,6 +112,14 @@ def test_accepts_misses_a_goal_that_is_rejected():
 def test_rejects_misses_a_goal_that_is_accepted():
     miss = missed(rejects, ran(actions.Server, actions.Client), "/fibonacci")
     assert (miss.expected, miss.saw, miss.credit) == (f"{GOAL} rejected", "succeeded at 3 s", 0.0)
+
+
+def test_the_first_goal_of_another_decision_is_named_and_the_others_give_credit():
+    run = asked((1, succeeded(0.0, 1.0)), (2, [(1.0, "rejected")]), (3, [(2.0, "rejected")]), (4, succeeded(3.0, 4.0)))
+    miss = missed(accepts, run, "/fibonacci")
+    assert (miss.expected, miss.saw) == ("the goal /fibonacci (order=2) at 0 s accepted", "rejected at 1 s")
+    assert miss.credit == 0.5
+    assert missed(accepts, asked(*[(1, succeeded(0.0, 1.0))] * 3, (2, [])), "/fibonacci").credit == 0.75
 
 
 def test_a_decision_is_missed_where_there_is_none():
@@ -119,6 +145,37 @@ def test_finishes_judges_status_time_and_result():
     assert len(finishes(ran(actions.Aborting, actions.Client), "/fibonacci", "aborted")) == 1
 
 
+def test_finishes_counts_the_time_from_when_a_goal_was_accepted_but_for_rounding():
+    run = asked((3, succeeded(0.1, 0.4)))  # 0.30000000000000004 s
+    assert finishes(run, "/fibonacci", within=0.3)
+    assert missed(finishes, run, "/fibonacci", within=0.29).saw == "succeeded after 0.3 s"
+    assert finishes(asked((3, [(2.0, "succeeded")])), "/fibonacci", within=2.0)
+
+
+def test_finishes_leaves_open_what_is_not_said():
+    assert finishes(asked((3, succeeded(0.0, 9.0))), "/fibonacci")
+
+
+def test_finishes_names_the_first_goal_that_does_not_and_gives_credit_for_the_others():
+    good, late = (1, succeeded(0.0, 1.0)), (2, succeeded(0.0, 3.0))
+    later = (3, succeeded(0.0, 4.0))
+    miss = missed(finishes, asked(good, late, good, later), "/fibonacci", within=2.0)
+    assert (miss.saw, miss.credit) == ("succeeded after 3 s", 0.5)
+    assert missed(finishes, asked(good, good, good, late), "/fibonacci", within=2.0).credit == 0.75
+
+
+def test_finishes_shows_every_wrong_field_of_a_result():
+    def right(request):
+        return {"error_code": 5, "error_msg": "lost"}
+
+    raw, result = encode(NavigateToPose.Goal()), encode(NavigateToPose.Result(error_code=1, error_msg="none"))
+    goal = Goal("/navigate", NAVIGATE, "/client", "00" * 16, raw, 0.0, "/server", list(succeeded(0.0, 1.0)))
+    goal.raw_result = result
+    miss = missed(finishes, recording(goals=[goal]), "/navigate", "succeeded", right)
+    assert miss.expected.startswith("error_code=5, error_msg='lost' as the result of the goal /navigate (")
+    assert miss.saw == "error_code=1, error_msg='none'"
+
+
 def test_finishes_misses_another_end():
     miss = missed(finishes, ran(actions.Forgetful, actions.Client), "/fibonacci", within=3.0)
     assert (miss.expected, miss.saw) == (f"{GOAL} succeeded within 3 s", "aborted at 0 s")
@@ -136,7 +193,7 @@ def test_finishes_misses_a_wrong_result():
     assert miss.expected == f"sequence=[0, 1, 1, 2, 3] as the result of {GOAL}"
     assert miss.saw == "sequence=[3]"
     miss = missed(finishes, ran(goals.ReturnsNothing, actions.Client), "/fibonacci", "succeeded", fibonacci)
-    assert miss.saw == "no result"
+    assert (miss.expected, miss.saw) == (f"sequence=[0, 1, 1, 2, 3] as the result of {GOAL}", "no result")
 
 
 def test_gives_feedback_judges_its_rate():
@@ -159,6 +216,45 @@ def test_gives_feedback_misses_another_rate_and_a_pause():
     assert miss.saw == "none for 5 s, from 3 s on"
     miss = missed(gives_feedback, driven(3.0), "/navigate", 5.0)
     assert miss.saw == "none for 3 s, from 1 s on"
+
+
+@pytest.mark.parametrize(("period", "hz"), [(0.5, 2.0), (2.0, 0.5)])
+def test_gives_feedback_allows_a_rate_that_is_a_tenth_off_or_as_much_as_is_said(period, hz):
+    def feedback(factor):
+        return driven(3.0, 2.0, 1.0, period=period / factor, end=4 * period)
+
+    assert gives_feedback(feedback(1.09), "/navigate", hz)
+    assert gives_feedback(feedback(0.91), "/navigate", hz)
+    expected = f"at {hz:.4g} Hz, within 10%"
+    assert missed(gives_feedback, feedback(1.12), "/navigate", hz).expected.endswith(expected)
+    assert missed(gives_feedback, feedback(0.88), "/navigate", hz).saw == f"{hz * 0.88:.4g} Hz (3 messages)"
+    assert gives_feedback(feedback(1.12), "/navigate", hz, tolerance=0.2)
+
+
+def test_gives_feedback_takes_any_rate_where_none_is_said():
+    assert gives_feedback(driven(3.0, 2.0, period=0.01, end=8.0), "/navigate")
+
+
+@pytest.mark.parametrize("pause", [2.4, 2.6])
+def test_gives_feedback_allows_a_pause_of_two_and_a_half_periods_from_when_it_is_executed(pause):
+    first, last = driven(2.0, 1.0, begin=pause - 1.0), driven(2.0, 1.0, end=2.0 + pause)
+    first.goals[0].events = [(0.0, "accepted"), (0.0, "executing"), (pause + 2.0, "succeeded")]
+    waited = driven(2.0, 1.0, begin=8.0, end=11.0)
+    assert gives_feedback(waited, "/navigate", 1.0)
+    for waits, since in ((first, 0), (last, 2)):
+        if pause < 2.5:
+            assert gives_feedback(waits, "/navigate", 1.0)
+        else:
+            saw = f"none for 2.6 s, from {since} s on"
+            assert missed(gives_feedback, waits, "/navigate", 1.0).saw == saw
+
+
+def test_gives_feedback_misses_a_field_that_should_fall_and_rises():
+    rising = driven(1.0, 2.0)
+    assert gives_feedback(rising, "/navigate", rising="distance_remaining")
+    miss = missed(gives_feedback, rising, "/navigate", falling="distance_remaining")
+    assert miss.expected == "distance_remaining only falling in the feedback"
+    assert miss.saw == "2.0 after 1.0 at 2 s"
 
 
 def test_gives_feedback_lets_a_field_go_one_way_only():
@@ -190,6 +286,25 @@ def test_cancels_misses_what_is_not_canceled(server, within, saw):
     miss = missed(cancels, ran(server, actions.Impatient), "/fibonacci", within=within)
     assert miss.expected == f"{GOAL} canceled within {within:g} s of the request at 1.5 s"
     assert miss.saw == saw
+
+
+def canceled(after):
+    return asked((3, [(0.0, "accepted"), (1.1, "cancel requested"), (1.1 + after, "canceled")]))
+
+
+def test_cancels_allows_a_second_but_for_rounding():
+    assert cancels(canceled(0.99), "/fibonacci")
+    assert cancels(asked((3, [(0.1, "cancel requested"), (0.4, "canceled")])), "/fibonacci", within=0.3)
+    miss = missed(cancels, canceled(1.01), "/fibonacci")
+    assert miss.expected == f"{GOAL} canceled within 1 s of the request at 1.1 s"
+    assert miss.saw == "canceled after 1.01 s"
+
+
+def test_a_goal_that_the_course_should_have_canceled_is_none_of_the_students_misses():
+    run = asked((3, succeeded(0.0, 1.0)))
+    run.graph.endpoints.append(Endpoint("action client", "/course", "/fibonacci", FIBONACCI, {}, True))
+    with pytest.raises(ValueError, match="should have sent goals for /fibonacci that somebody cancels: none"):
+        cancels(run, "/fibonacci")
 
 
 def test_cancels_needs_somebody_who_asks():
