@@ -1,11 +1,11 @@
-"""What every kernel of `make lab` does first: explain a name that is not there, also before any import."""
+"""Runs at the start of every kernel of `make lab`: explains undefined names, even before any import."""
 
 
 def _explain_missing_names() -> None:
     import builtins
 
     def explain(shell, kind, error, trace, tb_offset=None):
-        from sim.notebook import show_error  # here, for it takes a while
+        from sim.notebook import show_error  # imported here because it is slow
 
         show_error(shell, kind, error, trace, tb_offset)
 

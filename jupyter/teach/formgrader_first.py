@@ -1,6 +1,7 @@
-"""The address that `make teach` prints: it opens JupyterLab with the formgrader.
+"""Adds the URL /teach, which opens JupyterLab with the formgrader.
 
-A parameter of Lab's address opens that, and Jupyter writes its token behind an address as if it had none.
+The formgrader is opened by a query parameter, but Jupyter appends its token to the default URL as if there
+were none.
 """
 from typing import Any
 
@@ -13,6 +14,6 @@ def _jupyter_server_extension_points() -> list[dict[str, str]]:
 
 
 def _load_jupyter_server_extension(server: Any) -> None:
-    """Lead from /teach to the formgrader, with the token if there is one."""
+    """Redirect /teach to the formgrader, with the token if there is one."""
     here, lab = (url_path_join(server.base_url, path) for path in ("teach", "lab?formgrader=true"))
     server.web_app.add_handlers(".*$", [(here, RedirectWithParams, {"url": lab, "permanent": False})])

@@ -1,47 +1,47 @@
-// What the course adds to JupyterLab. Each part is a module; this one hands out the parts of JupyterLab that they use.
+// The course's JupyterLab extension. Each feature is a module; this one passes JupyterLab's shared modules to them.
 
-import { Dock, robotRenderer, ROBOT } from "./dock.js";
-import { Link } from "./link.js";
+import { KernelComm } from "./kernel_comm.js";
+import { RobotPanel, robotRenderer, ROBOT } from "./robot_panel.js";
 import { imageRenderer } from "./images.js";
-import { patientExecutor } from "./kernels.js";
-import { nameTab, ways } from "./tabs.js";
-import { keepFresh } from "./start.js";
+import { waitingExecutor } from "./cell_executor.js";
+import { navigationButtons, renameTab } from "./tabs.js";
+import { refreshStartPage } from "./start.js";
 import { validateButton } from "./validate.js";
 
-const AFTER_RUN_ALL = 9; // place in a notebook's toolbar
+const AFTER_RUN_ALL = 9; // index in a notebook's toolbar
 
 export async function plugins(share) {
   const [notebooks, apputils, rendermime, widgets] = await Promise.all(
     ["@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets"].map(share));
   const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets };
-  return [patientExecutor(lab), {
+  return [waitingExecutor(lab), {
     id: "ros2-course:notebooks",
     description: "The robot beside the code, Validate, and the names of the tabs.",
     autoStart: true,
     requires: [lab.INotebookTracker, lab.IRenderMimeRegistry],
     activate: (app, tracker, registry) => {
-      const links = new Map();
-      const linkOf = (node) => links.get(tracker.find((panel) => panel.node.contains(node)));
+      const comms = new Map();
+      const commOf = (node) => comms.get(tracker.find((panel) => panel.node.contains(node)));
       registry.addFactory({
-        safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node) => linkOf(node)?.dock),
-      }, -100); // before the widget, which the same output holds for other pages
+        safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node) => commOf(node)?.robotPanel),
+      }, -100); // before the widget in the same output, which is for other pages
       registry.addFactory({
         safe: true, mimeTypes: ["image/png"], createRenderer: (options) => imageRenderer(lab, options),
       }, 80);
-      const adopt = (_, panel) => {
-        const dock = new Dock(lab, app, panel);
-        const link = new Link(panel, dock);
-        links.set(panel, link);
-        panel.disposed.connect(() => { links.delete(panel); link.close(); });
-        const buttons = [dock.button(), validateButton(lab, app, panel), ...ways(lab, app, panel)];
+      const extend = (_, panel) => {
+        const robotPanel = new RobotPanel(lab, app, panel);
+        const comm = new KernelComm(panel, robotPanel);
+        comms.set(panel, comm);
+        panel.disposed.connect(() => { comms.delete(panel); comm.close(); });
+        const buttons = [robotPanel.button(), validateButton(lab, app, panel), ...navigationButtons(lab, app, panel)];
         buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
-        nameTab(panel);
-        keepFresh(lab, app, panel, tracker);
+        renameTab(panel);
+        refreshStartPage(lab, app, panel, tracker);
       };
-      tracker.widgetAdded.connect(adopt);
-      tracker.forEach((panel) => adopt(null, panel));
+      tracker.widgetAdded.connect(extend);
+      tracker.forEach((panel) => extend(null, panel));
       lab.NotebookActions.executionScheduled.connect((_, { notebook }) => {
-        for (const [panel, link] of links) if (panel.content === notebook) link.tell();
+        for (const [panel, comm] of comms) if (panel.content === notebook) comm.sendCells();
       });
     },
   }];

@@ -1,5 +1,5 @@
-// What JupyterLab loads of an extension: here written by hand, so that no tool has to build it. The rest are modules
-// that browsers load by themselves; what they need of JupyterLab they get from the parts that all extensions share.
+// The entry point that JupyterLab loads, written by hand so that no build tool is needed. The rest are modules that
+// browsers load directly; they access JupyterLab through the modules that all extensions share.
 
 (() => {
   const here = document.currentScript.src;

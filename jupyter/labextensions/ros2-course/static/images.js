@@ -1,11 +1,11 @@
-// Pictures of a cell's output with the words that stand for them, which JupyterLab leaves out by itself.
+// Adds alt texts to images in cell outputs, which JupyterLab omits.
 
 export function imageRenderer(lab, options) {
   class Image extends lab.RenderedImage {
     async renderModel(model) {
       await super.renderModel(model);
-      const words = model.metadata["image/png"]?.alt;
-      if (typeof words === "string") this.node.querySelector("img")?.setAttribute("alt", words);
+      const alt = model.metadata["image/png"]?.alt;
+      if (typeof alt === "string") this.node.querySelector("img")?.setAttribute("alt", alt);
     }
   }
   return new Image(options);

@@ -1,4 +1,4 @@
-// Tabs with names that differ, for each lesson is a file of the same name; and the ways back and on.
+// Distinct tab names, because all lessons have the same file name; and buttons to the map and the next notebook.
 
 import { START } from "./start.js";
 
@@ -12,8 +12,8 @@ export function tabName(path) {
   return `${Number(number)} ${subject}: ${file === "lesson" ? "lesson" : "exercises"}`;
 }
 
-export function nameTab(panel) {
-  // JupyterLab takes a new title for a new name of the file, and renames it: it must not hear of ours.
+export function renameTab(panel) {
+  // JupyterLab renames the file when the title changes, so its handler must be disconnected.
   if (!panel._onTitleChanged || !panel.title.changed.disconnect(panel._onTitleChanged, panel)) return;
   const name = () => {
     const label = tabName(panel.context.path);
@@ -21,15 +21,15 @@ export function nameTab(panel) {
   };
   name();
   panel.context.ready.then(name);
-  panel.title.changed.connect(name); // JupyterLab sets the file's name, at first and whenever it changes
+  panel.title.changed.connect(name); // JupyterLab sets the title to the file's name, initially and after a rename
 }
 
-/** The notebook that comes after this one: a lesson's exercises, then the next lesson; undefined after the last. */
-async function following(contents, path) {
+/** The next notebook: a lesson's exercises, then the next lesson; undefined after the last. */
+async function nextNotebook(contents, path) {
   const [, folder, number, topic] = FILE.exec(path) ?? [];
   if (!number) return undefined;
-  const first = async (place) => {
-    const { content } = await contents.get(place).catch(() => ({ content: [] }));
+  const first = async (folder) => {
+    const { content } = await contents.get(folder).catch(() => ({ content: [] }));
     return content.find(({ type }) => type === "notebook")?.path;
   };
   const own = folder === "course" ? await first(`exercises/${number}_${topic}`) : undefined;
@@ -40,15 +40,15 @@ async function following(contents, path) {
   return next && first(next);
 }
 
-/** Buttons for a notebook's toolbar: back to the map of the course, and on to what comes next. */
-export function ways(lab, app, panel) {
+/** Buttons for a notebook's toolbar: to the course map, and to the next notebook. */
+export function navigationButtons(lab, app, panel) {
   const open = (path) => app.commands.execute("docmanager:open", { path });
   const button = (label, tooltip, onClick) => new lab.ToolbarButton({ label, tooltip, onClick });
   if (!FILE.test(panel.context.path)) return [];
   return [
     button("Course", "Back to the map of the course", () => open(START)),
     button("Next", "On to the notebook that comes next", async () => {
-      open(await following(app.serviceManager.contents, panel.context.path) ?? START);
+      open(await nextNotebook(app.serviceManager.contents, panel.context.path) ?? START);
     }),
   ];
 }

@@ -1,5 +1,5 @@
-// Validate: runs the notebook as it stands from top to bottom in a kernel of its own, which leaves the student's alone,
-// and shows the points of each exercise as they come.
+// Validate: runs the notebook from top to bottom in a separate kernel, without affecting the student's kernel, and shows
+// the points of each exercise as soon as they are available.
 
 const HEADING = /^#+\s*(.+?)\s*(?:\([\d.]+ points?\))?\s*$/m;
 const WIDTH = "min(80vw, 720px)";
@@ -15,7 +15,7 @@ async function validate(lab, app, panel) {
   const table = new Table(lab);
   const cells = [...panel.content.model.cells];
   const tests = cells.filter((cell) => cell.getMetadata("nbgrader")?.grade).length;
-  table.say(tests ? "Running the notebook in a new kernel ..." : "This notebook has no checks to run.");
+  table.setStatus(tests ? "Running the notebook in a new kernel ..." : "This notebook has no checks to run.");
   const closed = lab.showDialog({
     title: "Validation Results", body: table.widget, buttons: [lab.Dialog.okButton({ label: "Close" })],
   });
@@ -25,15 +25,15 @@ async function validate(lab, app, panel) {
   let open = true;
   closed.then(() => { open = false; kernel.shutdown(); });
   try {
-    await go(kernel, cells, table, () => open);
+    await runCells(kernel, cells, table, () => open);
   } catch (error) {
-    if (open) table.say(`The notebook could not be run to its end: ${error.message ?? error}`);
+    if (open) table.setStatus(`The notebook could not be run to its end: ${error.message ?? error}`);
   } finally {
     if (open) await kernel.shutdown();
   }
 }
 
-async function go(kernel, cells, table, open) {
+async function runCells(kernel, cells, table, open) {
   let heading = "";
   for (const cell of cells) {
     const text = cell.sharedModel.getSource();
@@ -44,10 +44,10 @@ async function go(kernel, cells, table, open) {
     if (!open()) return;
     if (grading?.grade) table.add(heading, result, Number(grading.points), error);
   }
-  table.say("");
+  table.setStatus("");
 }
 
-/** Run code; its result as text, and its error in a line. */
+/** Run code; returns its result as text, and its error in one line. */
 async function execute(kernel, code, cellId) {
   const future = kernel.requestExecute({ code, stop_on_error: false, allow_stdin: false }, true, { cellId });
   let result, error = "";
@@ -75,14 +75,14 @@ class Table {
     this.earned = this.most = 0;
   }
 
-  say(words) {
-    this.status.textContent = words;
+  setStatus(text) {
+    this.status.textContent = text;
   }
 
   add(name, result, most, error) {
-    // As nbgrader counts: a number is the points, an error none, and a check that ends without either all.
-    const told = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
-    const points = Math.min(Math.max(told, 0), most);
+    // As in nbgrader: a number is the points, an error gives none, and a check without either gives all.
+    const value = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
+    const points = Math.min(Math.max(value, 0), most);
     this.earned += points;
     this.most += most;
     const note = error || (points >= most ? "✔" : points ? "in part: run its check to see why" : "run its check to see why");
@@ -93,8 +93,8 @@ class Table {
 
 const short = (points) => String(Math.round(points * 100) / 100);
 
-function row(kind, words) {
+function row(kind, texts) {
   const line = document.createElement("tr");
-  for (const word of words) line.append(Object.assign(document.createElement(kind), { textContent: word }));
+  for (const text of texts) line.append(Object.assign(document.createElement(kind), { textContent: text }));
   return line;
 }

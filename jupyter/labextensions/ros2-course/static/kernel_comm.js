@@ -1,12 +1,12 @@
-// The line from a notebook's page to its kernel; sim/notebook/page.py has the other end. The page tells which cells there
-// are and what stands in them, before each one that runs; the kernel tells what the panel beside is to show.
+// The comm from a notebook's page to its kernel; sim/notebook/page_comm.py is the other end. The page sends the ids and
+// sources of the cells before it executes one; the kernel sends the content of the robot panel.
 
 const TARGET = "ros2-course";
 
-export class Link {
-  constructor(panel, dock) {
+export class KernelComm {
+  constructor(panel, robotPanel) {
     this.panel = panel;
-    this.dock = dock;
+    this.robotPanel = robotPanel;
     this.session = panel.sessionContext;
     this.attach = this.attach.bind(this);
     this.session.kernelChanged.connect(this.attach);
@@ -18,7 +18,7 @@ export class Link {
     this.comm = undefined;
   }
 
-  /** Be ready for a kernel that calls, and call one that has called already, before this page was loaded. */
+  /** Accept a comm from the kernel, or connect to one that was opened before this page was loaded. */
   async attach() {
     const kernel = this.session.session?.kernel;
     if (!kernel || kernel === this.kernel) return;
@@ -30,25 +30,25 @@ export class Link {
   }
 
   open(comm) {
-    comm.commsOverSubshells = "disabled"; // what is told stays in order with the cells that run
+    comm.commsOverSubshells = "disabled"; // keeps messages in order with executed cells
     this.comm = comm;
-    this.told = new Map();
-    comm.onMsg = ({ content }) => this.dock.show(content.data.show);
+    this.sent = new Map();
+    comm.onMsg = ({ content }) => this.robotPanel.show(content.data.show);
     comm.onClose = () => { if (this.comm === comm) this.comm = undefined; };
     comm.send({ hello: true });
-    this.tell();
+    this.sendCells();
   }
 
-  /** Tell the kernel what stands in the cells. */
-  tell() {
+  /** Send the order of the cells and the changed sources to the kernel. */
+  sendCells() {
     if (!this.comm || this.comm.isDisposed) return;
     const texts = {}, order = [];
     for (const cell of this.panel.content.model?.cells ?? []) {
       if (cell.type !== "code") continue;
       const text = cell.sharedModel.getSource();
       order.push(cell.id);
-      if (this.told.get(cell.id) !== text) texts[cell.id] = text;
-      this.told.set(cell.id, text);
+      if (this.sent.get(cell.id) !== text) texts[cell.id] = text;
+      this.sent.set(cell.id, text);
     }
     this.comm.send({ order, texts });
   }

@@ -1,11 +1,11 @@
-// The panel beside the notebook that shows its robot: what plays now, and its replay when it is over.
+// The panel beside the notebook with its robot: the live view, and the replay after the run.
 
 export const ROBOT = "application/vnd.ros2-course.robot+json";
-const NARROW = 900; // px of a notebook; below that the robot has its place under the code
-const LOW = 600; // px of a narrow one, as in a page at 200 %; below that it has a tab of its own
+const NARROW = 900; // px; in a narrower notebook the robot is below the code
+const LOW = 600; // px; in a narrow and lower one, such as a page at 200 %, it has its own tab
 let count = 0;
 
-export class Dock {
+export class RobotPanel {
   constructor(lab, app, panel) {
     Object.assign(this, { lab, app, panel, shown: {} });
     panel.disposed.connect(() => this.widget?.dispose());
@@ -18,7 +18,7 @@ export class Dock {
     });
   }
 
-  /** Show what the kernel says; a robot that begins to play opens the panel. */
+  /** Show the kernel's MIME bundle; a new live view opens the panel. */
   show(bundle) {
     const plays = !("text/html" in bundle);
     this.shown = bundle;
@@ -35,7 +35,7 @@ export class Dock {
       this.widget.title.label = "Robot";
       this.widget.title.closable = true;
       this.widget.title.caption = `The robot of ${this.panel.title.label}`;
-      // A closed panel is put aside with its picture: of one that is thrown away no second picture can be made.
+      // A closed panel is detached, not disposed: its view could not be created a second time.
       this.widget.onCloseRequest = () => { this.widget.parent = null; };
       this.filled = undefined;
     }
@@ -43,19 +43,19 @@ export class Dock {
     if (this.filled !== this.shown) this.fill();
   }
 
-  /** Bring the panel to the front, too, where it shares its place. */
+  /** Open the panel and bring it to the front. */
   reveal() {
     this.open();
     if (!this.widget.isVisible) this.app.shell.activateById(this.widget.id);
   }
 
-  /** Whether notebook and robot have no room side by side, nor one above the other. */
+  /** Whether there is no space for notebook and robot side by side or one above the other. */
   isLow() {
     const { clientWidth, clientHeight } = this.app.shell.node;
     return clientWidth < NARROW && clientHeight < LOW;
   }
 
-  /** Beside the notebook, or among the robots of other notebooks. */
+  /** The panel's position: beside the notebook, or with the robots of other notebooks. */
   place() {
     const others = [...this.app.shell.widgets("main")].filter(({ id }) => id.startsWith("ros2-course-robot-"));
     if (others.length) return { mode: "tab-after", ref: others[0].id };
@@ -81,12 +81,12 @@ export class Dock {
   }
 }
 
-/** What stands in the cell's output instead of the picture; dockOf gives the panel of the notebook that a node is in. */
-export function robotRenderer(lab, dockOf) {
+/** The output of the cell instead of the picture; panelOf returns the robot panel of the notebook of a node. */
+export function robotRenderer(lab, panelOf) {
   const view = new lab.Widget();
   view.addClass("ros2-course-beside");
   const button = Object.assign(document.createElement("button"), { textContent: "Show the robot", className: "jp-Button" });
-  button.addEventListener("click", () => dockOf(view.node)?.reveal());
+  button.addEventListener("click", () => panelOf(view.node)?.reveal());
   view.node.append("The robot plays in the panel “Robot”. ", button);
   view.renderModel = async () => {};
   return view;

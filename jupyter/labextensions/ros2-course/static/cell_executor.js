@@ -1,7 +1,6 @@
-// The first press on run works, also before the kernel is there. JupyterLab by itself would ask which kernel to take, as
-// it doesn't know yet that one is on its way, or would forget the press.
+// Runs a cell even if the kernel is still starting. JupyterLab by default would prompt for a kernel or drop the request.
 
-export function patientExecutor(lab) {
+export function waitingExecutor(lab) {
   return {
     id: "ros2-course:cell-executor",
     description: "Runs a cell as soon as its kernel is there. In place of @jupyterlab/notebook-extension:cell-executor.",
