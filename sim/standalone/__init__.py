@@ -1,4 +1,4 @@
-"""The stand-alone robot's picture: a page for browsers on this machine, with a pad to drive."""
+"""The live page of a stand-alone robot, for browsers on this machine, with a drive pad."""
 
 from sim.standalone.live_page import LivePage
 

@@ -1,4 +1,4 @@
-"""A small web server for one page: frames go to browsers on this machine, commands to drive come back."""
+"""A small web server for one page: sends frames to browsers on this machine, receives drive commands."""
 
 from __future__ import annotations
 
@@ -14,38 +14,38 @@ from typing import Any
 from sim.view.javascript import script
 from sim.view.live_view import parse_command
 
-ADDRESS = "127.0.0.1"  # nobody else's machine
-MOST_VIEWERS = 8
-MOST_BYTES = 200  # of a command
-PATIENCE = 5.0  # s for a frame to come, or for a browser to take it
+ADDRESS = "127.0.0.1"  # loopback only
+MAX_VIEWERS = 8
+MAX_BYTES = 200  # of a command
+TIMEOUT = 5.0  # s, to wait for a frame or for a browser to receive it
 POLICY = "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; connect-src 'self'; img-src data:"
 _HERE = files("sim.standalone")
 
 
 class PageServer:
-    """Serves the page in threads of its own until it is closed.
+    """Serves the page in its own threads until it is closed.
 
-    facts: what the page gets first, as JSON: {"world": ..., "status": ...}.
+    initial: the first data for the page, as JSON: {"world": ..., "status": ...}.
     on_drive: called with (forward, left), each in [-1, 1], in one of the server's threads.
-    graph: called there, too; what it returns goes to the page as JSON.
+    graph: called in one of these threads, too; its result is sent to the page as JSON.
 
-    Raises OSError if the port is taken.
+    Raises OSError if the port is in use.
     """
 
     def __init__(
         self,
         port: int,
-        facts: dict[str, Any],
+        initial: dict[str, Any],
         on_drive: Callable[[float, float], None],
         graph: Callable[[], dict[str, Any]],
     ) -> None:
         self.on_drive, self.graph = on_drive, graph
-        self.viewers = threading.BoundedSemaphore(MOST_VIEWERS)
+        self.viewers = threading.BoundedSemaphore(MAX_VIEWERS)
         self.pages = {
             "/": ("text/html; charset=utf-8", _HERE.joinpath("page.html").read_bytes()),
             "/page.js": ("text/javascript; charset=utf-8", _HERE.joinpath("page.js").read_bytes()),
             "/live.js": ("text/javascript; charset=utf-8", script("live.js").encode()),
-            "/world": ("application/json", json.dumps(facts).encode()),
+            "/world": ("application/json", json.dumps(initial).encode()),
         }
         self._changed = threading.Condition()
         self._frame, self._number, self._open = b"", 0, True
@@ -58,28 +58,28 @@ class PageServer:
         self._thread.start()
 
     def show(self, frame: bytes) -> None:
-        """Send a frame to every page that looks; a slow one gets the newest when it is ready."""
+        """Send a frame to every connected page; a slow page receives the newest when it is ready."""
         with self._changed:
             self._frame, self._number = base64.b64encode(frame), self._number + 1
             self._changed.notify_all()
 
-    def tell(self, status: dict[str, Any]) -> None:
-        """Send facts that have changed to every page, with its next frame."""
+    def send_status(self, status: dict[str, Any]) -> None:
+        """Send a changed status to every page, with its next frame."""
         self._status = json.dumps(status).encode()
 
     @property
     def status(self) -> bytes:
-        """What was told last, as JSON; b"" before."""
+        """The latest status, as JSON; b"" before the first."""
         return self._status
 
     def next_frame(self, seen: int) -> tuple[bytes | None, int]:
-        """The newest frame, once it is another than number `seen`, and its number; None for no more."""
+        """Wait for a frame other than number `seen`; returns it, or None after the last, and its number."""
         with self._changed:
-            came = self._changed.wait_for(lambda: self._number != seen or not self._open, PATIENCE)
-            return (self._frame if came and self._open else None), self._number
+            available = self._changed.wait_for(lambda: self._number != seen or not self._open, TIMEOUT)
+            return (self._frame if available and self._open else None), self._number
 
     def close(self) -> None:
-        """Let go of all pages and of the port."""
+        """Disconnect all pages and close the port."""
         with self._changed:
             self._open = False
             self._changed.notify_all()
@@ -94,85 +94,85 @@ class _Http(ThreadingHTTPServer):
     owner: PageServer
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Browsers come and go; what breaks off is nothing to talk about."""
+        """Ignore aborted connections of browsers."""
 
 
 class _Handler(BaseHTTPRequestHandler):
-    timeout = PATIENCE
+    timeout = TIMEOUT
     server: _Http
 
     def do_GET(self) -> None:
-        """The page, its parts, or the stream of frames."""
+        """Serve the page, its files, the graph, or the stream of frames."""
         owner = self.server.owner
-        from_course = self.headers.get("Sec-Fetch-Site", "none") in ("same-origin", "none")
-        if self.headers["Host"] not in owner.hosts or (self.path != "/" and not from_course):
-            self.refuse(HTTPStatus.FORBIDDEN)
+        same_origin = self.headers.get("Sec-Fetch-Site", "none") in ("same-origin", "none")
+        if self.headers["Host"] not in owner.hosts or (self.path != "/" and not same_origin):
+            self.respond_error(HTTPStatus.FORBIDDEN)
         elif self.path == "/frames":
             self.stream(owner)
         elif self.path == "/graph":
-            self.answer("application/json", json.dumps(owner.graph()).encode())
+            self.respond("application/json", json.dumps(owner.graph()).encode())
         elif self.path in owner.pages:
-            self.answer(*owner.pages[self.path])
+            self.respond(*owner.pages[self.path])
         else:
-            self.refuse(HTTPStatus.NOT_FOUND)
+            self.respond_error(HTTPStatus.NOT_FOUND)
 
     def do_POST(self) -> None:
-        """A command to drive, from this server's own page and no other."""
+        """Receive a drive command, only from this server's own page."""
         owner, host = self.server.owner, self.headers["Host"]
         length = self.headers["Content-Length"] or ""
         if host not in owner.hosts or self.headers["Origin"] != f"http://{host}":
-            self.refuse(HTTPStatus.FORBIDDEN)
-        elif self.path != "/drive" or not length.isdecimal() or int(length) > MOST_BYTES:
-            self.refuse(HTTPStatus.BAD_REQUEST)
+            self.respond_error(HTTPStatus.FORBIDDEN)
+        elif self.path != "/drive" or not length.isdecimal() or int(length) > MAX_BYTES:
+            self.respond_error(HTTPStatus.BAD_REQUEST)
         else:
             self.drive(self.rfile.read(int(length)))
 
     def drive(self, body: bytes) -> None:
-        """Pass on a command, if it is one."""
+        """Forward a command, if it is valid."""
         try:
             command = parse_command(json.loads(body))
         except (ValueError, RecursionError):
             command = None
         if command is None or "drive" not in command:
-            self.refuse(HTTPStatus.BAD_REQUEST)
+            self.respond_error(HTTPStatus.BAD_REQUEST)
             return
         self.server.owner.on_drive(*command["drive"])
-        self.answer("text/plain", b"")
+        self.respond("text/plain", b"")
 
     def stream(self, owner: PageServer) -> None:
-        """Frames as server-sent events, until one side has gone."""
+        """Send frames as server-sent events until one side disconnects."""
         if not owner.viewers.acquire(blocking=False):
-            self.refuse(HTTPStatus.SERVICE_UNAVAILABLE)
+            self.respond_error(HTTPStatus.SERVICE_UNAVAILABLE)
             return
         try:
             self.send_response(HTTPStatus.OK)
             self.send_header("Content-Type", "text/event-stream")
             self.end_headers()
             frame, seen = owner.next_frame(0)
-            told = b""
+            status = b""
             while frame is not None:
-                if owner.status != told:
-                    told = owner.status
-                    self.wfile.write(b"event: status\ndata: " + told + b"\n\n")
+                if owner.status != status:
+                    status = owner.status
+                    self.wfile.write(b"event: status\ndata: " + status + b"\n\n")
                 self.wfile.write(b"data: " + frame + b"\n\n")
                 frame, seen = owner.next_frame(seen)
         finally:
             owner.viewers.release()
 
-    def answer(self, kind: str, body: bytes, status: HTTPStatus = HTTPStatus.OK) -> None:
-        """One whole answer."""
+    def respond(self, kind: str, body: bytes, status: HTTPStatus = HTTPStatus.OK) -> None:
+        """Send a complete response."""
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()
         self.wfile.write(body)
 
-    def refuse(self, status: HTTPStatus) -> None:
-        """Say no in the words of HTTP."""
-        self.answer("text/plain", f"{status.phrase}\n".encode(), status)
+    def respond_error(self, status: HTTPStatus) -> None:
+        """Send an HTTP error."""
+        self.respond("text/plain", f"{status.phrase}\n".encode(), status)
 
     def end_headers(self) -> None:
-        """What every answer says."""
+        """Add the headers of every response."""
         for name, value in (
             ("Cache-Control", "no-store"),
             ("Content-Security-Policy", POLICY),
@@ -183,4 +183,4 @@ class _Handler(BaseHTTPRequestHandler):
         super().end_headers()
 
     def log_message(self, *arguments: Any) -> None:
-        """Nothing: the terminal is for the robot."""
+        """Log nothing: the terminal is for the robot's output."""

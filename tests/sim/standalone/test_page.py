@@ -108,7 +108,7 @@ def test_frames_come_as_they_are_shown_and_end_with_the_robot(page):
 
 def test_facts_that_change_come_with_the_next_frame_and_to_who_looks_later_too(page):
     for _ in range(2):
-        page.tell({"drawn": 3})
+        page.send_status({"drawn": 3})
         with contextlib.closing(stream(page)) as frames:
             page.show(b"")
             lines = [frames.readline() for _ in range(4)]
@@ -117,7 +117,7 @@ def test_facts_that_change_come_with_the_next_frame_and_to_who_looks_later_too(p
 
 def test_so_many_may_look_and_no_more(page):
     page.show(b"frame")
-    streams = [stream(page) for _ in range(server.MOST_VIEWERS)]
+    streams = [stream(page) for _ in range(server.MAX_VIEWERS)]
     assert {one.status for one in streams} == {200}
     assert stream(page).status == 503
 
@@ -132,10 +132,10 @@ def test_a_port_that_is_taken_is_told_in_a_sentence():
 def test_of_some_ports_the_first_that_is_free_is_taken():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         ports = [taken.getsockname()[1], 0]
-        with contextlib.closing(live_page.served(ports, FACTS, print, lambda: GRAPH)) as page:
+        with contextlib.closing(live_page.open_server(ports, FACTS, print, lambda: GRAPH)) as page:
             assert json.loads(ask(page, "GET", "/graph")[1]) == GRAPH
         with pytest.raises(OSError, match="Address already in use"):
-            live_page.served(ports[:1], FACTS, print, lambda: GRAPH)
+            live_page.open_server(ports[:1], FACTS, print, lambda: GRAPH)
 
 
 @pytest.mark.browser

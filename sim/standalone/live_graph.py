@@ -1,4 +1,4 @@
-"""Who is connected to whom around a robot in real time: its own nodes and those of other processes."""
+"""The graph of a robot in real time: its own nodes and those of other processes, by discovery."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from sim.ros2.system import is_hidden
 from sim.view.graph_data import graph_data
 
 
-class Connections:
-    """Draws the graph of a `RealTimeRun` whenever a page asks for it, and anew only if it has changed."""
+class LiveGraph:
+    """Lays out the graph of a `RealTimeRun` on request, and again only if it has changed."""
 
     def __init__(self, run: Any) -> None:
         self._run, self._lock = run, Lock()
-        self._seen: list[Any] = []
-        self._drawn: dict[str, Any] = {}
+        self._state: list[Any] = []
+        self._data: dict[str, Any] = {}
 
     def __call__(self) -> dict[str, Any]:
-        """The graph as `graph_data` gives it. In any thread."""
+        """The graph as returned by `graph_data`. Thread-safe."""
         with self._lock:
-            seen = [self._nodes(), self._ends()]
-            if seen != self._seen:
+            state = [self._nodes(), self._ends()]
+            if state != self._state:
                 recording = Recording(course_nodes=self._course_nodes)
-                recording.graph.nodes, recording.graph.endpoints = seen
-                self._seen, self._drawn = seen, graph_data(recording, counted=False) or {}
-            return self._drawn
+                recording.graph.nodes, recording.graph.endpoints = state
+                self._state, self._data = state, graph_data(recording, counted=False) or {}
+            return self._data
 
     @property
     def _course_nodes(self) -> set[str]:
