@@ -8,7 +8,7 @@ from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from sim import Process
-from sim.notebook import outdated
+from sim.notebook import find_outdated
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
@@ -24,7 +24,7 @@ def refusal(nodes: Sequence[Any]) -> Fault | None:
 
 def not_run(nodes: Sequence[Any]) -> Fault | None:
     """That the notebook shows a newer version of these than would be judged; None if it doesn't."""
-    found = outdated(nodes)
+    found = find_outdated(nodes)
     if found is None:
         return None
     return Fault(

@@ -18,7 +18,7 @@ from sim.ros2 import offer  # noqa: E402
 from sim.world import World  # noqa: E402
 
 Recording.player = replay
-notebook.watch()
+notebook.watch_cells()
 install()  # after all imports, so that the engine's own modules have bound the real clocks
 offer()
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from sim.evidence import Recording
 from sim.network import Network
-from sim.notebook import in_notebook, refuse_outdated
+from sim.notebook import in_notebook, raise_if_outdated
 from sim.ros.play.pacing import Pace
 from sim.ros.play.player import Player
 from sim.ros.session import Session
@@ -33,7 +33,7 @@ def play(
     replay replaces the live view. Without an event loop it returns when the run has ended. A previous `play`
     that is still running is stopped. Raises what `run` raises, and ValueError for an invalid speed.
     """
-    refuse_outdated(nodes)
+    raise_if_outdated(nodes)
     pace = Pace(speed)
     player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play", network=network), pace)
     if in_notebook():

@@ -11,7 +11,7 @@ from grader.diagnosis.rules import RULES
 from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.evidence import CallbackError
-from sim.notebook import missing
+from sim.notebook import explain_missing_name
 from sim.suggestions import closest_match
 
 _HOMES = {
@@ -58,7 +58,7 @@ def advice(error: CallbackError) -> str:
 
 def _unknown_name(error: CallbackError) -> str:
     name = next(iter(re.findall(r"name '(\w+)'", error.text)), "")
-    not_run = missing(name)
+    not_run = explain_missing_name(name)
     if not_run:
         return not_run
     if name in _HOMES:

@@ -1,27 +1,27 @@
-"""The notebook around the runs: its cells, what they define, and the page that shows it."""
+"""The notebook around a run: the history of its cells, and the connection to its page."""
 
 from sim.notebook.kernel import (
-    LastVersionDidNotRun,
-    Outdated,
+    OutdatedCodeError,
+    OutdatedName,
+    explain_missing_name,
+    find_outdated,
     in_notebook,
-    interrupted,
-    missing,
+    interrupt_error,
     notebook_page,
-    outdated,
-    refuse_outdated,
+    raise_if_outdated,
     show_error,
-    watch,
+    watch_cells,
 )
 
 __all__ = [
-    "LastVersionDidNotRun",
-    "Outdated",
+    "OutdatedCodeError",
+    "OutdatedName",
+    "explain_missing_name",
+    "find_outdated",
     "in_notebook",
-    "interrupted",
-    "missing",
+    "interrupt_error",
     "notebook_page",
-    "outdated",
-    "refuse_outdated",
+    "raise_if_outdated",
     "show_error",
-    "watch",
+    "watch_cells",
 ]

@@ -9,7 +9,7 @@ import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first messa
 
 from sim.evidence import Ended, Recording
 from sim.network import Network
-from sim.notebook import interrupted, refuse_outdated
+from sim.notebook import interrupt_error, raise_if_outdated
 from sim.ros.engine.program import Process
 from sim.ros.session import Session
 from sim.world import World
@@ -42,13 +42,13 @@ def run(
 
     Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
     can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
-    LastVersionDidNotRun, when a node's cell has failed since, or was changed and not run.
+    OutdatedCodeError, when a node's cell has failed since, or was changed and not run.
     """
-    refuse_outdated(nodes)
+    raise_if_outdated(nodes)
     session = Session(nodes, world, seconds, seed, until, quiet, companions=companions, network=network)
     session.advance()
     if session.interrupted:
-        raise interrupted()
+        raise interrupt_error()
     return session.recording
 
 

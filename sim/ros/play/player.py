@@ -13,7 +13,7 @@ from collections.abc import Callable, Generator
 from typing import Any
 
 from sim.evidence import Ended, Recording
-from sim.notebook import interrupted
+from sim.notebook import interrupt_error
 from sim.ros.engine import interrupts
 from sim.ros.engine.engine import INTERRUPTED
 from sim.ros.engine.program import Process
@@ -108,7 +108,7 @@ class Player:
             self._advance(math.inf)
             self._update()
             if self._session.interrupted:
-                raise interrupted()
+                raise interrupt_error()
         if self._error is not None:
             raise self._error
         return self.recording
@@ -146,7 +146,7 @@ class Player:
             try:
                 asyncio.run(self._play())
             except KeyboardInterrupt:
-                raise interrupted() from None
+                raise interrupt_error() from None
             self.result()
         else:
             self._task = loop.create_task(self._play())  # the loop keeps only a weak reference

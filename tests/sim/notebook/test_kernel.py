@@ -84,6 +84,7 @@ sim.suggestions.unknown_name("a", "b", ["c"])"""
 
 
 def test_outside_a_notebook_nothing_is_watched():
-    code = "from sim import notebook as n; print(n.in_notebook(), n.outdated([n]), n.missing('n') == '')"
+    values = "n.in_notebook(), n.find_outdated([n]), n.explain_missing_name('n') == ''"
+    code = f"from sim import notebook as n; print({values})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=True)
     assert done.stdout.split() == ["False", "None", "True"]

@@ -1,6 +1,6 @@
 import pytest
 
-from sim.notebook.cells import Cells, Outdated
+from sim.notebook.cell_history import CellHistory, OutdatedName
 
 ROBOT = "class Robot:\n    def turn(self):\n        return turns()\n"
 TURNS = "def turns():\n    return 1\n"
@@ -12,7 +12,7 @@ class Notebook:
 
     def __init__(self) -> None:
         self.namespace = {"__name__": "__main__"}
-        self.cells = Cells(self.namespace)
+        self.cells = CellHistory(self.namespace)
         self.texts = {}
 
     def run(self, cell: str, source: str) -> None:
@@ -31,9 +31,9 @@ class Notebook:
         self.tell()
 
     def tell(self) -> None:
-        self.cells.shown(list(self.texts), self.texts)
+        self.cells.update(list(self.texts), self.texts)
 
-    def outdated(self, name: str) -> Outdated | None:
+    def outdated(self, name: str) -> OutdatedName | None:
         return self.cells.outdated([self.namespace[name]])
 
 
@@ -53,7 +53,7 @@ def test_what_ran_as_it_stands_is_not_outdated(notebook):
 def test_a_cell_that_failed_leaves_its_names_outdated_until_it_runs(notebook, source):
     notebook.run("answer", source)
     found = notebook.outdated("Robot")
-    assert found == Outdated("Robot", "SyntaxError" if source == BROKEN else "ZeroDivisionError")
+    assert found == OutdatedName("Robot", "SyntaxError" if source == BROKEN else "ZeroDivisionError")
     assert found.saw == f"the cell with Robot ended with {found.error}"
     assert found.hint == "Mend that cell and run it; then run this one again."
     notebook.run("answer", ROBOT)
@@ -62,7 +62,7 @@ def test_a_cell_that_failed_leaves_its_names_outdated_until_it_runs(notebook, so
 
 def test_a_try_in_another_cell_counts_too(notebook):
     notebook.run("second try", BROKEN)
-    assert notebook.outdated("Robot") == Outdated("Robot", "SyntaxError")
+    assert notebook.outdated("Robot") == OutdatedName("Robot", "SyntaxError")
 
 
 def test_a_class_that_was_made_before_its_cell_failed_is_the_newest(notebook):
@@ -73,21 +73,21 @@ def test_a_class_that_was_made_before_its_cell_failed_is_the_newest(notebook):
 def test_an_edit_that_did_not_run_is_seen(notebook):
     notebook.edit("answer", ROBOT.replace("return", "return 2 *"))
     found = notebook.outdated("Robot")
-    assert found == Outdated("Robot")
+    assert found == OutdatedName("Robot")
     assert found.saw == "the cell with Robot was changed, and has not run since"
     assert found.hint == "Run that cell (Shift+Enter); then run this one again."
 
 
 def test_what_a_class_calls_is_looked_at_too(notebook):
     notebook.edit("helper", TURNS.replace("1", "2"))
-    assert notebook.outdated("Robot") == Outdated("turns")
+    assert notebook.outdated("Robot") == OutdatedName("turns")
     assert notebook.cells.outdated([lambda: notebook.namespace["Robot"]]) is None
 
 
 def test_a_value_made_from_a_class_is_known_by_its_name(notebook):
     notebook.run("two", "pair = (Robot, 2)")
     notebook.edit("two", "pair = (Robot, 3)")
-    assert notebook.outdated("pair") == Outdated("pair")
+    assert notebook.outdated("pair") == OutdatedName("pair")
 
 
 def test_a_cell_that_is_gone_and_other_cells_say_nothing(notebook):
@@ -99,22 +99,22 @@ def test_a_cell_that_is_gone_and_other_cells_say_nothing(notebook):
 
 
 def test_a_missing_name_that_a_cell_above_defines_is_explained(notebook):
-    fresh = Cells({})
-    fresh.shown(["helper", "answer", "use"], {"helper": TURNS, "answer": BROKEN, "use": "later = 1"})
+    fresh = CellHistory({})
+    fresh.update(["helper", "answer", "use"], {"helper": TURNS, "answer": BROKEN, "use": "later = 1"})
     fresh.begin("use", "turns()")
-    assert fresh.missing("turns") == (
+    assert fresh.explain_missing("turns") == (
         "A cell above defines `turns`, and it has not run: "
         "choose Run > Run All Above Selected Cell, then run this cell again."
     )
     fresh.end("answer", BROKEN, "SyntaxError: expected ':' (line 1)")
-    assert fresh.missing("Robot") == (
+    assert fresh.explain_missing("Robot") == (
         "The cell above that defines `Robot` ended with SyntaxError: expected ':' (line 1). "
         "Mend that cell and run it first."
     )
-    assert fresh.missing("later") == fresh.missing("nowhere") == ""
+    assert fresh.explain_missing("later") == fresh.explain_missing("nowhere") == ""
 
 
 def test_without_a_page_the_notebooks_file_is_read(notebook):
-    fresh = Cells({})
-    assert fresh.missing("turns") == ""
-    assert "has not run" in fresh.missing("turns", ["helper"], {"helper": TURNS})
+    fresh = CellHistory({})
+    assert fresh.explain_missing("turns") == ""
+    assert "has not run" in fresh.explain_missing("turns", ["helper"], {"helper": TURNS})

@@ -1,4 +1,4 @@
-"""What a cell's code defines, and what a class or a function looks up: by reading, nothing is run."""
+"""Static analysis of the names that a cell's code defines, and that a class or function looks up."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ _DEFINITION = re.compile(r"^(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 
 
-def defined(source: str) -> set[str]:
-    """The names that the code of a cell gives a class, a function or a value.
+def defined_names(source: str) -> set[str]:
+    """The names that a cell's code assigns to a class, a function or a value.
 
-    In code that is no Python these are the classes and functions that begin a line.
+    In code with a syntax error, the classes and functions that start a line.
     """
     return set(_bound(source, imports=False))
 
 
-def bound(source: str) -> set[str]:
-    """The same, and the names that it imports."""
+def bound_names(source: str) -> set[str]:
+    """The defined names and the imported names."""
     return set(_bound(source, imports=True))
 
 
-def same(one: str, other: str) -> bool:
-    """Whether two texts are the same code: comments and blank lines don't count."""
+def is_same_code(one: str, other: str) -> bool:
+    """Whether two sources are the same code, apart from comments and blank lines."""
     try:
         return one == other or ast.dump(ast.parse(one)) == ast.dump(ast.parse(other))
     except (SyntaxError, ValueError):
         return one.split() == other.split()
 
 
-def looked_up(thing: Any) -> Iterator[str]:
-    """The global names that a class or a function of a notebook may look up; none for anything else."""
+def looked_up_names(thing: Any) -> Iterator[str]:
+    """The global names that a class or function of a notebook may look up; none for other objects."""
     if isinstance(thing, type):
         yield from (base.__name__ for base in thing.__mro__ if base.__module__ == "__main__")
         for part in list(vars(thing).values()):
-            yield from looked_up(part) if not isinstance(part, type) else ()
+            yield from looked_up_names(part) if not isinstance(part, type) else ()
         return
     thing = getattr(thing, "__func__", getattr(thing, "fget", None) or thing)
     code = getattr(thing, "__code__", None)
@@ -57,7 +57,7 @@ def _bound(source: str, *, imports: bool) -> Iterator[str]:
     lines = source.splitlines()
     if lines and lines[0].startswith("%%"):
         return
-    # IPython's own commands are none of Python's.
+    # IPython commands aren't Python syntax.
     python = "\n".join(re.sub(r"^(\s*)[%!?].*", r"\1pass", line) for line in lines)
     try:
         tree = ast.parse(python)

@@ -1,6 +1,6 @@
 import functools
 
-from sim.notebook.names import bound, defined, looked_up, same
+from sim.notebook.name_analysis import bound_names, defined_names, is_same_code, looked_up_names
 
 CELL = """
 import math, numpy as np
@@ -23,23 +23,23 @@ for step in range(3):
 
 
 def test_a_cell_defines_classes_functions_and_values():
-    assert defined(CELL) == {"speed", "a", "b", "Robot", "main", "step", "late"}
-    assert bound(CELL) - defined(CELL) == {"math", "np", "Node"}
+    assert defined_names(CELL) == {"speed", "a", "b", "Robot", "main", "step", "late"}
+    assert bound_names(CELL) - defined_names(CELL) == {"math", "np", "Node"}
 
 
 def test_of_code_that_is_no_python_the_beginnings_of_lines_are_read():
     source = "class Robot(Node)\n    def turn(self):\n        x = = 3\n\nasync def main():\n    pass\n"
-    assert defined(source) == bound(source) == {"Robot", "main"}
+    assert defined_names(source) == bound_names(source) == {"Robot", "main"}
 
 
 def test_a_file_that_a_cell_writes_defines_nothing():
-    assert bound("%%writefile robot.py\nclass Robot:\n    pass\n") == set()
+    assert bound_names("%%writefile robot.py\nclass Robot:\n    pass\n") == set()
 
 
 def test_comments_and_blank_lines_make_no_other_code():
-    assert same("x = 1\n\n# one\n", "x = 1")
-    assert not same("x = 1", "x = 2")
-    assert same("x = = 1", "x =  = 1 ") and not same("x = = 1", "x = = 2")
+    assert is_same_code("x = 1\n\n# one\n", "x = 1")
+    assert not is_same_code("x = 1", "x = 2")
+    assert is_same_code("x = = 1", "x =  = 1 ") and not is_same_code("x = = 1", "x = = 2")
 
 
 def helper():
@@ -61,6 +61,6 @@ def test_a_class_looks_up_what_its_methods_and_what_is_in_them_name():
         def halt():
             return (lambda: other())()
 
-    assert {"SIZE", "helper", "other"} <= set(looked_up(Robot))
-    assert "other" in set(looked_up(helper))
-    assert list(looked_up(3)) == list(looked_up(functools.partial(helper))) == []
+    assert {"SIZE", "helper", "other"} <= set(looked_up_names(Robot))
+    assert "other" in set(looked_up_names(helper))
+    assert list(looked_up_names(3)) == list(looked_up_names(functools.partial(helper))) == []
