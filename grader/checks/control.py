@@ -129,7 +129,7 @@ def keeps_deadline(
             hint,
             picture="topics",
         )
-    return max((b - a for a, b in itertools.pairwise(moments)), default=0.0)
+    return max(b - a for a, b in itertools.pairwise(moments))
 
 
 def _why_it_fell(run: Recording, fell: Seconds) -> str:

@@ -15,10 +15,24 @@ from grader.checks import (
     stands,
     still_stands,
 )
-from grader.checks.control import NO_EFFORT, SWINGS, TOO_WEAK, WRONG_WAY
 from sim import World
 from sim.evidence import Pose
 from tests.grader.recordings import published, recording
+
+NO_EFFORT = "Nothing pushed the cart: publish an effort on /cart_effort each time a joint state comes."
+WRONG_WAY = (
+    "From the first moment on the cart is pushed the wrong way. A positive angle leans to the left: then the cart has "
+    "to get under it, to the left, which is a negative effort."
+)
+TOO_WEAK = (
+    "It went down on the side where it leant from the first: the cart didn't get under it. Is the gain on the angle "
+    "large enough, and has the one on the rate the same sign?"
+)
+SWINGS = (
+    "It swung higher and higher. P alone does: D brakes, a gain on the rate at which the pole turns, and of the same "
+    "sign. If it is there, make it larger."
+)
+TRACK = "The cart rolled to the end of the track, which stopped it. Its place has to count, too."
 
 
 def carried(angles, xs=None, *, efforts=(), seconds=None):
@@ -69,15 +83,35 @@ def test_a_pole_that_nobody_holds():
         "it fell: at 0.2 s it leant by more than 0.5 rad",
     )
     assert (miss.hint, miss.credit) == (NO_EFFORT, 0.25)
-    assert missed(still_stands, carried([0.1, 0.6])).saw == "it fell at 0.1 s"
+    miss = missed(still_stands, carried([0.1, 0.6]))
+    assert (miss.expected, miss.saw) == ("a pole that stands meanwhile", "it fell at 0.1 s")
+    assert miss.hint == "First the pole has to stand."
 
 
 def test_a_pole_that_falls_early_earns_nothing_of_its_time():
     assert missed(stands, carried([0.1, 0.6, 1.0, 1.5])).credit == 0.0
+    assert missed(stands, carried([0.1] * 9 + [0.6], seconds=2.0)).credit == 0.0
+    assert missed(stands, carried([0.1] * 11 + [0.6], seconds=2.0)).credit == pytest.approx(0.275)
 
 
-def quick(force):
-    return [(0.01 * n, force) for n in range(30)]
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_pole_has_fallen_that_leans_by_more_than_half_a_radian_to_either_side(side):
+    assert fell_at(carried([0.1, side * 0.49])) is None
+    assert fell_at(carried([0.1, side * 0.51])) == 0.1
+
+
+def quick(force, period=0.01):
+    return [(period * n, force) for n in range(round(0.3 / period))]
+
+
+def seldom(seconds):
+    return (
+        f"The efforts came too seldom: up to {seconds} s passed between two of them. The pole falls while nobody "
+        "looks: push at each joint state, and let nothing hold the loop up."
+    )
+
+
+END = World.load("cart_pole").machine.track_length / 2
 
 
 @pytest.mark.parametrize(
@@ -86,19 +120,22 @@ def quick(force):
         ([0.1, 0.3, 0.6], None, quick(1.0), WRONG_WAY),
         ([0.1, 0.3, 0.6], None, quick(-1.0), TOO_WEAK),
         ([0.1, -0.3, 0.6], None, quick(-1.0), SWINGS),
-        (
-            [0.1, 0.3, 0.6],
-            None,
-            [(0.0, -1.0), (0.1, -1.0)],
-            "The efforts came too seldom: up to 0.1 s passed between two of them. The pole falls while nobody "
-            "looks: push at each joint state, and let nothing hold the loop up.",
-        ),
-        (
-            [0.1, 0.1, 0.6],
-            [0.0, -1.0, -1.0],
-            quick(-1.0),
-            "The cart rolled to the end of the track, which stopped it. Its place has to count, too.",
-        ),
+        ([0.1, 0.3, 0.6], None, [(0.0, -1.0), (0.1, -1.0)], seldom("0.1")),
+        ([0.1, 0.3, 0.6], None, [(0.0, -1.0), (0.01, -1.0), (0.057, -1.0)], seldom("0.047")),
+        ([0.1, 0.3, 0.6], None, quick(-1.0, 0.043), TOO_WEAK),
+        ([0.1, 0.3, 0.6], None, [(0.1, -1.0)], TOO_WEAK),
+        ([0.1, 0.3, 0.6], None, [(0.2, -1.0), (0.3, -1.0)], NO_EFFORT),
+        ([0.1, 0.3, 0.6], None, quick(0.0), TOO_WEAK),
+        ([0.1, 0.3, 0.6], None, [(0.0, 0.0), *quick(1.0)], WRONG_WAY),
+        ([-0.1, 0.3, 0.6], None, quick(1.0), SWINGS),
+        ([0.0, 0.3, 0.6], None, quick(1.0), TOO_WEAK),
+        ([0.018, -0.3, -0.6], None, quick(-1.0), TOO_WEAK),
+        ([0.022, -0.3, -0.6], None, quick(-1.0), SWINGS),
+        ([0.1, 0.3, 0.6, -0.1], None, quick(-1.0), TOO_WEAK),
+        ([0.1, 0.3, -0.6], None, quick(-1.0), TOO_WEAK),
+        ([0.1, 0.1, 0.6], [0.0, -1.0, -1.0], quick(-1.0), TRACK),
+        ([0.1, 0.1, 0.6], [0.0, 0.0, END - 0.009], quick(-1.0), TRACK),
+        ([0.1, 0.1, 0.6, 1.0], [0.0, 0.0, END - 0.011, END], quick(-1.0), TOO_WEAK),
     ],
 )
 def test_why_it_fell(angles, xs, efforts, hint):
@@ -108,7 +145,14 @@ def test_why_it_fell(angles, xs, efforts, hint):
 def test_a_cart_settles_where_it_comes_near_for_good():
     run = carried([0.0] * 6, [0.0, 0.3, 0.5, 0.56, 0.5, 0.5])
     assert settles(run, 0.5, seconds=0.3, tolerance=0.05) == pytest.approx(0.3)
+    assert settles(run.during(0.2), 0.5, seconds=0.3, tolerance=0.05) == pytest.approx(0.1)
     assert settles(run.during(0.4), 0.5, seconds=0.3, tolerance=0.05) == 0.0
+
+
+def test_a_cart_may_take_as_long_as_is_said_and_be_as_far_away():
+    run = carried([0.0] * 3, [0.0, 0.25, 0.5])
+    assert settles(run, 0.25, seconds=0.2, tolerance=0.25) == 0.0
+    assert settles(run, 0.25, seconds=0.2, tolerance=0.2) == 0.2
 
 
 def test_a_cart_that_takes_too_long():
@@ -124,8 +168,15 @@ def test_how_far_it_goes_beyond():
     run = carried([0.0] * 4, [0.0, -0.3, -0.6, -0.5])
     assert overshoots(run, -0.5, most=0.12) == pytest.approx(0.1)
     assert overshoots(run, -0.9, most=0.12) == 0.0
-    miss = missed(overshoots, run, -0.4, most=0.12)
-    assert (miss.expected, miss.saw) == ("at most 12 cm beyond -0.40 m", "20 cm beyond it at 0.2 s")
+    miss = missed(overshoots, run, -0.2, most=0.12)
+    assert (miss.expected, miss.saw) == ("at most 12 cm beyond -0.20 m", "40 cm beyond it at 0.2 s")
+
+
+def test_beyond_is_seen_from_where_the_cart_was_at_first():
+    run = carried([0.0] * 4, [1.25, 0.0, 0.5, 0.25])
+    assert overshoots(run, 0.25, most=0.25) == 0.25
+    miss = missed(overshoots, carried([0.0] * 3, [0.25, 1.75, 0.75]), 0.75, most=0.5)
+    assert miss.saw == "100 cm beyond it at 0.1 s"
 
 
 def test_efforts_have_limits():
@@ -139,13 +190,30 @@ def test_efforts_have_limits():
     assert miss.hint == "Cut it before you publish it: max(-3, min(3, effort))."
 
 
+def test_an_effort_that_goes_elsewhere_has_a_hint_of_its_own():
+    run = published("/cart_efort", [(0.1, Float64(data=2.0))])
+    assert missed(keeps_to_limits, run, 3.0).hint == "Is /cart_efort a typing slip? Did you mean /cart_effort?"
+
+
 def ticking(*moments, seconds):
     return published("/tick", [(moment, Float64()) for moment in moments], seconds=seconds)
 
 
 def test_deadlines_are_kept():
-    run = ticking(0.1, 0.3, 0.4, 0.5, seconds=0.6)
-    assert keeps_deadline(run, "/tick", 0.1) == pytest.approx(0.1)
+    run = ticking(0.1, 0.3, 0.35, 0.5, seconds=0.6)
+    assert keeps_deadline(run, "/tick", 0.15) == pytest.approx(0.15)
+
+
+def test_a_deadline_is_missed_by_half_a_millisecond_and_not_by_rounding():
+    assert keeps_deadline(ticking(0.2, 0.3, 0.4, seconds=0.4), "/tick", 0.1) > 0.1
+    miss = missed(keeps_deadline, ticking(0.2, 0.3005, 0.4, seconds=0.4), "/tick", 0.1)
+    assert (miss.saw, miss.picture) == ("1 deadline missed, the worst by 0.0005 s, after 0.2 s", "topics")
+
+
+def test_deadlines_count_from_a_fifth_of_a_second_on():
+    assert keeps_deadline(ticking(0.18, 0.3, 0.39, seconds=0.4), "/tick", 0.1) == pytest.approx(0.1)
+    assert missed(keeps_deadline, ticking(0.32, 0.4, seconds=0.4), "/tick", 0.1).saw.endswith("after 0.2 s")
+    assert keeps_deadline(ticking(0.32, 0.4, seconds=0.4), "/tick", 0.1, begin=0.25) == pytest.approx(0.08)
 
 
 def test_missed_deadlines_are_counted_to_the_end():
