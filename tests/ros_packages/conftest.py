@@ -34,6 +34,6 @@ def came_back() -> dict:
 def came_back_under():
     """Run the round trip in another virtual environment."""
     # These lead another environment's Python to this one's ROS libraries.
-    ours = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONPATH")
-    clean = {name: value for name, value in os.environ.items() if name not in ours}
+    ros_variables = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONPATH")
+    clean = {name: value for name, value in os.environ.items() if name not in ros_variables}
     return lambda python: run_round_trip(python, clean)

@@ -19,7 +19,7 @@ from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
-PATIENCE = 20.0  # seconds until a missing answer is an error
+TIMEOUT = 20.0  # seconds, until a missing answer is an error
 
 
 class Server(Node):
@@ -62,29 +62,29 @@ class Server(Node):
 
 
 class Client(Node):
-    """Uses the server and keeps what comes back."""
+    """Calls the server and stores its answers."""
 
     def __init__(self):
         super().__init__("client", namespace="interfaces", start_parameter_services=False)
-        self.heard = []
+        self.received = []
         self.publisher = self.create_publisher(TFMessage, "tf", 10)
-        self.create_subscription(TFMessage, "tf", self.heard.append, 10)
+        self.create_subscription(TFMessage, "tf", self.received.append, 10)
 
     def add(self, a, b):
         client = self.create_client(AddTwoInts, "add")
-        assert client.wait_for_service(PATIENCE)
+        assert client.wait_for_service(TIMEOUT)
         return wait(client.call_async(AddTwoInts.Request(a=a, b=b))).sum
 
     def run(self, action, name, goal, feedbacks, cancel=False):
         feedback = []
         client = ActionClient(self, action, name)
-        assert client.wait_for_server(PATIENCE)
+        assert client.wait_for_server(TIMEOUT)
         handle = wait(client.send_goal_async(goal, lambda message: feedback.append(message.feedback)))
         if cancel:
             until(lambda: len(feedback) >= feedbacks)
             assert len(wait(handle.cancel_goal_async()).goals_canceling) == 1
         answer = wait(handle.get_result_async())
-        # The result and the last feedback travel apart: either may come first.
+        # The result and the last feedback are separate messages; either may come first.
         until(lambda: len(feedback) >= feedbacks)
         return answer, feedback
 
@@ -94,12 +94,12 @@ class Client(Node):
         transform.transform.translation.x = 1.25
         until(lambda: self.publisher.get_subscription_count())
         self.publisher.publish(TFMessage(transforms=[transform, transform]))
-        until(lambda: self.heard)
-        return self.heard[0].transforms
+        until(lambda: self.received)
+        return self.received[0].transforms
 
 
 def until(condition):
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIMEOUT
     while not condition():
         assert time.monotonic() < end, "nothing came back in time"
         time.sleep(0.005)

@@ -1,4 +1,4 @@
-"""What the build says when it cannot go on, and that two builds are equal."""
+"""The messages of a build that can't continue, and the equality of two builds."""
 
 import os
 import shutil
@@ -45,7 +45,7 @@ def compiled(package: Package) -> Path:
 
 
 def command(directory: Path, name: str, script: str) -> None:
-    """Put a program of ours before the machine's own."""
+    """Replace a program of the machine by a script."""
     program = directory / name
     program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
     program.chmod(0o755)
@@ -65,7 +65,7 @@ def test_without_a_compiler_the_build_names_the_packages_to_install(monkeypatch,
     assert str(stop.value) == needs("g++", "is", "sudo apt install build-essential python3-dev")
 
 
-def test_root_in_a_container_is_told_to_install_without_sudo(monkeypatch, tmp_path):
+def test_root_in_a_container_needs_no_sudo(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     monkeypatch.setattr(toolchain.sysconfig, "get_path", lambda name: str(tmp_path))
@@ -89,7 +89,7 @@ def test_a_package_without_definitions_is_refused(tmp_path):
     assert str(stop.value) == f"try_msgs has no .msg, .srv or .action file under {tmp_path}/source."
 
 
-def test_a_definition_that_uses_a_package_nobody_provides_is_refused(tmp_path):
+def test_a_definition_that_uses_an_unknown_package_is_refused(tmp_path):
     with pytest.raises(BuildError) as stop:
         generate(package(tmp_path, Lost="lost_msgs/Thing thing\nstd_msgs/Header header\n"))
     assert str(stop.value) == MISSING.format("lost_msgs")
@@ -143,7 +143,7 @@ def test_the_build_stops_with_the_reason_and_the_package_alone(tmp_path, definit
     assert package == "The interface package try_msgs could not be built; the reason is above."
 
 
-def test_a_definition_that_makes_a_generator_exit_is_told_of_with_its_package(tmp_path):
+def test_a_definition_that_makes_a_generator_exit_is_reported_with_its_package(tmp_path):
     (tmp_path / "definitions").mkdir()
     text = "int32 data  # a path: C:\\\n"
     package(tmp_path / "one", Number=text).source.rename(tmp_path / "definitions" / "try_msgs")
@@ -185,7 +185,7 @@ def test_two_builds_in_two_places_are_equal(tmp_path, definitions, name):
     assert here == there
 
 
-def test_what_is_read_once_changes_nothing_that_is_written(tmp_path, definitions):
+def test_the_cache_of_parsed_files_changes_no_output(tmp_path, definitions):
     upstream = written(definitions / "tf2_msgs", tmp_path / "output", "generate.cache_parsing = lambda: None")
     assert len(upstream) > 60
     assert written(definitions / "tf2_msgs", tmp_path / "output") == upstream

@@ -48,8 +48,8 @@ def test_a_second_call_is_silent_leaves_no_file_behind_and_computes_for_less_tha
 
 
 def test_a_change_of_any_source_gives_another_version(changed):
-    asked = "from build_tools.content import version; print(version())"
-    words = [sys.executable, "-c", asked]
+    program = "from build_tools.content import version; print(version())"
+    words = [sys.executable, "-c", program]
     other = subprocess.run(words, cwd=changed, capture_output=True, text=True, check=True, timeout=60)
     assert other.stdout.strip() != version()
 
@@ -85,19 +85,19 @@ def test_a_definition_with_an_error_stops_the_build_and_the_reason_is_shown(chan
 
 
 def test_without_an_installed_wheel_there_is_no_version(monkeypatch):
-    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
+    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-that-nothing-installed")
     assert install.installed() is None
 
 
 def test_where_ross_own_packages_are_used_nothing_is_built(monkeypatch):
-    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-of-nobody")
+    monkeypatch.setattr(install, "NAME", "ros2-course-interfaces-that-nothing-installed")
     monkeypatch.setattr(install, "build", lambda wheel: pytest.fail("it was built"))
     monkeypatch.setattr(install, "cached_wheel", lambda: pytest.fail("it was looked for"))
     monkeypatch.setattr("platform.machine", lambda: "aarch64")
     assert install.main() is None
 
 
-def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
+def test_a_build_prints_the_current_package_and_returns_its_exit_status(tmp_path, capsys):
     for name in ("a_msgs", "b_msgs", "c_msgs"):
         (tmp_path / "definitions" / name).mkdir(parents=True)
     program = (
@@ -109,28 +109,28 @@ def test_a_build_says_which_package_it_is_at_and_how_it_ended(tmp_path, capsys):
         "sys.exit(3)\n"
     )
     process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
-    said, wait = "", process.wait
+    output, wait = "", process.wait
 
-    def lets_go_when_told(timeout):
-        nonlocal said
-        said += capsys.readouterr().out
-        if said.count("\n") > lets_go_when_told.times:
-            lets_go_when_told.times += 1
+    def continue_when_printed(timeout):
+        nonlocal output
+        output += capsys.readouterr().out
+        if output.count("\n") > continue_when_printed.times:
+            continue_when_printed.times += 1
             (tmp_path / "go").touch()
         return wait(timeout)
 
-    lets_go_when_told.times = 0
-    process.wait = lets_go_when_told
+    continue_when_printed.times = 0
+    process.wait = continue_when_printed
     assert install.print_progress(process, tmp_path) == 3
-    assert said == "  1 of 3: b_msgs\n  2 of 3: a_msgs\n"
+    assert output == "  1 of 3: b_msgs\n  2 of 3: a_msgs\n"
 
 
 def test_a_packages_folder_of_launch_files_hides_nothing(tmp_path):
     """Of a workspace that is sourced, such a folder may be on the path before all else."""
     (tmp_path / "launch").mkdir()
-    asked = [sys.executable, "-c", "import launch; print(launch.__file__)"]
-    said = subprocess.check_output(asked, env={**os.environ, "PYTHONPATH": str(tmp_path)}, text=True)
-    assert said.strip() == str(Path(install.ROOT.parent, "python", "launch", "__init__.py"))
+    program = [sys.executable, "-c", "import launch; print(launch.__file__)"]
+    output = subprocess.check_output(program, env={**os.environ, "PYTHONPATH": str(tmp_path)}, text=True)
+    assert output.strip() == str(Path(install.ROOT.parent, "python", "launch", "__init__.py"))
 
 
 def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):
@@ -143,7 +143,7 @@ def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):
     ) as terminal:  # fmt: skip
         assert [terminal.stdout.readline() for _ in range(2)][1] == "  1 of 9: a_msgs\n"
         os.killpg(terminal.pid, signal.SIGINT)
-        said = terminal.communicate(timeout=120)[1]
-    assert said == "Stopped: the ROS interfaces are built when the same command is run again.\n"
+        output = terminal.communicate(timeout=120)[1]
+    assert output == "Stopped: the ROS interfaces are built when the same command is run again.\n"
     assert terminal.returncode == 1
     assert not (tmp_path / "cache").exists()

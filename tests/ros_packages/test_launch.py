@@ -1,4 +1,4 @@
-"""What launch files do before any program is started: texts, conditions, scopes, events; and their YAML."""
+"""Launch files without processes: substitutions, conditions, scopes, events; and their YAML."""
 
 import asyncio
 import os
@@ -52,8 +52,8 @@ from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARNING", 40: "ERROR"}
 
 
-def carried_out(*entities, status=0):
-    """The lines that launch says of these entities."""
+def log_of(*entities, status=0):
+    """The lines that launch logs when it executes these entities."""
     lines = []
     with redirect_log(lambda level, name, text: lines.append(f"[{LEVELS[level]}] [{name}]: {text}")):
         service = LaunchService()
@@ -62,14 +62,14 @@ def carried_out(*entities, status=0):
     return lines
 
 
-def said(text):
+def logged(text):
     return f"[INFO] [launch.user]: {text}"
 
 
 def of_yaml(tmp_path, text, status=0, **arguments):
     file = tmp_path / "some.launch.yaml"
     file.write_text(textwrap.dedent(text))
-    return carried_out(IncludeLaunchDescription(str(file), launch_arguments=arguments.items()), status=status)
+    return log_of(IncludeLaunchDescription(str(file), launch_arguments=arguments.items()), status=status)
 
 
 def fails_with(text):
@@ -126,38 +126,38 @@ def test_a_substitution_has_a_text(substitution, text):
     ],
 )
 def test_a_substitution_without_a_text_says_so(substitution, words):
-    assert carried_out(LogInfo(msg=substitution), status=1) == fails_with(words)
+    assert log_of(LogInfo(msg=substitution), status=1) == fails_with(words)
 
 
 def test_a_package_that_is_not_there_is_named():
-    (line,) = carried_out(LogInfo(msg=FindPackageShare("no_such")), status=1)
+    (line,) = log_of(LogInfo(msg=FindPackageShare("no_such")), status=1)
     assert "\"package 'no_such' not found, searching: [" in line
 
 
 def test_a_package_without_programs_says_so():
-    (line,) = carried_out(LogInfo(msg=ExecutableInPackage("talker", "std_msgs")), status=1)
+    (line,) = log_of(LogInfo(msg=ExecutableInPackage("talker", "std_msgs")), status=1)
     assert "package 'std_msgs' found at '" in line
     assert line.endswith("/lib/std_msgs' does not exist")
 
 
 def test_arguments_have_values_given_or_by_default_and_a_condition_asks_for_them():
-    lines = carried_out(
+    lines = log_of(
         DeclareLaunchArgument("speed", default_value="0.2"),
         LogInfo(msg=["at ", LaunchConfiguration("speed")]),
         SetLaunchConfiguration("quiet", "False"),
         LogInfo(msg="not quiet", condition=UnlessCondition(LaunchConfiguration("quiet"))),
         LogInfo(msg="quiet", condition=IfCondition(LaunchConfiguration("quiet"))),
     )
-    assert lines == [said("at 0.2"), said("not quiet")]
+    assert lines == [logged("at 0.2"), logged("not quiet")]
 
 
 def test_a_condition_that_is_neither_true_nor_false_is_refused():
-    (line,) = carried_out(LogInfo(msg="x", condition=IfCondition("maybe")), status=1)
+    (line,) = log_of(LogInfo(msg="x", condition=IfCondition("maybe")), status=1)
     assert "invalid condition expression, expected one of [true, 1, false, 0] but got 'maybe'" in line
 
 
-def test_a_required_argument_is_asked_for():
-    lines = carried_out(DeclareLaunchArgument("speed", description="how fast"), status=1)
+def test_a_missing_required_argument_is_reported():
+    lines = log_of(DeclareLaunchArgument("speed", description="how fast"), status=1)
     assert lines == [
         '[ERROR] [launch.actions.declare_launch_argument]: Required launch argument "speed" '
         '(description: "how fast") was not provided',
@@ -166,7 +166,7 @@ def test_a_required_argument_is_asked_for():
 
 
 def test_a_choice_that_there_is_not_is_refused():
-    lines = carried_out(
+    lines = log_of(
         SetLaunchConfiguration("side", "up"),
         DeclareLaunchArgument("side", choices=["left", "right"]),
         status=1,
@@ -184,24 +184,24 @@ def test_a_choice_that_there_is_not_is_refused():
 
 
 def test_what_a_group_sets_ends_with_it_unless_it_has_no_scope():
-    def tell(context):
+    def report(context):
         return [
             LogInfo(
                 msg=context.launch_configurations.get("x", "-") + context.environment.get("X_OF_TEST", "-")
             )
         ]
 
-    here = OpaqueFunction(function=tell)
+    here = OpaqueFunction(function=report)
     setting = [SetLaunchConfiguration("x", "1"), SetEnvironmentVariable("X_OF_TEST", "2"), here]
-    assert carried_out(GroupAction(setting), here) == [said("12"), said("--")]
-    assert carried_out(GroupAction(setting, scoped=False), here) == [said("12"), said("12")]
-    lines = carried_out(
+    assert log_of(GroupAction(setting), here) == [logged("12"), logged("--")]
+    assert log_of(GroupAction(setting, scoped=False), here) == [logged("12"), logged("12")]
+    lines = log_of(
         SetLaunchConfiguration("x", "0"),
         GroupAction([here], launch_configurations={"x": "9"}),
         GroupAction([here], forwarding=False),
         here,
     )
-    assert lines == [said("9-"), said("--"), said("0-")]
+    assert lines == [logged("9-"), logged("--"), logged("0-")]
 
 
 def test_a_file_is_included_with_its_folder_and_arguments(tmp_path):
@@ -220,8 +220,8 @@ def test_a_file_is_included_with_its_folder_and_arguments(tmp_path):
     )
     source = PythonLaunchDescriptionSource([str(tmp_path), "/inner.launch.py"])
     given = {"name": "anna"}.items()
-    assert carried_out(IncludeLaunchDescription(source, launch_arguments=given)) == [said(f"{tmp_path} anna")]
-    assert carried_out(IncludeLaunchDescription(source), status=1) == fails_with(
+    assert log_of(IncludeLaunchDescription(source, launch_arguments=given)) == [logged(f"{tmp_path} anna")]
+    assert log_of(IncludeLaunchDescription(source), status=1) == fails_with(
         "Included launch description missing required argument 'name' "
         "(description: 'no description given'), given: []"
     )
@@ -253,11 +253,11 @@ def test_a_file_that_is_no_launch_file_says_why(tmp_path, name, text, words):
     file = tmp_path / name
     if text is not None:
         file.write_text(text)
-    assert carried_out(IncludeLaunchDescription(str(file)), status=1) == fails_with(words.format(file))
+    assert log_of(IncludeLaunchDescription(str(file)), status=1) == fails_with(words.format(file))
 
 
 def test_timers_fire_in_order_and_a_shutdown_takes_the_rest_away():
-    lines = carried_out(
+    lines = log_of(
         TimerAction(period=0.02, actions=[LogInfo(msg="second"), Shutdown(reason="enough")]),
         TimerAction(period=0.0, actions=[LogInfo(msg="first")]),
         TimerAction(period=60.0, actions=[LogInfo(msg="never")]),
@@ -265,13 +265,13 @@ def test_timers_fire_in_order_and_a_shutdown_takes_the_rest_away():
             OnShutdown(on_shutdown=lambda event, context: [LogInfo(msg=["because ", event.reason])])
         ),
     )
-    assert lines == [said("first"), said("second"), said("because enough")]
+    assert lines == [logged("first"), logged("second"), logged("because enough")]
 
 
 def test_when_an_action_is_done_its_handlers_come_and_those_of_all_actions():
     first, second = LogInfo(msg="first"), LogInfo(msg="second")
     end = OnShutdown(on_shutdown=LogInfo(msg=["for ", LocalSubstitution("event.reason")]))
-    lines = carried_out(
+    lines = log_of(
         RegisterEventHandler(end),
         RegisterEventHandler(OnExecutionComplete(target_action=first, on_completion=[LogInfo(msg="then")])),
         first,
@@ -280,13 +280,13 @@ def test_when_an_action_is_done_its_handlers_come_and_those_of_all_actions():
             OnExecutionComplete(on_completion=lambda *_: Shutdown(reason="one done"), handle_once=True)
         ),
     )
-    assert lines == [said("first"), said("second"), said("then"), said("for one done")]
+    assert lines == [logged("first"), logged("second"), logged("then"), logged("for one done")]
 
 
 def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
     handler = OnShutdown(on_shutdown=[LogInfo(msg="it ends")])
-    lines = carried_out(RegisterEventHandler(handler), EmitEvent(event=ShutdownEvent(reason="so")))
-    assert lines == [said("it ends")]
+    lines = log_of(RegisterEventHandler(handler), EmitEvent(event=ShutdownEvent(reason="so")))
+    assert lines == [logged("it ends")]
     with pytest.raises(RuntimeError, match=r"^EmitEvent\(\) expected an event instance, got 'Shutdown'\.$"):
         EmitEvent(event="Shutdown")
 
@@ -320,7 +320,7 @@ def test_an_event_may_be_told_of_and_a_wrong_thing_is_no_event():
         ),
     ],
 )
-def test_what_an_action_can_not_take_is_refused_as_it_is_made(make, words):
+def test_an_action_refuses_invalid_arguments_when_it_is_created(make, words):
     with pytest.raises(TypeError) as refused:
         make()
     assert str(refused.value) == words
@@ -402,7 +402,7 @@ def test_a_file_of_parameters_may_have_substitutions(tmp_path):
     made = ParameterFile(file, allow_substs=True).evaluate(context)
     assert made.read_text() == "/**: {ros__parameters: {speed: 0.5}}\n"
     file.write_text("{: $(var speed)")
-    lines = carried_out(
+    lines = log_of(
         SetLaunchConfiguration("speed", "1"),
         OpaqueFunction(function=lambda context: ParameterFile(file, allow_substs=True).evaluate(context)),
         status=1,
@@ -410,7 +410,7 @@ def test_a_file_of_parameters_may_have_substitutions(tmp_path):
     assert lines == fails_with("The substituted parameter file is not a valid yaml file")
 
 
-def test_a_file_of_parameters_may_name_packages_where_no_launch_file_in_yaml_was_read(tmp_path):
+def test_a_parameter_file_finds_packages_without_any_launch_file_in_yaml(tmp_path):
     file = tmp_path / "parameters.yaml"
     file.write_text("/**: {ros__parameters: {folder: $(find-pkg-share rclpy)}}\n")
     program = (
@@ -425,26 +425,26 @@ def test_a_file_of_parameters_may_name_packages_where_no_launch_file_in_yaml_was
 
 @pytest.fixture
 def temporary(tmp_path, monkeypatch):
-    """The place for temporary files, empty; and the folder in it that files of parameters are kept in."""
+    """An empty folder for temporary files, and the folder in it for parameter files."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     return tmp_path / f"launch_params_{os.getuid()}"
 
 
-def test_parameters_are_kept_where_no_other_user_reads_or_changes_them(temporary):
+def test_parameter_files_are_in_a_folder_that_no_other_user_can_read_or_change(temporary):
     path = write_parameter_file("speed: 1")
     assert (write_parameter_file("speed: 1"), path.parent, path.read_text()) == (path, temporary, "speed: 1")
     assert temporary.stat().st_mode & 0o777 == 0o700
     assert [file.name for file in temporary.iterdir()] == [path.name]
 
 
-@pytest.mark.parametrize("how", ["open to others", "a link", "somebody else's", "a file"])
-def test_parameters_are_not_kept_in_a_folder_that_others_may_change(temporary, tmp_path, monkeypatch, how):
+@pytest.mark.parametrize("how", ["open to others", "a link", "another user's", "a file"])
+def test_parameter_files_are_never_in_a_folder_that_others_can_change(temporary, tmp_path, monkeypatch, how):
     if how == "a file":
         temporary.write_text("")
     elif how == "a link":
         (tmp_path / "elsewhere").mkdir(mode=0o700)
         temporary.symlink_to(tmp_path / "elsewhere")
-    elif how == "somebody else's":
+    elif how == "another user's":
         (folder := tmp_path / f"launch_params_{os.getuid() + 1}").mkdir(mode=0o700)
         uid = os.getuid() + 1
         monkeypatch.setattr(os, "getuid", lambda: uid)
@@ -462,28 +462,28 @@ def test_parameters_are_not_kept_in_a_folder_that_others_may_change(temporary, t
 
 
 def test_namespaces_are_pushed_one_into_the_other():
-    def tell(context):
+    def report(context):
         return [LogInfo(msg=context.launch_configurations["ros_namespace"])]
 
-    here = OpaqueFunction(function=tell)
-    lines = carried_out(
+    here = OpaqueFunction(function=report)
+    lines = log_of(
         PushRosNamespace("one"), here, PushRosNamespace("two"), here, PushRosNamespace("/x"), here
     )
-    assert lines == [said("/one"), said("/one/two"), said("/x")]
-    assert carried_out(PushRosNamespace("a b"), status=1) == fails_with(
+    assert lines == [logged("/one"), logged("/one/two"), logged("/x")]
+    assert log_of(PushRosNamespace("a b"), status=1) == fails_with(
         "The resulting namespace is invalid: [previous_namespace='None', pushed_namespace='a b']"
     )
 
 
 def test_a_parameter_is_set_for_all_nodes_of_a_group():
-    def tell(context):
+    def report(context):
         return [LogInfo(msg=str(context.launch_configurations.get("global_params")))]
 
-    here = OpaqueFunction(function=tell)
-    lines = carried_out(
+    here = OpaqueFunction(function=report)
+    lines = log_of(
         SetParameter("a", 1), GroupAction([SetParameter("b", TextSubstitution(text="2.5")), here]), here
     )
-    assert lines == [said("[('a', 1), ('b', 2.5)]"), said("[('a', 1)]")]
+    assert lines == [logged("[('a', 1), ('b', 2.5)]"), logged("[('a', 1)]")]
 
 
 def test_yaml_says_the_same(tmp_path):
@@ -509,10 +509,10 @@ def test_yaml_says_the_same(tmp_path):
         """,
     )
     assert lines == [
-        said("/anna/scan - 3 true $(x)"),
-        said("not berta"),
-        said("/one"),
-        said("none yes x hi\n"),
+        logged("/anna/scan - 3 true $(x)"),
+        logged("not berta"),
+        logged("/one"),
+        logged("none yes x hi\n"),
     ]
 
 
@@ -551,7 +551,7 @@ def test_yaml_says_the_same(tmp_path):
         ("- node: {exec: [a], param: 3}", "Attribute 'param' of Entity 'node' expected to be of type"),
     ],
 )
-def test_a_slip_in_yaml_is_named(tmp_path, text, words):
+def test_a_mistake_in_yaml_is_named(tmp_path, text, words):
     (line,) = of_yaml(tmp_path, "launch:\n" + text, status=1)
     assert line.startswith(fails_with(words)[0])
 

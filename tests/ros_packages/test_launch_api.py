@@ -1,4 +1,4 @@
-"""Our launch and launch_ros have upstream's names and defaults; where ROS is installed, its own win."""
+"""launch and launch_ros have upstream's names and defaults; those of a ROS installation have precedence."""
 
 import importlib
 import inspect
@@ -65,21 +65,21 @@ def test_a_name_of_upstreams_that_is_left_out_is_refused_in_a_sentence(module, n
     )
 
 
-def test_a_name_that_nobody_has_is_missed_as_python_misses_it():
+def test_an_unknown_name_raises_pythons_own_error():
     import launch_ros.actions
 
     with pytest.raises(AttributeError, match=r"^module 'launch_ros\.actions' has no attribute 'Nod'$"):
         _ = launch_ros.actions.Nod
 
 
-def test_an_installation_of_ros_wins(tmp_path):
-    """Its packages are on PYTHONPATH, and ours are found by what pip installs for an editable project."""
+def test_a_ros_installation_has_precedence(tmp_path):
+    """Its packages are on PYTHONPATH, which comes before the course's ros.pth."""
     for package in ("launch", "launch_ros"):
         (tmp_path / package).mkdir()
         (tmp_path / package / "__init__.py").write_text("")
-    ask = "import launch, launch_ros; print(launch.__file__, launch_ros.__file__)"
+    program = "import launch, launch_ros; print(launch.__file__, launch_ros.__file__)"
     environment = {"PYTHONPATH": str(tmp_path)}
     done = subprocess.run(
-        [sys.executable, "-c", ask], env=environment, stdout=subprocess.PIPE, text=True, check=True
+        [sys.executable, "-c", program], env=environment, stdout=subprocess.PIPE, text=True, check=True
     )
     assert done.stdout.split() == [str(tmp_path / name / "__init__.py") for name in ("launch", "launch_ros")]

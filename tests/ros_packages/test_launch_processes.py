@@ -1,4 +1,4 @@
-"""What launch says of real processes, as they start, speak, die, start again and are ended."""
+"""What launch logs about real processes that start, write, die, respawn and shut down."""
 
 import asyncio
 import re
@@ -44,8 +44,8 @@ def launched(monkeypatch, tmp_path, capsys):
         service = LaunchService(noninteractive=True)
         service.include_launch_description(LaunchDescription(entities))
         status = service.run()
-        said = capsys.readouterr().out.replace(str(tmp_path), "LOGS").replace(sys.executable, "python3")
-        return status, re.sub(r"pid \[?\d+", lambda it: re.sub(r"\d+", "P", it[0]), said).splitlines()[2:]
+        output = capsys.readouterr().out.replace(str(tmp_path), "LOGS").replace(sys.executable, "python3")
+        return status, re.sub(r"pid \[?\d+", lambda it: re.sub(r"\d+", "P", it[0]), output).splitlines()[2:]
 
     return carry_out
 
@@ -114,20 +114,20 @@ def test_a_program_that_dies_is_told_of_and_started_again(launched):
     ]
 
 
-def test_handlers_hear_what_a_program_says_and_when_it_is_done(launched):
+def test_handlers_get_the_output_of_a_process_and_its_completion(launched):
     program = python(SAYS, "0", output="own_log")
 
-    def said(event):
-        return LogInfo(msg=f"{event.process_name} said {event.text}")
+    def on_output(event):
+        return LogInfo(msg=f"{event.process_name} wrote {event.text}")
 
-    hears = OnProcessIO(target_action=program, on_stdout=said, on_stderr=said)
+    on_io = OnProcessIO(target_action=program, on_stdout=on_output, on_stderr=on_output)
     done = OnExecutionComplete(target_action=program, on_completion=lambda event, _: LogInfo(msg="done"))
-    status, lines = launched(RegisterEventHandler(hears), RegisterEventHandler(done), program)
-    begin, *heard, clean, end = lines
+    status, lines = launched(RegisterEventHandler(on_io), RegisterEventHandler(done), program)
+    begin, *written, clean, end = lines
     assert (status, begin) == (0, "[INFO] [it-1]: process started with pid [P]")
-    assert sorted(heard) == [
-        "[INFO] [launch.user]: it-1 said b'err\\n'",
-        "[INFO] [launch.user]: it-1 said b'out\\n'",
+    assert sorted(written) == [
+        "[INFO] [launch.user]: it-1 wrote b'err\\n'",
+        "[INFO] [launch.user]: it-1 wrote b'out\\n'",
     ]
     assert clean == "[INFO] [it-1]: process has finished cleanly [pid P]"
     assert end == "[INFO] [launch.user]: done"
@@ -143,7 +143,7 @@ def test_a_program_that_is_not_there_is_told_of(launched):
     assert not any("Traceback" in line for line in lines)
 
 
-def test_a_program_of_a_package_may_be_elsewhere_than_in_its_folder(tmp_path):
+def test_a_program_of_a_package_may_be_bundled(tmp_path):
     lines = []
     commands = {("mine", "says"): [sys.executable, "-c", SAYS, "0"]}
     context = LaunchContext()
@@ -196,7 +196,7 @@ def test_when_all_is_to_end_a_program_gets_sigint_then_sigterm_then_sigkill(laun
 
 
 class WhenReady(TimerAction):
-    """Ends all as soon as a program has said that it is ready."""
+    """Shuts everything down as soon as a process has printed that it is ready."""
 
     def __init__(self, program):
         super().__init__(period=0.01, actions=[])
@@ -246,8 +246,8 @@ def test_a_node_is_a_program_with_ros_own_words(launched):
     _, lines = launched(SetParameter("b", [1, 2]), SetParameter("c", "d"), node)
     begin = "[echo-1] w --ros-args --log-level warn --ros-args -r __node:=n -r __ns:=/s -p b:=[1, 2] -p c:=d"
     assert node.node_name == "/s/n"
-    said, file, rest = re.fullmatch(r"(.*) --params-file (\S+) (.*)", lines[1]).groups()
-    assert (said, rest) == (begin, "-r x:=yz")
+    before, file, rest = re.fullmatch(r"(.*) --params-file (\S+) (.*)", lines[1]).groups()
+    assert (before, rest) == (begin, "-r x:=yz")
     assert Path(file).read_text() == "/s/n:\n  ros__parameters:\n    a: 1\n"
 
 

@@ -3,7 +3,7 @@
 import type_hashes
 
 
-def test_a_service_answers(came_back):
+def test_a_service_responds(came_back):
     assert came_back["sum"] == 2**40 + 3
 
 
@@ -22,7 +22,7 @@ def test_a_navigation_goal_goes_there_and_its_feedback_and_error_come_back(came_
     assert came_back["drive"] == [True, 7, "no tree none.xml"]
 
 
-def test_transforms_are_heard(came_back):
+def test_transforms_are_received(came_back):
     assert came_back["transforms"] == [["odom", "base_link", 1.25]] * 2
 
 

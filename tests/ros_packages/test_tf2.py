@@ -237,7 +237,7 @@ def test_a_transform_that_cant_be_is_logged_and_left_out(case, capfd):
     assert buffer.all_frames_as_yaml() == "[]"
 
 
-def test_it_remembers_ten_seconds_or_as_many_as_asked(capfd):
+def test_transforms_are_stored_for_ten_seconds_or_cache_time(capfd):
     moves = [message("a", "b", shifted(second), second) for second in range(1, 21)]
     assert not buffer_of(*moves).can_transform("a", "b", Time(seconds=8))
     assert buffer_of(*moves).can_transform("a", "b", Time(seconds=9))
@@ -351,7 +351,7 @@ def test_messages_are_taken_into_another_frame(seed):
     np.testing.assert_allclose([corner.x, corner.y], (matrix @ [x, y, z, 1])[:2], atol=1e-5)
 
 
-def test_a_type_that_nobody_registered_is_refused(capsys):
+def test_an_unregistered_type_is_refused(capsys):
     with pytest.raises(tf2_ros.TypeException) as refusal:
         Buffer().transform(TransformStamped(), "map")
     assert refusal.value.errstr == f"Type {TransformStamped} is not loaded or supported"
@@ -359,7 +359,7 @@ def test_a_type_that_nobody_registered_is_refused(capsys):
     assert str(PointStamped) in capsys.readouterr().out
 
 
-def test_a_result_becomes_another_type_if_somebody_said_how():
+def test_a_result_is_converted_to_a_registered_type():
     given = tf2_ros.Stamped(PointStamped(), Time().to_msg(), "base")
     buffer = buffer_of(static=[message("map", "base", shifted(2))])
     tf2_ros.ConvertRegistration().add_convert((PointStamped, float), lambda point: point.point.x)

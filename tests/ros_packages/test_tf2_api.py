@@ -50,13 +50,13 @@ def test_all_exceptions_of_a_lookup_are_transform_exceptions():
 
 
 def test_an_installation_of_ros_wins(tmp_path):
-    """Its packages are on PYTHONPATH, and ours are found by what pip installs for an editable project."""
+    """Its packages are on PYTHONPATH, which comes before the course's ros.pth."""
     for package in PACKAGES:
         (tmp_path / "ros" / package).mkdir(parents=True)
         (tmp_path / "ros" / package / "__init__.py").write_text("")
-    ask = "import sys, importlib\nfor name in sys.argv[1:]: print(importlib.import_module(name).__file__)"
+    program = "import sys, importlib\nfor name in sys.argv[1:]: print(importlib.import_module(name).__file__)"
     done = subprocess.run(
-        [sys.executable, "-c", ask, *PACKAGES],
+        [sys.executable, "-c", program, *PACKAGES],
         env={"PYTHONPATH": str(tmp_path / "ros")},
         capture_output=True,
         text=True,

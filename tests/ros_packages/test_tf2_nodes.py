@@ -62,7 +62,7 @@ class Copy(Node):
 
 
 class Listener(Node):
-    """Looks up where the lidar is, a second long, and says what it sees."""
+    """Looks up the pose of the lidar for a second and publishes what it measures."""
 
     def __init__(self):
         super().__init__("listener")
@@ -120,9 +120,9 @@ class Asking(Node):
     def __init__(self):
         super().__init__("asking")
         self.client = self.create_client(FrameGraph, "tf2_frames", callback_group=ReentrantCallbackGroup())
-        self.timer = self.create_timer(1.0, self.ask)
+        self.timer = self.create_timer(1.0, self.look_up)
 
-    async def ask(self):
+    async def look_up(self):
         self.timer.cancel()
         answer = await self.client.call_async(FrameGraph.Request())
         self.get_logger().info(answer.frame_yaml)
@@ -146,33 +146,33 @@ def listened():
 
 
 def test_a_listener_finds_what_robots_and_static_broadcasters_say(listened):
-    said = [line for line in lines(listened) if "parent" not in line]
-    assert len(said) == 8
-    x, y = map(float, said[-1].split())
+    positions = [line for line in lines(listened) if "parent" not in line]
+    assert len(positions) == 8
+    x, y = map(float, positions[-1].split())
     pose = listened.pose_at(1.95)
     assert x == pytest.approx(pose.x + 0.2 * math.cos(pose.yaw), abs=0.01)
     assert y == pytest.approx(pose.y + 0.2 * math.sin(pose.yaw), abs=0.01)
 
 
-def test_a_broadcast_frame_is_where_it_was_said_to_be(listened):
+def test_a_broadcast_frame_has_the_pose_that_was_sent(listened):
     frames = {
-        one.child_frame_id: one for heard in listened.messages("/tf") for one in heard.message.transforms
+        one.child_frame_id: one for message in listened.messages("/tf") for one in message.message.transforms
     }
     assert frames["copy"].transform == frames["base_link"].transform
 
 
-def test_a_static_message_holds_all_that_was_sent_before(listened):
+def test_a_static_message_contains_all_that_was_sent_before(listened):
     sent = [
-        [one.child_frame_id for one in heard.message.transforms]
-        for heard in listened.messages("/tf_static")
-        if heard.sender == "/mount"
+        [one.child_frame_id for one in message.message.transforms]
+        for message in listened.messages("/tf_static")
+        if message.sender == "/mount"
     ]
     assert sent == [["base_scan"], ["base_scan", "camera"]]
 
 
 def test_a_buffer_with_a_node_offers_its_frames_as_a_service(listened):
-    told = next(line for line in lines(listened) if "parent" in line)
-    assert "base_scan: \n  parent: 'base_link'" in told
+    yaml = next(line for line in lines(listened) if "parent" in line)
+    assert "base_scan: \n  parent: 'base_link'" in yaml
 
 
 def test_topics_have_upstreams_settings(listened):

@@ -52,7 +52,7 @@ def test_what_one_tells_the_other_prints(words):
     )
 
 
-def test_a_frame_that_nobody_tells_of_is_waited_for():
+def test_a_frame_without_a_publisher_is_waited_for():
     recording = run(program("tf2_echo", "world cam"), seconds=1, quiet=True)
     assert [line.text.strip() for line in recording.logs] == [
         'Waiting for transform world ->  cam: "world" passed to lookupTransform argument target_frame'
@@ -61,7 +61,7 @@ def test_a_frame_that_nobody_tells_of_is_waited_for():
 
 
 @pytest.mark.parametrize(
-    ("name", "words", "said"),
+    ("name", "arguments", "text"),
     [
         ("tf2_echo", "world", "Usage: tf2_echo source_frame target_frame [echo_rate]\n"),
         ("tf2_echo", "world cam x", "Failed to convert rate argument 'x' to a floating-point number\n"),
@@ -77,7 +77,7 @@ def test_a_frame_that_nobody_tells_of_is_waited_for():
         ),
     ],
 )
-def test_words_that_cannot_be_read_are_named(name, words, said, capsys):
-    run(program(name, words), seconds=1)
+def test_invalid_arguments_are_named(name, arguments, text, capsys):
+    run(program(name, arguments), seconds=1)
     out, err = capsys.readouterr()
-    assert said in out + err
+    assert text in out + err

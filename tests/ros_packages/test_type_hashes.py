@@ -30,9 +30,9 @@ def test_the_hash_is_the_one_upstream_published(name, wanted):
     assert type_hashes.installed()[name] == wanted
 
 
-@pytest.mark.parametrize(("ours", "twin"), TWINS)
-def test_an_example_message_has_the_fields_of_its_twin_in_upstreams_wheels(ours, twin):
-    assert description(ours) == description(twin)
+@pytest.mark.parametrize(("name", "twin"), TWINS)
+def test_an_example_message_has_the_fields_of_its_twin_in_upstreams_wheels(name, twin):
+    assert description(name) == description(twin)
 
 
 def test_all_plain_messages_have_a_twin():
