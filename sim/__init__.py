@@ -14,13 +14,13 @@ from sim.ros.packages import executable  # noqa: E402
 from sim.ros.play.teleop import Teleop  # noqa: E402
 from sim.ros.run import run  # noqa: E402
 from sim.ros.sourcing import source  # noqa: E402
-from sim.ros2 import offer  # noqa: E402
+from sim.ros2 import register_magic  # noqa: E402
 from sim.world import World  # noqa: E402
 
 Recording.player = replay
 notebook.watch_cells()
 install()  # after all imports, so that the engine's own modules have bound the real clocks
-offer()
+register_magic()
 
 __all__ = [
     "Network",

@@ -1,4 +1,4 @@
-"""Bags: folders of recorded messages as `ros2 bag` makes and reads them, in MCAP files."""
+"""Bags: folders of recorded messages in MCAP files, as `ros2 bag` writes and reads them."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from mcap.writer import Writer
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.definitions import definition
-from sim.ros2.system import Arrived, Wrong
+from sim.ros2.system import CliError, ReceivedMessage
 
 RELIABILITIES, DURABILITIES = ("", "reliable", "best_effort"), ("", "transient_local", "volatile")
-QOS = "offered_qos_profiles"  # of a channel's metadata
+QOS = "offered_qos_profiles"  # key in a channel's metadata
 VERSION = 8  # of metadata.yaml
 
 
 class BagWriter:
-    """Writes one bag; a context manager. Raises Wrong where the folder is there already, or can't be made.
+    """Writes one bag; a context manager. Raises CliError if the folder exists or can't be created.
 
-    epoch: as of a `System`.
+    epoch: as `System.epoch`.
     """
 
     def __init__(self, folder: Path, epoch: Nanoseconds) -> None:
@@ -34,9 +34,9 @@ class BagWriter:
         try:
             folder.mkdir(parents=True)
         except FileExistsError:
-            raise Wrong(f"Output folder '{folder}' already exists.") from None
+            raise CliError(f"Output folder '{folder}' already exists.") from None
         except OSError as error:
-            raise Wrong(f"Output folder '{folder}' can't be made: {error.strerror}.") from None
+            raise CliError(f"Output folder '{folder}' can't be made: {error.strerror}.") from None
         self._writer, self._epoch = Writer(str(self.file)), epoch
         self._channels: dict[str, int] = {}
         self.counts: Counter[str] = Counter()
@@ -51,21 +51,21 @@ class BagWriter:
         self._writer.finish()
         (self.folder / "metadata.yaml").write_text(yaml.safe_dump(self._metadata(), sort_keys=False))
 
-    def write(self, arrived: Arrived, qos: dict[str, Any]) -> None:
+    def write(self, message: ReceivedMessage, qos: dict[str, Any]) -> None:
         """Add a message. qos: of a publisher of its topic."""
-        topic = arrived.topic
+        topic = message.topic
         if topic not in self._channels:
-            schema = self._writer.register_schema(arrived.type, "ros2msg", definition(arrived.type).encode())
+            schema = self._writer.register_schema(message.type, "ros2msg", definition(message.type).encode())
             offered = {
                 "reliability": RELIABILITIES.index(qos.get("reliability", "reliable")),
                 "durability": DURABILITIES.index(qos.get("durability", "volatile")),
             }
             metadata = {QOS: yaml.safe_dump([offered])}
             self._channels[topic] = self._writer.register_channel(topic, "cdr", schema, metadata)
-            self._types[topic] = arrived.type
-        when, sent = (self._epoch + round(moment * SECOND) for moment in (arrived.stamp, arrived.sent))
-        self._span = [min([when, *self._span]), max([when, *self._span])]
-        self._writer.add_message(self._channels[topic], when, arrived.raw, sent, self.counts.total())
+            self._types[topic] = message.type
+        received, sent = (self._epoch + round(moment * SECOND) for moment in (message.stamp, message.sent))
+        self._span = [min([received, *self._span]), max([received, *self._span])]
+        self._writer.add_message(self._channels[topic], received, message.raw, sent, self.counts.total())
         self.counts[topic] += 1
 
     def _metadata(self) -> dict[str, Any]:
@@ -106,7 +106,7 @@ class BagWriter:
 
 @dataclass(frozen=True)
 class Bag:
-    """A bag that is read: a folder, or one MCAP file. Raises Wrong for what is none."""
+    """Reads a bag: a folder, or one MCAP file. Raises CliError if it is none."""
 
     path: Path
 
@@ -116,22 +116,22 @@ class Bag:
         found = sorted(self.path.glob("*.mcap")) if self.path.is_dir() else [self.path]
         if not found or not found[0].is_file():
             what = "has no .mcap file" if self.path.is_dir() else "is not there"
-            raise Wrong(f"Bag path '{self.path}' {what}.")
+            raise CliError(f"Bag path '{self.path}' {what}.")
         return found
 
     def messages(self) -> Iterator[tuple[Schema, Channel, Any]]:
-        """Schema, channel and message, by the time at which they were recorded."""
+        """Schema, channel and message, in the order in which they were recorded."""
         for file in self.files:
             try:
                 with file.open("rb") as stream:
                     yield from make_reader(stream).iter_messages()
-            except Wrong:
+            except CliError:
                 raise
-            except Exception as error:  # no list could hold all that a damaged file raises in the library
-                raise Wrong(f"{file} is not an MCAP file, or it is damaged ({error}).") from None
+            except Exception as error:  # the library raises many kinds of errors for a damaged file
+                raise CliError(f"{file} is not an MCAP file, or it is damaged ({error}).") from None
 
-    def text(self) -> str:
-        """What is in it, in the form of `ros2 bag info`."""
+    def info(self) -> str:
+        """A summary, as `ros2 bag info` prints it."""
         counts: Counter[tuple[str, str]] = Counter()
         span: list[int] = []
         for schema, channel, message in self.messages():
@@ -148,8 +148,8 @@ class Bag:
             "Storage id": "mcap",
             "ROS Distro": "jazzy",
             "Duration": f"{_seconds(end - begin)}s",
-            "Start": _moment(begin),
-            "End": _moment(end),
+            "Start": _date(begin),
+            "End": _date(end),
             "Messages": counts.total(),
             "Topic information": ("\n" + 19 * " ").join(topics),
             "Service": 0,
@@ -162,7 +162,7 @@ def _seconds(nanoseconds: int) -> str:
     return f"{nanoseconds // SECOND}.{nanoseconds % SECOND:09}"
 
 
-def _moment(nanoseconds: int) -> str:
+def _date(nanoseconds: int) -> str:
     local = time.localtime(nanoseconds // SECOND)
     clock = time.strftime("%b %e %Y %H:%M:%S", local)
     return f"{clock}.{nanoseconds % SECOND:09} ({_seconds(nanoseconds)})"

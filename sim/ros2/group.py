@@ -1,4 +1,4 @@
-"""A group of verbs such as `ros2 topic ...`: what each is called, takes and does."""
+"""A group of verbs such as `ros2 topic ...`: their names, arguments and functions."""
 
 from __future__ import annotations
 
@@ -7,28 +7,26 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, NoReturn
 
-from sim.ros2.system import System, Wrong
+from sim.ros2.system import CliError, System
 from sim.suggestions import closest_match
 
-Work = Callable[[System, argparse.Namespace], None]
-# What a terminal completes a word to, from the system (None where a verb is alone) and the words before it.
-Offers = Callable[[Any, argparse.Namespace], list[str]]
-WRONG_WORDS = 2  # exit status, as argparse's
+VerbFunction = Callable[[System, argparse.Namespace], None]  # gets an Output if it is without_system
+# Returns completions of an argument, from the system (None if without_system) and the arguments before it.
+Completer = Callable[[Any, argparse.Namespace], list[str]]
+USAGE_ERROR = 2  # exit status, as argparse's
 
 
 class Argument(NamedTuple):
-    """One word or option of a verb, as `ArgumentParser.add_argument` takes it."""
+    """One argument or option of a verb, as for `ArgumentParser.add_argument`, and its completer."""
 
     names: tuple[str, ...]
     settings: dict[str, Any]
-    offers: Offers | None
+    completer: Completer | None
 
 
-def argument(
-    *names: str, offers: Offers | None = None, **settings: Any
-) -> Argument:
+def argument(*names: str, completer: Completer | None = None, **settings: Any) -> Argument:
     """See `Argument`."""
-    return Argument(names, settings, offers)
+    return Argument(names, settings, completer)
 
 
 def flag(*names: str, help: str) -> Argument:
@@ -37,44 +35,46 @@ def flag(*names: str, help: str) -> Argument:
 
 
 class Verb(NamedTuple):
-    """One verb: what is done, and what it takes."""
+    """One verb."""
 
-    work: Work
+    function: VerbFunction
     arguments: tuple[Argument, ...]
-    alone: bool  # it is about no system
+    without_system: bool
 
 
 @dataclass
 class Group:
-    """Some verbs on one subject; without a subject's verbs, one word such as `ros2 doctor`."""
+    """The verbs of one command, or a command without verbs, such as `ros2 doctor`."""
 
     name: str
     help: str
     verbs: dict[str, Verb] = field(default_factory=dict)
 
-    def verb(self, name: str, *arguments: Argument, alone: bool = False) -> Callable[[Work], Work]:
-        """Add a verb; its docstring is its help. An empty name makes it the group's only one.
+    def verb(
+        self, name: str, *arguments: Argument, without_system: bool = False
+    ) -> Callable[[VerbFunction], VerbFunction]:
+        """Add a verb, whose help is the function's docstring. An empty name makes it a command without verbs.
 
-        alone: it is about no system, and is given a `Voice` instead of one.
+        without_system: the function needs no system, and gets an `Output` instead of one.
         """
 
-        def add(work: Work) -> Work:
-            self.verbs[name] = Verb(work, arguments, alone)
-            return work
+        def add(function: VerbFunction) -> VerbFunction:
+            self.verbs[name] = Verb(function, arguments, without_system)
+            return function
 
         return add
 
 
-class WrongWords(Wrong):
-    """The words can't be read."""
+class UsageError(CliError):
+    """The arguments are invalid."""
 
 
 class Parser(argparse.ArgumentParser):
-    """Raises what argparse would exit with, and names the word that was probably meant."""
+    """Raises an exception where argparse exits, and suggests the correct argument for a misspelt one."""
 
     def error(self, message: str) -> NoReturn:
-        """As `ArgumentParser`, but raises `WrongWords`."""
-        raise WrongWords(f"{self.format_usage()}{self.prog}: error: {message}")
+        """As `ArgumentParser.error`, but raises `UsageError`."""
+        raise UsageError(f"{self.format_usage()}{self.prog}: error: {message}")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
@@ -84,28 +84,29 @@ class Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, f"there is no {value!r}, only {choices}.{hint}")
 
 
-def parser_of(groups: list[Group], offered: Callable[..., Any]) -> Parser:
-    """The parser of all words; what it reads has the verb's work as `work`.
+def build_parser(groups: list[Group], make_completer: Callable[..., Any]) -> Parser:
+    """The parser of all groups. In its result, `function` is the verb's function.
 
-    offered: makes what argcomplete asks of what an argument offers, and of whether its verb is alone.
+    make_completer: returns argcomplete's completer, from that of an argument and its verb's `without_system`.
     """
     parser = Parser(prog="ros2", description="Look into a running ROS 2 system, and speak to it.")
-    words = parser.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
+    commands = parser.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
     for group in groups:
-        below = words.add_parser(group.name, help=group.help, description=group.help)
+        command = commands.add_parser(group.name, help=group.help, description=group.help)
         verbs = None
         for name, verb in group.verbs.items():
             if name:
-                verbs = verbs or below.add_subparsers(
+                verbs = verbs or command.add_subparsers(
                     metavar="VERB", dest="verb", required=True, parser_class=Parser
                 )
-                text = (verb.work.__doc__ or "").split("\n\n")[0]
+                text = (verb.function.__doc__ or "").split("\n\n")[0]
                 verb_parser = verbs.add_parser(name, help=text, description=text)
             else:
-                verb_parser = below
-            verb_parser.set_defaults(work=verb.work, alone=verb.alone)
-            for names, settings, offers in verb.arguments:
+                verb_parser = command
+            verb_parser.set_defaults(function=verb.function, without_system=verb.without_system)
+            for names, settings, completer in verb.arguments:
                 action = verb_parser.add_argument(*names, **settings)
-                if offers is not None:
-                    action.completer = offered(offers, verb.alone)  # type: ignore[attr-defined]
+                if completer is not None:
+                    made = make_completer(completer, verb.without_system)
+                    action.completer = made  # type: ignore[attr-defined]
     return parser

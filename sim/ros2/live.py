@@ -1,4 +1,4 @@
-"""The words of ros2 about nodes in other processes on this machine, in real time."""
+"""The system of nodes in other processes on this machine, in real time."""
 
 from __future__ import annotations
 
@@ -18,63 +18,65 @@ from sim.evidence import Endpoint
 from sim.evidence.qos import settings
 from sim.ros.messages.codec import message_class
 from sim.ros2 import domains
-from sim.ros2.system import POLL, Arrived, Known, System, T, Voice, Work, with_node
+from sim.ros2.system import POLL, Known, NodeTask, Output, ReceivedMessage, System, T, with_node
 
-SETTLED = 0.5  # s without news, as the official tools wait
-LOOK = 0.05  # s, between two looks at it
-AGAIN = 30  # looks for a name that isn't there yet: another process may be slow
-PATIENCE = 10  # times as long, while somebody is there of whom nothing is known yet
+SETTLING_TIME = 0.5  # s without a change of the graph, as in the official tools
+POLL_GRAPH = 0.05  # s between two checks of the graph
+MAX_RETRIES = 30  # to find a name: another process may be slow
+MAX_SETTLING = 10  # times the settling time, while a participant exists whose endpoints are not known yet
 
 
-class Live(System):
+class LiveSystem(System):
     """The nodes of one ROS domain; a context manager.
 
-    say: shows a line. complain: shows a note that is no part of the answer. settled: seconds without news
-    until the graph is taken for known.
+    print_line: prints a line of the output. print_error: prints hints on stderr. settling_time: seconds
+    without a change until the graph counts as complete.
     """
 
     def __init__(
         self,
-        say: Callable[[str], None] = print,
-        complain: Callable[[str], None] = lambda _: None,
-        settled: float = SETTLED,
+        print_line: Callable[[str], None] = print,
+        print_error: Callable[[str], None] = lambda _: None,
+        settling_time: float = SETTLING_TIME,
     ) -> None:
-        super().__init__(say)
-        self._complain, self._settled = complain, settled
+        super().__init__(print_line)
+        self._print_error, self._settling_time = print_error, settling_time
 
-    def __enter__(self) -> Live:
-        self.domain = domains.chosen()
+    def __enter__(self) -> LiveSystem:
+        self.domain = domains.selected_domain()
         ros_environment.open_to_this_machine(self.domain)
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node(
             f"_ros2cli_{os.getpid()}", start_parameter_services=False, enable_rosout=False
         )
-        self._find_others()
+        self._discover()
         return self
 
     def __exit__(self, *exception: object) -> None:
         self._node.destroy_node()
         rclpy.try_shutdown()
 
-    def _find_others(self) -> None:
-        """Wait until no more nodes are found. Where nobody is there say so, for silence says little."""
+    def _discover(self) -> None:
+        """Wait until no more nodes are discovered. Print a hint if there are none."""
         began = time.monotonic()
         known: Any = None
-        quiet = 0  # looks without news; on a busy machine each takes longer
-        last = began + PATIENCE * self._settled
-        while quiet < self._settled / LOOK or (time.monotonic() < last and self._more_to_come()):
-            rclpy.spin_once(self._node, timeout_sec=LOOK)
+        quiet = 0  # checks without a change; on a busy machine each takes longer
+        latest = began + MAX_SETTLING * self._settling_time
+        while quiet < self._settling_time / POLL_GRAPH or (
+            time.monotonic() < latest and self._is_incomplete()
+        ):
+            rclpy.spin_once(self._node, timeout_sec=POLL_GRAPH)
             found = self._node.get_node_names_and_namespaces(), self._node.get_topic_names_and_types()
             quiet, known = (quiet + 1 if found == known else 0), found
-        if not self.nodes and (note := domains.note(self.domain)):
-            self._complain(note)
+        if not self.nodes and (hint := domains.no_nodes_hint(self.domain)):
+            self._print_error(hint)
 
-    def _more_to_come(self) -> bool:
-        """Whether a process with sockets of this domain, or a node, is there of which nothing is known."""
+    def _is_incomplete(self) -> bool:
+        """Whether there is a participant whose nodes, or a node whose endpoints, are not known yet."""
         nodes = self._node.get_node_names_and_namespaces()
-        if len(nodes) == 1:  # the own one
-            return len(domains.ports(self.domain)) > 2
-        return not all(_ends_of(self._node.get_publisher_names_and_types_by_node, *of) for of in nodes)
+        if len(nodes) == 1:  # its own node
+            return len(domains.participant_ports(self.domain)) > 2
+        return not all(_endpoints_of(self._node.get_publisher_names_and_types_by_node, *of) for of in nodes)
 
     @property
     def nodes(self) -> list[str]:
@@ -83,74 +85,76 @@ class Live(System):
         return [f"{space.rstrip('/')}/{name}" for name, space in found if name != self._node.get_name()]
 
     @property
-    def ends(self) -> list[Endpoint]:
-        """As `System`. Of topics with the settings of each, as far as the middleware tells them."""
-        own = self._node.get_fully_qualified_name()
-        return [end for end in ends_seen_by(self._node) if end.node != own]
+    def endpoints(self) -> list[Endpoint]:
+        """As `System`, with the QoS of topics as far as the middleware knows it."""
+        own_name = self._node.get_fully_qualified_name()
+        return [endpoint for endpoint in endpoints_seen_by(self._node) if endpoint.node != own_name]
 
     @property
     def now(self) -> float:
         """As `System`: of the wall clock."""
         return time.time()
 
-    def look_for(self, name: str, look: Callable[[], Known]) -> Known:
+    def look_up(self, name: str, find: Callable[[], Known]) -> Known:
         """As `System`."""
-        found = look()
-        for _ in range(AGAIN):
+        found = find()
+        for _ in range(MAX_RETRIES):
             if name in found:
                 break
-            rclpy.spin_once(self._node, timeout_sec=LOOK)
-            found = look()
+            rclpy.spin_once(self._node, timeout_sec=POLL_GRAPH)
+            found = find()
         return found
 
-    def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
+    def subscribe(
+        self, topics: dict[str, str], profile: QoSProfile | None = None
+    ) -> Iterator[ReceivedMessage | None]:
         """As `System`, until Ctrl-C."""
-        come: list[Arrived] = []
+        received: list[ReceivedMessage] = []
 
-        def hear(topic: str, type_: str) -> Callable[[bytes, dict], None]:
-            def hear(raw: bytes, info: dict) -> None:
-                come.append(Arrived(self.now, info["source_timestamp"] * 1e-9, topic, type_, raw))
+        def make_callback(topic: str, type_: str) -> Callable[[bytes, dict], None]:
+            def on_message(raw: bytes, info: dict) -> None:
+                received.append(ReceivedMessage(self.now, info["source_timestamp"] * 1e-9, topic, type_, raw))
 
-            return hear
+            return on_message
 
-        made = []
+        subscriptions = []
         for topic, type_ in topics.items():
             chosen = self._profile(topic) if profile is None else profile
-            kind, callback = message_class(type_), hear(topic, type_)
-            made.append(self._node.create_subscription(kind, topic, callback, chosen, raw=True))
+            kind, callback = message_class(type_), make_callback(topic, type_)
+            subscriptions.append(self._node.create_subscription(kind, topic, callback, chosen, raw=True))
         try:
             while True:
                 rclpy.spin_once(self._node, timeout_sec=POLL)
-                yield from come
-                come.clear()
+                yield from received
+                received.clear()
                 yield None
         finally:
-            for subscription in made:
+            for subscription in subscriptions:
                 self._node.destroy_subscription(subscription)
 
     def _profile(self, topic: str) -> QoSProfile:
-        """The strongest settings that hear all publishers of a topic."""
+        """The strongest QoS that matches all publishers of a topic."""
         offered = [_endpoint(topic, end).qos for end in self._node.get_publishers_info_by_topic(topic)]
         chosen = QoSProfile(depth=qos_profile_sensor_data.depth)
         for policy in ("reliability", "durability"):
-            words = {offer[policy] for offer in offered}
+            values = {offer[policy] for offer in offered}
             default = {"reliability": "best_effort", "durability": "volatile"}[policy]
             kind = type(getattr(chosen, policy))
-            setattr(chosen, policy, kind[(words.pop() if len(words) == 1 else default).upper()])
+            setattr(chosen, policy, kind[(values.pop() if len(values) == 1 else default).upper()])
         return chosen
 
-    def act(self, work: Work[T], seconds: float | None = None) -> T:
-        """As `System`; Ctrl-C ends what takes long."""
-        return with_node(work, Voice(self.say))
+    def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
+        """As `System`, without a time limit: Ctrl-C ends it."""
+        return with_node(task, Output(self.print_line))
 
 
-def ends_seen_by(node: Node) -> list[Endpoint]:
-    """All ends of topics, services and actions in a node's domain that it knows by now, its own included."""
+def endpoints_seen_by(node: Node) -> list[Endpoint]:
+    """All endpoints of topics, services and actions that a node has discovered, including its own."""
     found = []
     for topic, _ in node.get_topic_names_and_types():
         for end in node.get_publishers_info_by_topic(topic) + node.get_subscriptions_info_by_topic(topic):
             found.append(_endpoint(topic, end))
-    asked = {
+    queries = {
         "service": node.get_service_names_and_types_by_node,
         "client": node.get_client_names_and_types_by_node,
         "action server": lambda *of: rclpy.action.get_action_server_names_and_types_by_node(node, *of),
@@ -158,22 +162,22 @@ def ends_seen_by(node: Node) -> list[Endpoint]:
     }
     for name, space in dict.fromkeys(node.get_node_names_and_namespaces()):
         full = f"{space.rstrip('/')}/{name}"
-        for kind, ask in asked.items():
-            ends = _ends_of(ask, name, space)
-            found += [Endpoint(kind, full, end, type_, {}) for end, types in ends for type_ in types]
+        for kind, query in queries.items():
+            endpoints = _endpoints_of(query, name, space)
+            found += [Endpoint(kind, full, end, type_, {}) for end, types in endpoints for type_ in types]
     return found
 
 
-def _ends_of(ask: Callable[..., list], name: str, space: str) -> list:
-    """What rclpy tells of a node's ends; nothing where it has gone since."""
+def _endpoints_of(query: Callable[..., list], name: str, space: str) -> list:
+    """A node's endpoints by one of rclpy's queries; none if the node has exited meanwhile."""
     try:
-        return ask(name, space)
+        return query(name, space)
     except NodeNameNonExistentError:
         return []
 
 
 def _endpoint(topic: str, end: Any) -> Endpoint:
-    """What the middleware says of one end of a topic."""
+    """The endpoint that the middleware's information describes."""
     full = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
     qos = settings(end.qos_profile) | {"gid": ".".join(f"{byte:02x}" for byte in end.endpoint_gid)}
     return Endpoint(end.endpoint_type.name.lower(), full, topic, end.topic_type, qos)

@@ -1,4 +1,4 @@
-"""The files of a new package, as `ros2 pkg create` writes them: names and structure are the official ones."""
+"""The files of a new package, with the names and structure of the official `ros2 pkg create`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TESTS = {
     "ament_cmake": ("ament_lint_auto", "ament_lint_common"),
     "ament_python": ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest"),
 }
-LINTERS = {  # what a test of a new package calls, and what it says of files that fail
+LINTERS = {  # what a test of a new package calls, and the message if it fails
     "copyright": ("main(argv=['.', 'test'])", "a file has no copyright and licence at its top"),
     "flake8": ("main(argv=[])", "the code's style is not the one that flake8 asks for"),
     "pep257": ("main(argv=['.', 'test'])", "a docstring is not as PEP 257 asks for"),
@@ -19,7 +19,7 @@ LINTERS = {  # what a test of a new package calls, and what it says of files tha
 
 @dataclass(frozen=True)
 class NewPackage:
-    """What somebody said of a package that there is not yet. The names are those of package.xml."""
+    """The description of a package to be created. The names are those of package.xml."""
 
     name: str
     build_type: str  # ament_python or ament_cmake
@@ -34,11 +34,11 @@ class NewPackage:
 
     @property
     def test_depends(self) -> tuple[str, ...]:
-        """What its tests need."""
+        """The dependencies of its tests."""
         return TESTS[self.build_type]
 
     def files(self) -> Iterator[tuple[str, str]]:
-        """Yield path in the package's folder and text of each file. An empty text after a / is a folder."""
+        """Yield path and text of each file in the package's folder. A path that ends with / is a folder."""
         yield "package.xml", _package_xml(self)
         yield from _python(self) if self.build_type == "ament_python" else _cmake(self)
 
@@ -71,8 +71,8 @@ def _package_xml(package: NewPackage) -> str:
 def _python(package: NewPackage) -> Iterator[tuple[str, str]]:
     yield f"{package.name}/", ""
     yield "setup.py", _setup_py(package)
-    place = f"$base/lib/{package.name}"
-    yield "setup.cfg", f"[develop]\nscript_dir={place}\n[install]\ninstall_scripts={place}\n"
+    folder = f"$base/lib/{package.name}"
+    yield "setup.cfg", f"[develop]\nscript_dir={folder}\n[install]\ninstall_scripts={folder}\n"
     yield "resource/", ""
     yield f"resource/{package.name}", ""
     yield f"{package.name}/__init__.py", ""

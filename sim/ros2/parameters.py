@@ -1,4 +1,4 @@
-"""Names and values of a node's parameters: asked of the node, or as a recording has them."""
+"""Names and values of a node's parameters, from the node's services or from a recording."""
 
 from __future__ import annotations
 
@@ -6,37 +6,35 @@ from rcl_interfaces.msg import ParameterValue
 from rcl_interfaces.srv import GetParameters, ListParameters
 
 from sim.ros.messages.decoder import decode
-from sim.ros2.system import System, ask
+from sim.ros2.system import System
 
-EVENTS, EVENT = "/parameter_events", "rcl_interfaces/msg/ParameterEvent"
+TOPIC, TYPE = "/parameter_events", "rcl_interfaces/msg/ParameterEvent"
 
 
 def names_of(system: System, node: str) -> list[str]:
     """The names of a node's parameters, sorted."""
-    if system.over:
+    if system.finished:
         return sorted(_recorded(system, node))
-    request = ListParameters.Request()
-    return sorted(
-        system.act(lambda own, _: ask(own, ListParameters, f"{node}/list_parameters", request)).result.names
-    )
+    response = system.call(ListParameters, f"{node}/list_parameters", ListParameters.Request())
+    return sorted(response.result.names)
 
 
 def values_of(system: System, node: str, names: list[str]) -> list[ParameterValue]:
-    """The values of some parameters; [] where the node has not declared one of them."""
-    if system.over:
+    """The values of some parameters; [] if the node has not declared one of them."""
+    if system.finished:
         recorded = _recorded(system, node)
         return [recorded[name] for name in names] if set(names) <= set(recorded) else []
-    request = GetParameters.Request(names=names)
-    return system.act(lambda own, _: ask(own, GetParameters, f"{node}/get_parameters", request)).values
+    return system.call(GetParameters, f"{node}/get_parameters", GetParameters.Request(names=names)).values
 
 
 def _recorded(system: System, node: str) -> dict[str, ParameterValue]:
-    """What the events of a run's parameters come to: the values at its end."""
+    """The values at the end of a run, from its parameter events."""
     values: dict[str, ParameterValue] = {}
-    for arrived in system.listen({EVENTS: EVENT}):
-        event = decode(EVENT, arrived.raw)
+    for message in system.subscribe({TOPIC: TYPE}):
+        event = decode(TYPE, message.raw)
         if event.node == node:
-            values |= {one.name: one.value for one in [*event.new_parameters, *event.changed_parameters]}
-            for gone in event.deleted_parameters:
-                values.pop(gone.name, None)
+            changed = [*event.new_parameters, *event.changed_parameters]
+            values |= {parameter.name: parameter.value for parameter in changed}
+            for parameter in event.deleted_parameters:
+                values.pop(parameter.name, None)
     return values

@@ -1,4 +1,4 @@
-"""The words of ros2 about a run: a recording, or a play that is going on, in its time."""
+"""The systems of a run: a recording, or a running player, in simulated time."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from sim.evidence.qos import refusal, settings
 from sim.nanoseconds import EPOCH
 from sim.ros.engine.program import Process
 from sim.ros.play.player import FRAME, Player
-from sim.ros2.system import OWN_NAME, Arrived, System, T, Voice, Work, Wrong, with_node
+from sim.ros2.system import OWN_NAME, CliError, NodeTask, Output, ReceivedMessage, System, T, with_node
 
-WINDOW = 5.0  # s of a play; what goes on without end in a terminal does so for this long in a cell
-SHOWN = 10  # messages; a cell that shows all of a run is no help
-PATIENCE = 20.0  # s of a play, until an answer comes
+TIME_LIMIT = 5.0  # s of simulated time, in a cell, of a command that would not end in a terminal
+MAX_MESSAGES = 10  # that a cell prints
+TASK_TIMEOUT = 20.0  # s of simulated time
 _NODE_TOPICS = {"/parameter_events": "rcl_interfaces/msg/ParameterEvent", "/rosout": "rcl_interfaces/msg/Log"}
-TRANSITIONS = "transition_event", "lifecycle_msgs/msg/TransitionEvent"  # of a node with a lifecycle
+TRANSITIONS = "transition_event", "lifecycle_msgs/msg/TransitionEvent"  # of a lifecycle node
 _NODE_SERVICES = {
     "describe_parameters": "rcl_interfaces/srv/DescribeParameters",
     "get_parameter_types": "rcl_interfaces/srv/GetParameterTypes",
@@ -29,27 +29,27 @@ _NODE_SERVICES = {
     "list_parameters": "rcl_interfaces/srv/ListParameters",
     "set_parameters": "rcl_interfaces/srv/SetParameters",
     "set_parameters_atomically": "rcl_interfaces/srv/SetParametersAtomically",
-}  # what rclpy gives each node; the graph of a recording leaves it out
+}  # rclpy's services of each node, which a recording's graph leaves out
 
 
-class Recorded(System):
-    """A run that is over."""
+class RecordedSystem(System):
+    """A run that has ended."""
 
-    over = True
-    most = SHOWN
+    finished = True
+    max_messages = MAX_MESSAGES
     epoch = EPOCH
 
-    def __init__(self, recording: Recording, say: Callable[[str], None] = print) -> None:
-        super().__init__(say)
+    def __init__(self, recording: Recording, print_line: Callable[[str], None] = print) -> None:
+        super().__init__(print_line)
         self.recording = recording
 
     @property
     def nodes(self) -> list[str]:
-        """As `System`; all that there were at any time."""
+        """As `System`: all nodes of the run."""
         return [name for name in self.recording.graph.nodes if f"/{OWN_NAME}" not in name]
 
     @property
-    def ends(self) -> list[Endpoint]:
+    def endpoints(self) -> list[Endpoint]:
         """As `System`."""
         nodes = self.nodes
         declared = [end for end in self.recording.graph.endpoints if end.node in nodes]
@@ -64,42 +64,47 @@ class Recorded(System):
 
     @property
     def now(self) -> float:
-        """As `System`: when it ended."""
+        """As `System`: the end of the run."""
         return self.recording.stamp
 
-    def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
-        """As `System`: all that was sent, at once."""
-        yield from self._heard(0, topics, profile)
+    def subscribe(
+        self, topics: dict[str, str], profile: QoSProfile | None = None
+    ) -> Iterator[ReceivedMessage | None]:
+        """As `System`: all recorded messages, at once."""
+        yield from self._published(0, topics, profile)
 
-    def _heard(self, first: int, topics: dict[str, str], profile: QoSProfile | None) -> Iterator[Arrived]:
-        deaf = self._unheard(profile)
-        for heard in self.recording.published[first:]:
-            if heard.topic in topics and (heard.sender, heard.topic) not in deaf:
-                yield Arrived(heard.stamp, heard.stamp, heard.topic, heard.type, heard.raw, heard.sender)
+    def _published(
+        self, first: int, topics: dict[str, str], profile: QoSProfile | None
+    ) -> Iterator[ReceivedMessage]:
+        incompatible = self._incompatible(profile)
+        for message in self.recording.published[first:]:
+            stamp, topic, sender = message.stamp, message.topic, message.sender
+            if topic in topics and (sender, topic) not in incompatible:
+                yield ReceivedMessage(stamp, stamp, topic, message.type, message.raw, sender)
 
-    def _unheard(self, profile: QoSProfile | None) -> set[tuple[str, str]]:
-        """The senders, with their topics, whom a subscription with this profile doesn't hear."""
+    def _incompatible(self, profile: QoSProfile | None) -> set[tuple[str, str]]:
+        """Node and topic of the publishers whose QoS does not match this profile."""
         if profile is None:
             return set()
-        publishers, wanted = self.recording.graph.publishers(), settings(profile)
-        return {(end.node, end.name) for end in publishers if refusal(end.qos, wanted)}
+        publishers, requested = self.recording.graph.publishers(), settings(profile)
+        return {(end.node, end.name) for end in publishers if refusal(end.qos, requested)}
 
-    def act(self, work: Work[T], seconds: float | None = None) -> T:
-        """As `System`: nothing can be done any more."""
-        raise Wrong(
+    def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
+        """Always raises CliError, because no nodes are running."""
+        raise CliError(
             "Nothing runs any more: this is the recording of the last run. Start one with play(...), and try"
             " again while it goes on."
         )
 
 
-class Played(Recorded):
-    """A run that is going on. Time goes on while a cell waits, at the speed of the play."""
+class PlayedSystem(RecordedSystem):
+    """A run that is being played. While a cell waits, simulated time advances at the player's speed."""
 
-    over = False
-    window = WINDOW
+    finished = False
+    time_limit = TIME_LIMIT
 
-    def __init__(self, player: Player, say: Callable[[str], None] = print) -> None:
-        super().__init__(player.recording, say)
+    def __init__(self, player: Player, print_line: Callable[[str], None] = print) -> None:
+        super().__init__(player.recording, print_line)
         self._player = player
 
     @property
@@ -113,67 +118,69 @@ class Played(Recorded):
         """As `System`."""
         return self._player.stamp
 
-    def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
-        """As `System`, but for no longer than a while, as other cells wait."""
+    def subscribe(
+        self, topics: dict[str, str], profile: QoSProfile | None = None
+    ) -> Iterator[ReceivedMessage | None]:
+        """As `System`, but only for the time limit, because other cells wait."""
         first = len(self.recording.published)
         yield from self._latched(topics, profile)
-        for _ in self._go_on(WINDOW):
-            arrived = list(self._heard(first, topics, profile))
+        for _ in self._advance(TIME_LIMIT):
+            messages = list(self._published(first, topics, profile))
             first = len(self.recording.published)
-            yield from arrived
+            yield from messages
             yield None
 
-    def _latched(self, topics: dict[str, str], profile: QoSProfile | None) -> Iterator[Arrived]:
-        """What a late joiner gets of transient_local publishers, if it asks for that or leaves it open."""
+    def _latched(self, topics: dict[str, str], profile: QoSProfile | None) -> Iterator[ReceivedMessage]:
+        """The earlier messages that a new subscription gets if its profile is transient local or None."""
         if profile is not None and profile.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
             return
         for end in self.recording.graph.publishers():
             if end.name in topics and end.qos["durability"] == "transient_local":
-                sent = self._heard(0, {end.name: end.type}, profile)
-                kept = [one._replace(stamp=self.now) for one in sent if one.sender == end.node]
-                yield from kept[-end.qos["depth"] :]
+                sent = self._published(0, {end.name: end.type}, profile)
+                stored = [message._replace(stamp=self.now) for message in sent if message.sender == end.node]
+                yield from stored[-end.qos["depth"] :]
 
-    def act(self, work: Work[T], seconds: float | None = None) -> T:
-        """As `System`: the node takes part in the play."""
-        said: list[str] = []
+    def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
+        """As `System`, with a node in the player's run."""
+        lines: list[str] = []
         results: list[T] = []
-        failures: list[Wrong] = []
-        voice = Voice(said.append)
+        failures: list[CliError] = []
+        output = Output(lines.append)
 
         def ros2() -> None:
             rclpy.init()
             try:
-                results.append(with_node(work, voice))
-            except Wrong as failure:
+                results.append(with_node(task, output))
+            except CliError as failure:
                 failures.append(failure)
             finally:
                 rclpy.try_shutdown()
 
-        limit = PATIENCE if seconds is None else seconds
-        course = self._go_on(limit, lambda: bool(results or failures))
-        next(course)  # raises where the play doesn't go on
+        limit = TASK_TIMEOUT if seconds is None else seconds
+        frames = self._advance(limit, lambda: bool(results or failures))
+        next(frames)  # raises if the player is paused
         self._player.add(Process(ros2))
         try:
-            for _ in course:
-                while said:
-                    self.say(said.pop(0))
+            for _ in frames:
+                while lines:
+                    self.print_line(lines.pop(0))
         finally:
-            voice.stopped = True
+            output.canceled = True
         if failures:
             raise failures[0]
         if not results:
             ended = "before the play ended" if self._player.over else f"within {limit:g} s of the play"
-            raise Wrong(f"Nothing came of it {ended}.")
+            raise CliError(f"Nothing came of it {ended}.")
         return results[0]
 
-    def _go_on(self, seconds: float, enough: Callable[[], bool] = lambda: False) -> Iterator[None]:
-        """Let the play go on for so long at most, and rest after each of its frames."""
+    def _advance(self, seconds: float, enough: Callable[[], bool] = lambda: False) -> Iterator[None]:
+        """Play for a simulated time at most, and yield after each frame. Raises CliError if it is paused."""
         player, limit = self._player, self.now + seconds
         if player.paused:
-            raise Wrong("The play is paused, so nothing happens in it: let it go on, and try again.")
+            raise CliError("The play is paused, so nothing happens in it: let it go on, and try again.")
         yield
         while not player.over and not enough() and self.now < limit - 1e-9:
             player.play_frame(limit, enough)
             yield
             if player.speed != math.inf:
-                select.select((), (), (), FRAME)  # a play goes along with the clock on the wall
+                select.select((), (), (), FRAME)  # keeps to the wall clock

@@ -1,4 +1,4 @@
-"""What the words of ros2 ask: which nodes there are and how they are connected, what they send, what they do.
+"""The ROS system that ros2 commands inspect and use: nodes, endpoints, messages, and calls of its services.
 
 Stamps are seconds: of the wall clock in a terminal, since the start of the run in a notebook.
 """
@@ -20,50 +20,50 @@ from sim.evidence import Endpoint
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.suggestions import closest_match
 
-HIDDEN = "_"  # a name with a part that begins with this is left out unless one asks for it
-OWN_NAME = "_ros2cli"  # what nodes of these tools are called
+HIDDEN = "_"  # prefix of hidden names, which are shown only on request
+OWN_NAME = "_ros2cli"  # of these commands' own nodes
 _numbers = count(1)
-PATIENCE = 5.0  # s, until a service that should be there is given up, as by the official tools
-POLL = 0.1  # s between two looks at whether something has come
+SERVICE_TIMEOUT = 5.0  # s until a service must be available, as in the official tools
+POLL = 0.1  # s
 T = TypeVar("T")
 Known = TypeVar("Known", bound=Collection[str])
 
 
-class Wrong(Exception):
-    """What the user asked for can't be done; its words are for the user. Without words, just the status."""
+class CliError(Exception):
+    """A command failed. The message is printed for the user; if it is empty, only the exit status says so."""
 
 
-class Arrived(NamedTuple):
-    """One message as a listener gets it."""
+class ReceivedMessage(NamedTuple):
+    """A message that was received by a subscription."""
 
-    stamp: float  # s, when it arrived
+    stamp: float  # s, when it was received
     sent: float  # s, when it was sent
     topic: str
     type: str
     raw: bytes
-    sender: str = ""  # where it is known, the node
+    sender: str = ""  # the node, if it is known
 
 
-class Voice:
-    """How work that is done with a node shows lines, and hears that nobody waits for it any more."""
+class Output:
+    """Prints the lines of a command. canceled: set once the command is to end early."""
 
-    def __init__(self, say: Callable[[str], None]) -> None:
-        self.say, self.stopped = say, False
+    def __init__(self, print_line: Callable[[str], None]) -> None:
+        self.print_line, self.canceled = print_line, False
 
 
-Work = Callable[[Node, Voice], T]
+NodeTask = Callable[[Node, Output], T]
 
 
 class System(ABC):
-    """What the words are about. `say` shows a line."""
+    """What a command inspects and uses. print_line: prints a line of the output."""
 
-    over = False  # whether all has happened already, and no time passes any more
-    window: float | None = None  # s; what has no end of its own goes on for so long at most
-    most: int | None = None  # so many messages are shown at most
-    epoch: Nanoseconds = 0  # what the nodes' clocks show when the time is 0 s
+    finished = False  # True for a recording: no time passes any more
+    time_limit: float | None = None  # s, of commands that would not end by themselves
+    max_messages: int | None = None  # that are printed
+    epoch: Nanoseconds = 0  # the nodes' clock at time 0 s
 
-    def __init__(self, say: Callable[[str], None] = print) -> None:
-        self.say = say
+    def __init__(self, print_line: Callable[[str], None] = print) -> None:
+        self.print_line = print_line
 
     @property
     @abstractmethod
@@ -72,8 +72,8 @@ class System(ABC):
 
     @property
     @abstractmethod
-    def ends(self) -> list[Endpoint]:
-        """All ends of topics, services and actions, ROS's own included."""
+    def endpoints(self) -> list[Endpoint]:
+        """All endpoints of topics, services and actions, including ROS's own."""
 
     @property
     @abstractmethod
@@ -81,27 +81,33 @@ class System(ABC):
         """The time in seconds."""
 
     @abstractmethod
-    def listen(self, topics: dict[str, str], profile: QoSProfile | None = None) -> Iterator[Arrived | None]:
-        """Yield the messages of these topics as they come, and None now and then while none does.
+    def subscribe(
+        self, topics: dict[str, str], profile: QoSProfile | None = None
+    ) -> Iterator[ReceivedMessage | None]:
+        """Yield the messages of these topics as they arrive, and None from time to time while none does.
 
-        topics: name to type. profile: of the subscriptions; None takes what each topic has.
+        topics: name to type. profile: of the subscriptions; None matches each topic's publishers.
         """
 
     @abstractmethod
-    def act(self, work: Work[T], seconds: float | None = None) -> T:
-        """Do something with a node of one's own; what it returns.
+    def run_with_node(self, task: NodeTask[T], seconds: float | None = None) -> T:
+        """Run a task with a new node of this command, and return its result.
 
-        seconds: it may take so long. Raises Wrong where nothing runs.
+        seconds: time limit. Raises CliError if no nodes are running.
         """
 
-    def look_for(self, name: str, look: Callable[[], Known]) -> Known:
-        """What a look finds; where things are found one by one, the last of some looks for this name."""
-        return look()
+    def call(self, kind: type, service: str, request: Any) -> Any:
+        """The response of a service. Raises CliError if the service is not available."""
+        return self.run_with_node(lambda node, _: call_service(node, kind, service, request))
+
+    def look_up(self, name: str, find: Callable[[], Known]) -> Known:
+        """What `find` returns; during discovery, `find` is retried until its result contains the name."""
+        return find()
 
     def names(self, *kinds: str, hidden: bool = False) -> dict[str, list[str]]:
-        """Name to types of all topics, services or actions that have an end of these kinds, sorted."""
+        """Name to types of all topics, services or actions with an endpoint of these kinds, sorted."""
         found: dict[str, set[str]] = {}
-        for end in self.ends:
+        for end in self.endpoints:
             if end.kind in kinds and (hidden or not is_hidden(end.name)):
                 found.setdefault(end.name, set()).add(end.type)
         return {name: sorted(types) for name, types in sorted(found.items())}
@@ -111,49 +117,49 @@ class System(ABC):
         return self.names("publisher", "subscription", hidden=hidden)
 
     def node(self, name: str, *, hidden: bool = True) -> str:
-        """The full name of a node that there is. Raises Wrong for none."""
+        """The full name of an existing node. Raises CliError if there is none."""
         full = name if name.startswith("/") else f"/{name}"
-        known = self.look_for(full, lambda: [node for node in self.nodes if hidden or not is_hidden(node)])
+        known = self.look_up(full, lambda: [node for node in self.nodes if hidden or not is_hidden(node)])
         if full not in known:
-            raise Wrong(f"Node not found{guess(full, known)}")
+            raise CliError(f"Node not found{suggestion(full, known)}")
         return full
 
 
 def is_hidden(name: str) -> bool:
-    """Whether a name is for tools rather than for people."""
+    """Whether a name is hidden by ROS's convention."""
     return any(part.startswith(HIDDEN) for part in name.split("/"))
 
 
-def guess(name: str, known: Iterator[str] | list[str] | dict[str, list[str]]) -> str:
-    """A question to end a message with, where a name that isn't there is nearly one that is; or nothing."""
+def suggestion(name: str, known: Iterator[str] | list[str] | dict[str, list[str]]) -> str:
+    """The end of an error message that suggests the closest known name, or an empty text."""
     near = closest_match(name, known)
     return f". Did you mean {near}?" if near else ""
 
 
-def with_node(work: Work[T], voice: Voice) -> T:
-    """What some work with a hidden node returns. rclpy has been initialised; the node is gone afterwards."""
+def with_node(task: NodeTask[T], output: Output) -> T:
+    """Run a task with a hidden node, which is destroyed afterwards. rclpy must be initialized."""
     node = rclpy.create_node(f"{OWN_NAME}_{next(_numbers)}", start_parameter_services=False)
     try:
-        return work(node, voice)
-    except (NameValidationException, ValueError) as error:  # a name that none can have
-        raise Wrong(" ".join(str(error).split())) from None
+        return task(node, output)
+    except (NameValidationException, ValueError) as error:  # an invalid name
+        raise CliError(" ".join(str(error).split())) from None
     finally:
         node.destroy_node()
 
 
-def answer(node: Node, future: Future) -> Any:
-    """What comes of a future. Raises what it raises."""
+def wait_for(node: Node, future: Future) -> Any:
+    """The result of a future. Raises its exception."""
     while not future.done():
         rclpy.spin_once(node, timeout_sec=POLL)
     return future.result()
 
 
-def ask(node: Node, kind: type, service: str, request: Any) -> Any:
-    """The answer of a service. Raises Wrong where it isn't there for a while."""
+def call_service(node: Node, kind: type, service: str, request: Any) -> Any:
+    """The response of a service. Raises CliError if the service is not available in time."""
     client = node.create_client(kind, service)
     clock, began = node.get_clock(), node.get_clock().now()
     while not client.service_is_ready():
         rclpy.spin_once(node, timeout_sec=POLL)
-        if (clock.now() - began).nanoseconds > PATIENCE * SECOND:
-            raise Wrong(f"Wait for service timed out waiting for {service}")
-    return answer(node, client.call_async(request))
+        if (clock.now() - began).nanoseconds > SERVICE_TIMEOUT * SECOND:
+            raise CliError(f"Wait for service timed out waiting for {service}")
+    return wait_for(node, client.call_async(request))

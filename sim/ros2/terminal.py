@@ -1,5 +1,5 @@
 # PYTHON_ARGCOMPLETE_OK
-"""ros2 in a terminal. Where the official command is installed, that one is run instead."""
+"""ros2 in a terminal. If the official command is installed, it is executed instead."""
 
 from __future__ import annotations
 
@@ -14,83 +14,85 @@ from typing import Any
 import argcomplete
 from rclpy.executors import ExternalShutdownException
 
-from sim.ros2 import words
-from sim.ros2.group import Offers
-from sim.ros2.live import Live
-from sim.ros2.surroundings import environment_before
-from sim.ros2.system import Wrong
+from sim.ros2 import parser
+from sim.ros2.environment import environment_before
+from sim.ros2.group import Completer
+from sim.ros2.live import LiveSystem
+from sim.ros2.system import CliError
 
-SOON = 0.1  # s without news, until names are completed: who waits for them can ask again
-ONCE_MORE = 0.1  # s, until Ctrl-C that got lost is pressed again
-STOPPED = 2  # exit status after Ctrl-C, as the official command's
-MARK = b"sim.ros2"  # what the script that starts this one holds, wherever it is installed
+COMPLETION_SETTLING_TIME = 0.1  # s: pressing Tab again retries
+RETRY_INTERRUPT = 0.1  # s until a lost Ctrl-C is repeated
+INTERRUPTED = 2  # exit status after Ctrl-C, as the official command's
+MARK = b"sim.ros2"  # in the installed script that starts this module
 
 
 def main() -> int:
-    """What `ros2` on the command line does; the exit status."""
-    give_way()
+    """Execute `ros2` on the command line; returns the exit status."""
+    exec_real_ros2()
     signal.signal(signal.SIGINT, _interrupted)
-    reader = words.parser(_offered)
-    # Names come without options among them; where nothing is known, bash offers files.
+    command_parser = parser.make_parser(_make_completer)
+    # Complete options only after a dash; if nothing is known, bash completes file names.
     argcomplete.autocomplete(
-        reader,
+        command_parser,
         always_complete_options=False,
         exclude=["-h", "--help"],
         default_completer=argcomplete.SuppressCompleter(),
     )
     try:
-        return words.obey(reader, None, lambda: Live(_say, _complain), _say, _complain)
+        return parser.execute(
+            command_parser, None, lambda: LiveSystem(_print_line, _print_error), _print_line, _print_error
+        )
     except (KeyboardInterrupt, ExternalShutdownException):
-        return STOPPED
-    except BrokenPipeError:  # as of `ros2 topic echo /scan | head`
+        return INTERRUPTED
+    except BrokenPipeError:  # such as of `ros2 topic echo /scan | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
 
 
 def _interrupted(*_: Any) -> None:
-    # It may hit rclpy while an object is made, and what is half made complains on stderr when it goes.
-    sys.unraisablehook = _again
+    # If it interrupts rclpy in a constructor, the incomplete object's destructor would print an error.
+    sys.unraisablehook = _repeat_interrupt
     raise KeyboardInterrupt
 
 
-def _again(unheard: Any) -> None:
-    # Where it hits rclpy while an object goes, nobody hears of it. Not at once: here it would be the same.
-    if unheard.exc_type is KeyboardInterrupt:
+def _repeat_interrupt(unraisable: Any) -> None:
+    # An interrupt in a destructor is lost, so it is repeated; later, because this is still in the destructor.
+    if unraisable.exc_type is KeyboardInterrupt:
         signal.signal(signal.SIGALRM, _interrupted)
-        signal.setitimer(signal.ITIMER_REAL, ONCE_MORE)
+        signal.setitimer(signal.ITIMER_REAL, RETRY_INTERRUPT)
 
 
-def _say(line: str) -> None:
+def _print_line(line: str) -> None:
     print(line, flush=True)
 
 
-def _complain(line: str) -> None:
+def _print_error(line: str) -> None:
     if line:
         print(line, file=sys.stderr, flush=True)
 
 
-def _offered(offers: Offers, alone: bool) -> Callable[..., list[str]]:
+def _make_completer(completer: Completer, without_system: bool) -> Callable[..., list[str]]:
     def complete(parsed_args: Namespace, **_: Any) -> list[str]:
         try:
-            if alone:
-                return offers(None, parsed_args)
-            with Live(settled=SOON) as system:
-                return offers(system, parsed_args)
-        except Wrong:
+            if without_system:
+                return completer(None, parsed_args)
+            with LiveSystem(settling_time=COMPLETION_SETTLING_TIME) as system:
+                return completer(system, parsed_args)
+        except CliError:
             return []
 
     return complete
 
 
-def give_way() -> None:
-    """Become the official command, if there is one."""
+def exec_real_ros2() -> None:
+    """Replace this process with the official ros2 command, if it is installed."""
     official = official_command(os.environ.get("PATH", ""))
     if official is not None:
         os.execve(official, [str(official), *sys.argv[1:]], environment_before())
 
 
 def official_command(path: str) -> Path | None:
-    """The first `ros2` in the folders of a search path that isn't ours."""
+    """The first `ros2` on a search path that is not the course's."""
     for folder in path.split(os.pathsep):
         command = Path(folder) / "ros2"
         try:

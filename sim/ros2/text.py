@@ -1,4 +1,4 @@
-"""Messages as the words of ros2 show and take them: YAML, and values with commas between."""
+"""Messages as YAML and CSV, as ros2 commands print and read them."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ from rosidl_parser.definition import (
 )
 
 from sim.ros.messages.codec import message_class
-from sim.ros2.system import Wrong
+from sim.ros2.system import CliError
 
 SEQUENCES = list, tuple, array.array, np.ndarray
-Setter = Callable[[Any], None]  # takes a builtin_interfaces/msg/Time
+TimeSetter = Callable[[Any], None]  # takes a builtin_interfaces/msg/Time
 
 
 class Style(NamedTuple):
-    """How a message is shown."""
+    """How a message is printed."""
 
-    length: int | None = None  # of text and sequences; longer ones end with "..."
-    no_arr: bool = False  # only the types of sequences
-    no_str: bool = False  # only the lengths of texts
-    flow: bool = False  # sequences in one line
+    length: int | None = None  # of texts and sequences; longer ones end with "..."
+    no_arr: bool = False  # print only the types of sequences
+    no_str: bool = False  # print only the lengths of texts
+    flow: bool = False  # print sequences on one line
 
 
 class _Dumper(yaml.Dumper):
-    """Keeps the order of the fields, and each in a line of its own."""
+    """Keeps the order of the fields, and prints each on its own line."""
 
 
 def _fields(dumper: yaml.Dumper, fields: dict) -> yaml.Node:
@@ -47,13 +47,13 @@ _Dumper.add_representer(dict, _fields)
 
 
 def as_yaml(message: Any, style: Style = Style()) -> str:  # noqa: B008  (a tuple)
-    """A message as YAML, its last line ended."""
+    """A message as YAML, with a final newline."""
     look = {"allow_unicode": True, "width": sys.maxsize, "default_flow_style": style.flow}
     return yaml.dump(_plain(message, None, style), Dumper=_Dumper, **look)
 
 
 def as_csv(message: Any, style: Style = Style()) -> str:  # noqa: B008
-    """All values of a message, with commas between."""
+    """All values of a message, separated by commas."""
     return ",".join(_values(message, None, style))
 
 
@@ -67,16 +67,16 @@ def _plain(value: Any, kind: Any, style: Style) -> Any:
     match value:
         case bytes():
             text = "".join(map(chr, value[: style.length]))
-            return text + "..." if _too_long(value, style) else text
+            return text + "..." if _is_too_long(value, style) else text
         case str():
             if style.no_str:
                 return f"<string length: <{len(value)}>>"
-            return value[: style.length] + "..." if _too_long(value, style) else value
+            return value[: style.length] + "..." if _is_too_long(value, style) else value
         case list() | tuple() | array.array() | np.ndarray():
             if style.no_arr and kind is not None:
-                return _described(value, kind)
+                return _describe_type(value, kind)
             items = [_plain(item, None, style) for item in value[: style.length]]
-            return [*items, "..."] if _too_long(value, style) else items
+            return [*items, "..."] if _is_too_long(value, style) else items
         case np.number():
             return value.item()
         case bool() | int() | float():
@@ -84,18 +84,18 @@ def _plain(value: Any, kind: Any, style: Style) -> Any:
     return {name: _plain(inner, slot, style) for name, slot, inner in _slots(value)}
 
 
-def _too_long(value: Any, style: Style) -> bool:
+def _is_too_long(value: Any, style: Style) -> bool:
     return style.length is not None and len(value) > style.length
 
 
 def _values(value: Any, kind: Any, style: Style) -> Iterator[str]:
     if isinstance(value, SEQUENCES):
         if style.no_arr and kind is not None:
-            yield _described(value, kind)
+            yield _describe_type(value, kind)
             return
         for item in value[: style.length]:
             yield from _values(item, None, style)
-        if _too_long(value, style):
+        if _is_too_long(value, style):
             yield "..."
     elif isinstance(value, bool | bytes | float | int | str | np.number):
         yield str(_plain(value, None, style))
@@ -104,7 +104,7 @@ def _values(value: Any, kind: Any, style: Style) -> Iterator[str]:
             yield from _values(inner, slot, style)
 
 
-def _described(value: Any, kind: Any) -> str:
+def _describe_type(value: Any, kind: Any) -> str:
     inner = kind.value_type
     if isinstance(inner, BasicType):
         name = inner.typename
@@ -119,27 +119,27 @@ def _described(value: Any, kind: Any) -> str:
 
 
 def read_values(text: str) -> Any:
-    """The values that YAML names. Raises Wrong for what isn't YAML."""
+    """The values in a YAML text. Raises CliError for invalid YAML."""
     try:
         return yaml.safe_load(text)
     except yaml.YAMLError as error:
-        raise Wrong(f"{text!r} is not YAML, such as '{{x: 1.0, y: 2.0}}': {error}") from None
+        raise CliError(f"{text!r} is not YAML, such as '{{x: 1.0, y: 2.0}}': {error}") from None
 
 
-def fill(message: Any, values: Any, failed: str = "Failed to populate field: {}") -> list[Setter]:
-    """Set fields of a message to values, as many as are named; return what sets its times that shall be now.
+def fill(message: Any, values: Any, failed: str = "Failed to populate field: {}") -> list[TimeSetter]:
+    """Set fields of a message to the given values; returns functions that set fields whose value is "now".
 
-    failed: how the message begins. Raises Wrong for a field or a value that doesn't fit.
+    failed: the format of the error text. Raises CliError for an unknown field or an invalid value.
     """
-    setters: list[Setter] = []
+    setters: list[TimeSetter] = []
     try:
         _fill(message, values, setters)
     except (AttributeError, TypeError, ValueError, AssertionError, OverflowError) as error:
-        raise Wrong(failed.format(error)) from None
+        raise CliError(failed.format(error)) from None
     return setters
 
 
-def _fill(message: Any, values: Any, setters: list[Setter]) -> None:
+def _fill(message: Any, values: Any, setters: list[TimeSetter]) -> None:
     if not isinstance(values, dict):
         kind = type(values).__name__
         raise TypeError(f"Value '{values}' is expected to be a dictionary but is a {kind}")
@@ -154,7 +154,7 @@ def _fill(message: Any, values: Any, setters: list[Setter]) -> None:
             setattr(message, name, _converted(field, slots[name], given, setters))
 
 
-def _converted(field: Any, kind: Any, given: Any, setters: list[Setter]) -> Any:
+def _converted(field: Any, kind: Any, given: Any, setters: list[TimeSetter]) -> Any:
     if isinstance(kind, AbstractNestedType) and isinstance(kind.value_type, NamespacedType):
         items = []
         for values in given:

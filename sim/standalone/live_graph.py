@@ -6,7 +6,7 @@ from threading import Lock
 from typing import Any
 
 from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Recording, is_node_service
-from sim.ros2.live import ends_seen_by
+from sim.ros2.live import endpoints_seen_by
 from sim.ros2.system import is_hidden
 from sim.view.graph_data import graph_data
 
@@ -41,7 +41,7 @@ class LiveGraph:
         course_nodes = self._course_nodes
         shown = [
             end._replace(from_course=end.node in course_nodes)
-            for end in ends_seen_by(self._run.nodes[0])
+            for end in endpoints_seen_by(self._run.nodes[0])
             if end.name not in INFRASTRUCTURE_TOPICS and not is_node_service(end.name)
             if not is_hidden(end.name) and not is_hidden(end.node)
         ]

@@ -10,7 +10,7 @@ from grader.exercises.silence.reading import graph
 from grader.exercises.silence.senders import RADIO, MapServer, RadioLidar, Visitor
 from grader.exercises.silence.stopping import joystick
 from grader.exercises.silence.ward import ward
-from sim.ros2.typed import terminal
+from sim.ros2.cli_program import terminal
 
 __all__ = [
     "RADIO",

@@ -136,7 +136,7 @@ def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]
     first, *words = cmd
     name = os.path.basename(first)
     if name == "ros2":
-        from sim.ros2.typed import terminal  # imported late: few launch files need it
+        from sim.ros2.cli_program import terminal  # imported late: few launch files need it
 
         return _named(terminal(shlex.join(["ros2", *words])).target, "ros2"), []
     if PYTHON.fullmatch(name):

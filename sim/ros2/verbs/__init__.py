@@ -1,1 +1,1 @@
-"""All groups of verbs. One module has each; `sim.ros2.words` puts them together."""
+"""The verbs of each command; `sim.ros2.parser` combines them."""

@@ -1,4 +1,4 @@
-"""ros2 interface: the types of messages, services and actions that are installed."""
+"""ros2 interface: the installed message, service and action types."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ament_index_python import get_resources
 
 from sim.ros.messages.definitions import installed_file
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.system import Voice, Wrong
-from sim.ros2.types import KINDS, interfaces, of_package
+from sim.ros2.interface_types import KINDS, interfaces, types_in_package
+from sim.ros2.system import CliError, Output
 from sim.suggestions import closest_match
 
 interface = Group("interface", "Types of messages, services and actions")
@@ -23,40 +23,42 @@ ONLY = (
 PARTS = 3  # of a type's name
 INTEGERS = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
 PRIMITIVES = {"bool", "byte", "char", "float32", "float64", "string", "wstring", *INTEGERS}
-LINE = re.compile(r"(?P<type>[\w/]+)(?:<=\d+)?(?:\[[^]]*\])?\s+\w+")  # of a definition that declares a field
+LINE = re.compile(
+    r"(?P<type>[\w/]+)(?:<=\d+)?(?:\[[^]]*\])?\s+\w+"
+)  # a definition's line that declares a field
 
 
-def _kinds(asked: Namespace) -> list[str]:
-    chosen = {"msg": asked.only_msgs, "srv": asked.only_srvs, "action": asked.only_actions}
-    return [kind for kind, wanted in chosen.items() if wanted] or list(KINDS)
+def _kinds(options: Namespace) -> list[str]:
+    chosen = {"msg": options.only_msgs, "srv": options.only_srvs, "action": options.only_actions}
+    return [kind for kind, selected in chosen.items() if selected] or list(KINDS)
 
 
-@interface.verb("list", *ONLY, alone=True)
-def list_(voice: Voice, asked: Namespace) -> None:
+@interface.verb("list", *ONLY, without_system=True)
+def list_(output: Output, options: Namespace) -> None:
     """List all interface types available."""
-    for kind in _kinds(asked):
-        voice.say("\n".join([f"{KINDS[kind]}:", *(f"    {name}" for name in interfaces(kind))]))
+    for kind in _kinds(options):
+        output.print_line("\n".join([f"{KINDS[kind]}:", *(f"    {name}" for name in interfaces(kind))]))
 
 
 @interface.verb(
     "package",
     *ONLY,
     argument("package_name", help="Name of the ROS package (e.g. 'example_interfaces')"),
-    alone=True,
+    without_system=True,
 )
-def package(voice: Voice, asked: Namespace) -> None:
+def package(output: Output, options: Namespace) -> None:
     """Output a list of available interface types within one package."""
-    for name in of_package(asked.package_name, *_kinds(asked)):
-        voice.say(name)
+    for name in types_in_package(options.package_name, *_kinds(options)):
+        output.print_line(name)
 
 
-@interface.verb("packages", *ONLY, alone=True)
-def packages(voice: Voice, asked: Namespace) -> None:
+@interface.verb("packages", *ONLY, without_system=True)
+def packages(output: Output, options: Namespace) -> None:
     """Output a list of packages that provide interfaces."""
-    kinds = _kinds(asked)
+    kinds = _kinds(options)
     for name in sorted(get_resources("rosidl_interfaces")):
-        if of_package(name, *kinds):
-            voice.say(name)
+        if types_in_package(name, *kinds):
+            output.print_line(name)
 
 
 @interface.verb(
@@ -64,20 +66,20 @@ def packages(voice: Voice, asked: Namespace) -> None:
     argument(
         "type",
         help="The interface (e.g. 'example_interfaces/msg/String')",
-        offers=lambda *_: [name for kind in KINDS for name in interfaces(kind)],
+        completer=lambda *_: [name for kind in KINDS for name in interfaces(kind)],
     ),
     flag("--all-comments", help="Show all comments, including for nested interface definitions"),
     flag("--no-comments", help="Show no comments or whitespace"),
-    alone=True,
+    without_system=True,
 )
-def show(voice: Voice, asked: Namespace) -> None:
+def show(output: Output, options: Namespace) -> None:
     """Output the interface definition."""
-    for line in _definition(asked.type, comments=not asked.no_comments, nested=asked.all_comments):
-        voice.say(line)
+    for line in _definition(options.type, comments=not options.no_comments, nested=options.all_comments):
+        output.print_line(line)
 
 
 def _definition(type_: str, *, comments: bool, nested: bool, depth: int = 0) -> Iterator[str]:
-    """The lines of a definition, and below each field that is a message those of its own."""
+    """The lines of a definition; below each field of a message type, those of its definition."""
     for line in _lines(type_):
         text, _, comment = line.partition("#")
         shown = line.rstrip() if comments else text.rstrip()
@@ -93,11 +95,11 @@ def _definition(type_: str, *, comments: bool, nested: bool, depth: int = 0) -> 
 def _lines(type_: str) -> list[str]:
     parts = type_.split("/")
     if len(parts) != PARTS:
-        raise Wrong(f"Invalid name '{type_}'. Expected three parts separated by '/'{_near(type_)}")
-    of_package(parts[0])  # raises where there is no such package
+        raise CliError(f"Invalid name '{type_}'. Expected three parts separated by '/'{_near(type_)}")
+    types_in_package(parts[0])  # raises if there is no such package
     path = installed_file(type_, parts[1])
     if not path.exists():
-        raise Wrong(f"Could not find the interface '{type_}'{_near(type_)}")
+        raise CliError(f"Could not find the interface '{type_}'{_near(type_)}")
     return path.read_text(encoding="utf-8").splitlines()
 
 
@@ -109,7 +111,7 @@ def _near(type_: str) -> str:
 
 
 def _message_type(text: str, package: str) -> str:
-    """The type of the field that a line declares, where that is a message; or nothing."""
+    """The message type of the field that a line declares, or an empty text."""
     match = LINE.match(text)
     if match is None or match["type"] in PRIMITIVES:
         return ""

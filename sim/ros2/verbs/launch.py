@@ -1,4 +1,4 @@
-"""ros2 launch: the programs of a launch file, as processes."""
+"""ros2 launch: executes a launch file with processes of the system."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from argparse import Namespace
 
 from sim.ros.launching import files
 from sim.ros.packages import bundled_command, packages
+from sim.ros2.environment import environment_before, require_terminal
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.surroundings import environment_before, need_terminal
-from sim.ros2.system import Voice, Wrong
+from sim.ros2.system import CliError, Output
 
 launch = Group("launch", "Run a launch file")
 
@@ -29,49 +29,49 @@ launch = Group("launch", "Run a launch file")
     argument(
         "package_name",
         help="Name of the ROS package which contains the launch file",
-        offers=lambda *_: packages(),
+        completer=lambda *_: packages(),
     ),
     argument("launch_file_name", nargs="?", help="Name of the launch file"),
     argument("launch_arguments", nargs="*", help="Arguments to the launch file; '<name>:=<value>'"),
-    alone=True,
+    without_system=True,
 )
-def launch_(voice: Voice, asked: Namespace) -> None:
+def launch_(output: Output, options: Namespace) -> None:
     """Run a launch file."""
-    said = [asked.package_name, asked.launch_file_name, *asked.launch_arguments]
-    words = [word for word in said if word is not None]
+    given = options.package_name, options.launch_file_name, *options.launch_arguments
+    arguments = [each for each in given if each is not None]
     try:
-        path, rest = files.find_launch_file(words)
-        if asked.show_args:
-            return voice.say("\n".join(_shown(path)))
-        if asked.print:
-            return voice.say(_printed(path))
-        need_terminal("launch", f'run("{" ".join(words)}")')
+        path, rest = files.find_launch_file(arguments)
+        if options.show_args:
+            return output.print_line("\n".join(_argument_lines(path)))
+        if options.print:
+            return output.print_line(_description(path))
+        require_terminal("launch", f'run("{" ".join(arguments)}")')
         description = files.load_description(path, rest)
     except files.NoLaunchFile as error:
-        raise Wrong(str(error)) from None
-    from launch import LaunchService  # here, for it takes a while, and other words do without
+        raise CliError(str(error)) from None
+    from launch import LaunchService  # imported late, because it is slow and other commands don't need it
     from launch.processes import SystemProcessStarter
 
-    if asked.show_all_subprocesses_output:
+    if options.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    noninteractive = asked.noninteractive or not sys.stdin.isatty()
-    service = LaunchService(argv=rest, noninteractive=noninteractive, debug=asked.debug)
+    noninteractive = options.noninteractive or not sys.stdin.isatty()
+    service = LaunchService(argv=rest, noninteractive=noninteractive, debug=options.debug)
     service.context.process_starter = SystemProcessStarter(bundled_command)
     service.context.replace_environment(environment_before())
     service.include_launch_description(description)
     raise SystemExit(service.run())
 
 
-def _printed(path: str) -> str:
-    """What is in a launch file."""
+def _description(path: str) -> str:
+    """The content of a launch file, for --print."""
     from launch import LaunchIntrospector
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     return LaunchIntrospector().format_launch_description(get_launch_description_from_any_launch_file(path))
 
 
-def _shown(path: str) -> list[str]:
-    """What is said of the arguments that a launch file takes."""
+def _argument_lines(path: str) -> list[str]:
+    """The description of a launch file's arguments, for --show-args."""
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]

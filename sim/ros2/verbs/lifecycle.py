@@ -1,4 +1,4 @@
-"""ros2 lifecycle: the states of nodes that have some, and their transitions."""
+"""ros2 lifecycle: states and transitions of lifecycle nodes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.system import System, Wrong, ask, guess, is_hidden
+from sim.ros2.system import CliError, System, is_hidden, suggestion
 from sim.suggestions import closest_match
 
 lifecycle = Group("lifecycle", "Nodes with a lifecycle: their states and transitions")
@@ -17,7 +17,7 @@ STATE = "lifecycle_msgs/srv/GetState"
 
 
 def managed(system: System, *, hidden: bool) -> list[str]:
-    """The nodes that have a lifecycle, sorted."""
+    """The lifecycle nodes, sorted."""
     services = system.names("service", hidden=True)
     return sorted(
         {
@@ -32,11 +32,11 @@ def _managed(system: System, _: Namespace) -> list[str]:
     return managed(system, hidden=True)
 
 
-def _node(system: System, asked: Namespace) -> str:
-    full = asked.node_name if asked.node_name.startswith("/") else f"/{asked.node_name}"
-    known = system.look_for(full, lambda: managed(system, hidden=asked.include_hidden_nodes))
+def _node(system: System, options: Namespace) -> str:
+    full = options.node_name if options.node_name.startswith("/") else f"/{options.node_name}"
+    known = system.look_up(full, lambda: managed(system, hidden=options.include_hidden_nodes))
     if full not in known:
-        raise Wrong(f"Node not found{guess(full, known)}")
+        raise CliError(f"Node not found{suggestion(full, known)}")
     return full
 
 
@@ -45,54 +45,54 @@ def _node(system: System, asked: Namespace) -> str:
     flag("-a", "--all", help="Display all nodes even hidden ones"),
     flag("-c", "--count-nodes", help="Only display the number of nodes discovered"),
 )
-def nodes(system: System, asked: Namespace) -> None:
+def nodes(system: System, options: Namespace) -> None:
     """Output a list of nodes with lifecycle."""
-    found = managed(system, hidden=asked.all)
-    for line in [str(len(found))] if asked.count_nodes else found:
-        system.say(line)
+    found = managed(system, hidden=options.all)
+    for line in [str(len(found))] if options.count_nodes else found:
+        system.print_line(line)
 
 
 @lifecycle.verb(
     "get",
-    argument("node_name", nargs="?", help="Name of the ROS node; all without", offers=_managed),
+    argument("node_name", nargs="?", help="Name of the ROS node; all without", completer=_managed),
     HIDDEN,
 )
-def get(system: System, asked: Namespace) -> None:
+def get(system: System, options: Namespace) -> None:
     """Get lifecycle state for one or more nodes."""
-    found = [_node(system, asked)] if asked.node_name else managed(system, hidden=asked.include_hidden_nodes)
+    found = (
+        [_node(system, options)]
+        if options.node_name
+        else managed(system, hidden=options.include_hidden_nodes)
+    )
     for node in found:
-        service = f"{node}/get_state"
-        state = system.act(
-            lambda own, _, service=service: ask(own, GetState, service, GetState.Request())
-        ).current_state
-        prefix = "" if asked.node_name else f"{node}: "
-        system.say(f"{prefix}{state.label} [{state.id}]")
+        state = system.call(GetState, f"{node}/get_state", GetState.Request()).current_state
+        prefix = "" if options.node_name else f"{node}: "
+        system.print_line(f"{prefix}{state.label} [{state.id}]")
 
 
 @lifecycle.verb(
     "set",
-    argument("node_name", help="Name of the ROS node", offers=_managed),
+    argument("node_name", help="Name of the ROS node", completer=_managed),
     argument("transition", help="The lifecycle transition"),
     HIDDEN,
 )
-def set_(system: System, asked: Namespace) -> None:
+def set_(system: System, options: Namespace) -> None:
     """Trigger lifecycle state transition."""
-    node = _node(system, asked)
+    node = _node(system, options)
     request = GetAvailableTransitions.Request()
-    service = f"{node}/get_available_transitions"
-    found = system.act(lambda own, _: ask(own, GetAvailableTransitions, service, request))
-    chosen = _chosen([one.transition for one in found.available_transitions], asked.transition)
-    change = ChangeState.Request(transition=chosen)
-    if not system.act(lambda own, _: ask(own, ChangeState, f"{node}/change_state", change)).success:
-        raise Wrong("Transitioning failed")
-    system.say("Transitioning successful")
+    response = system.call(GetAvailableTransitions, f"{node}/get_available_transitions", request)
+    available = [each.transition for each in response.available_transitions]
+    change = ChangeState.Request(transition=_find(available, options.transition))
+    if not system.call(ChangeState, f"{node}/change_state", change).success:
+        raise CliError("Transitioning failed")
+    system.print_line("Transitioning successful")
 
 
-def _chosen(available: list[Transition], word: str) -> Transition:
-    for one in available:
-        if word in (one.label, str(one.id)):
-            return one
-    near = closest_match(word, [one.label for one in available])
-    lines = "".join(f"\n- {one.label} [{one.id}]" for one in available)
+def _find(available: list[Transition], label_or_id: str) -> Transition:
+    for each in available:
+        if label_or_id in (each.label, str(each.id)):
+            return each
+    near = closest_match(label_or_id, [each.label for each in available])
+    lines = "".join(f"\n- {each.label} [{each.id}]" for each in available)
     hint = f"\nDid you mean {near}?" if near else ""
-    raise Wrong(f"Unknown transition requested, available ones are:{lines}{hint}")
+    raise CliError(f"Unknown transition requested, available ones are:{lines}{hint}")

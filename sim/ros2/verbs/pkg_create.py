@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sim.ros2.group import argument
 from sim.ros2.new_package import NewPackage
-from sim.ros2.system import Voice, Wrong
+from sim.ros2.system import CliError, Output
 from sim.ros2.verbs.pkg import pkg
 
 APACHE = Path(__file__).parents[3] / "LICENSE"  # the course's own
@@ -56,62 +56,62 @@ BUILD_TYPES = ("ament_cmake", "ament_python")
     argument("--maintainer-name", help="name of the maintainer of this package"),
     argument("--node-name", help="name of the empty executable"),
     argument("--library-name", help="name of the empty library; of ament_python alone"),
-    alone=True,
+    without_system=True,
 )
-def create(voice: Voice, asked: Namespace) -> None:
+def create(output: Output, options: Namespace) -> None:
     """Create a new ROS 2 package."""
-    package = _described(voice, asked)
-    folder = os.path.join(asked.destination_directory, package.name)
+    package = _new_package(output, options)
+    folder = os.path.join(options.destination_directory, package.name)
     if os.path.exists(folder):
-        raise Wrong(
+        raise CliError(
             f"\nAborted!\nThe directory already exists: {folder}\nEither remove the directory or choose a "
             "different destination directory or package name"
         )
-    _announce(voice, package, asked.destination_directory)
+    _announce(output, package, options.destination_directory)
     try:
-        _write(voice, package, folder)
+        _write(output, package, folder)
     except OSError as error:
-        raise Wrong(f"unable to create folder: {error.filename}: {error.strerror}") from None
+        raise CliError(f"unable to create folder: {error.filename}: {error.strerror}") from None
 
 
-def _described(voice: Voice, asked: Namespace) -> NewPackage:
-    if asked.build_type == "ament_python" and asked.package_name == "test":
-        raise Wrong(
+def _new_package(output: Output, options: Namespace) -> NewPackage:
+    if options.build_type == "ament_python" and options.package_name == "test":
+        raise CliError(
             "Aborted since 'ament_python' packages can't be named 'test'. "
             "Please choose a different package name."
         )
-    if asked.build_type == "ament_cmake" and asked.library_name:
-        raise Wrong("--library-name makes a library in C++, which is not supported here: leave it out.")
-    node = asked.node_name
-    if node and node == asked.library_name:
+    if options.build_type == "ament_cmake" and options.library_name:
+        raise CliError("--library-name makes a library in C++, which is not supported here: leave it out.")
+    node = options.node_name
+    if node and node == options.library_name:
         node = f"{node}_node"
-        voice.say("[WARNING] node name can not be equal to the library name")
-        voice.say(f"[WARNING] renaming node to {node}")
-    maintainer = asked.maintainer_name or getpass.getuser()
+        output.print_line("[WARNING] node name can not be equal to the library name")
+        output.print_line(f"[WARNING] renaming node to {node}")
+    maintainer = options.maintainer_name or getpass.getuser()
     return NewPackage(
-        name=asked.package_name,
-        build_type=asked.build_type,
-        description=asked.description,
-        license=asked.license,
+        name=options.package_name,
+        build_type=options.build_type,
+        description=options.description,
+        license=options.license,
         maintainer=maintainer,
-        email=asked.maintainer_email or _email() or f"{maintainer}@todo.todo",
-        depends=tuple(asked.dependencies),
-        format=asked.package_format,
+        email=options.maintainer_email or _email() or f"{maintainer}@todo.todo",
+        depends=tuple(options.dependencies),
+        format=options.package_format,
         node=node,
-        library=asked.library_name,
+        library=options.library_name,
     )
 
 
 def _email() -> str:
-    """The user's address as git knows it, or nothing."""
+    """The email address in git's configuration, or an empty text."""
     git = shutil.which("git")
     if git is None:
         return ""
-    asked = subprocess.run([git, "config", "user.email"], stdout=subprocess.PIPE, text=True)
-    return asked.stdout.strip()
+    done = subprocess.run([git, "config", "user.email"], stdout=subprocess.PIPE, text=True)
+    return done.stdout.strip()
 
 
-def _announce(voice: Voice, package: NewPackage, destination: str) -> None:
+def _announce(output: Output, package: NewPackage, destination: str) -> None:
     facts = {
         "package name": package.name,
         "destination directory": os.path.abspath(destination),
@@ -125,35 +125,35 @@ def _announce(voice: Voice, package: NewPackage, destination: str) -> None:
         "node_name": package.node,
         "library_name": package.library,
     }
-    voice.say("going to create a new package")
+    output.print_line("going to create a new package")
     for name, value in facts.items():
         if value is not None:
-            voice.say(f"{name}: {value}")
+            output.print_line(f"{name}: {value}")
 
 
-def _write(voice: Voice, package: NewPackage, folder: str) -> None:
-    voice.say(f"creating folder {folder}")
+def _write(output: Output, package: NewPackage, folder: str) -> None:
+    output.print_line(f"creating folder {folder}")
     os.makedirs(folder)
     for path, text in package.files():
-        place = os.path.join(folder, path)
+        target = os.path.join(folder, path)
         if path in (f"{package.name}/", "src/"):
             both = " and include" * (path == "src/")
-            voice.say(f"creating source{both} folder")
+            output.print_line(f"creating source{both} folder")
         if path.endswith("/"):
-            voice.say(f"creating folder {place.rstrip('/')}")
-            os.makedirs(place)
+            output.print_line(f"creating folder {target.rstrip('/')}")
+            os.makedirs(target)
         else:
-            voice.say(f"creating {place}")
-            Path(place).write_text(text, encoding="utf-8")
-    _write_license(voice, package, Path(folder, "LICENSE"))
+            output.print_line(f"creating {target}")
+            Path(target).write_text(text, encoding="utf-8")
+    _write_license(output, package, Path(folder, "LICENSE"))
 
 
-def _write_license(voice: Voice, package: NewPackage, file: Path) -> None:
+def _write_license(output: Output, package: NewPackage, file: Path) -> None:
     text = LICENSE_FILES.get(package.license)
     if text is not None:
         shutil.copyfile(text, file)
         return
-    voice.say(
+    output.print_line(
         f"\n[WARNING]: Unknown license '{package.license}'.  This has been set in the package.xml, but no "
         "LICENSE file has been created.\nIt is recommended to use one of the ament license identifiers:\n"
         + "\n".join(LICENSE_FILES)

@@ -1,4 +1,4 @@
-"""ros2 run: one program of a package."""
+"""ros2 run: runs a program of a package."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import subprocess
 from argparse import Namespace
 
 from sim.ros.packages import ExecutableNotFound, PackageNotFound, command_of, executables, packages
+from sim.ros2.environment import environment_before, require_terminal
 from sim.ros2.group import Group, argument
-from sim.ros2.surroundings import environment_before, need_terminal
-from sim.ros2.system import Voice, Wrong
+from sim.ros2.system import CliError, Output
 
 run = Group("run", "Run a package specific executable")
 
 
-def _programs(asked: Namespace) -> list[str]:
-    """The programs of the package that was named; none where there is no such package."""
+def _programs(options: Namespace) -> list[str]:
+    """The programs of the package in the options; none if there is no such package."""
     try:
-        return executables(asked.package_name)
+        return executables(options.package_name)
     except PackageNotFound:
         return []
 
@@ -28,28 +28,30 @@ def _programs(asked: Namespace) -> list[str]:
 @run.verb(
     "",
     argument("--prefix", help="Prefix command, which should go before the executable."),
-    argument("package_name", help="Name of the ROS package", offers=lambda *_: packages()),
-    argument("executable_name", help="Name of the executable", offers=lambda _, asked: _programs(asked)),
+    argument("package_name", help="Name of the ROS package", completer=lambda *_: packages()),
+    argument(
+        "executable_name", help="Name of the executable", completer=lambda _, options: _programs(options)
+    ),
     argument("argv", nargs=argparse.REMAINDER, help="Pass arbitrary arguments to the executable"),
-    alone=True,
+    without_system=True,
 )
-def run_(voice: Voice, asked: Namespace) -> None:
+def run_(output: Output, options: Namespace) -> None:
     """Run a package specific executable."""
-    package, name = asked.package_name, asked.executable_name
-    need_terminal("run", f'run(executable("{package}", "{name}"))')
+    package, name = options.package_name, options.executable_name
+    require_terminal("run", f'run(executable("{package}", "{name}"))')
     try:
         command = command_of(package, name)
     except (PackageNotFound, ExecutableNotFound) as error:
-        raise Wrong(str(error)) from None
+        raise CliError(str(error)) from None
     process = subprocess.Popen(
-        [*shlex.split(asked.prefix or ""), *command, *asked.argv], env=environment_before()
+        [*shlex.split(options.prefix or ""), *command, *options.argv], env=environment_before()
     )
     while process.returncode is None:
-        with contextlib.suppress(KeyboardInterrupt):  # the terminal has told the program, too
+        with contextlib.suppress(KeyboardInterrupt):  # the program gets SIGINT, too
             process.wait()
     status = process.returncode
     if status < 0:
-        voice.say(f"[ros2run]: {signal.strsignal(-status)}")
+        output.print_line(f"[ros2run]: {signal.strsignal(-status)}")
     elif status:
-        voice.say(f"[ros2run]: Process exited with failure {status}")
+        output.print_line(f"[ros2run]: Process exited with failure {status}")
     raise SystemExit(status)

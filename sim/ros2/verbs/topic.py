@@ -1,4 +1,4 @@
-"""ros2 topic: which topics there are, and who is at their ends."""
+"""ros2 topic: list topics, and print their endpoints."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from argparse import Namespace
 from sim.evidence import Endpoint
 from sim.ros.messages.definitions import installed_file
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.system import System, Wrong, guess
+from sim.ros2.system import CliError, System, suggestion
 
 topic = Group("topic", "Topics: list, listen, measure, publish")
 NAME = argument(
     "topic_name",
     help="Name of the ROS topic (e.g. '/chatter')",
-    offers=lambda system, _: list(system.topics(hidden=True)),
+    completer=lambda system, _: list(system.topics(hidden=True)),
 )
 
 
-def types_of(system: System, asked: Namespace) -> list[str]:
-    """The types of the topic that was named, as far as somebody has it."""
-    return system.topics(hidden=True).get(asked.topic_name, [])
+def types_of(system: System, options: Namespace) -> list[str]:
+    """The types of the topic in the options, if it exists."""
+    return system.topics(hidden=True).get(options.topic_name, [])
 
 
 HIDDEN = flag("--include-hidden-topics", help="Consider hidden topics as well")
 COUNT = flag("-c", "--count-topics", help="Only display the number of topics discovered")
-SIDES = {"publisher": "Published", "subscription": "Subscribed"}
-WORDS = {"publisher": "publisher", "subscription": "subscriber"}
+TITLES = {"publisher": "Published", "subscription": "Subscribed"}
+NOUNS = {"publisher": "publisher", "subscription": "subscriber"}
 
 
 @topic.verb(
@@ -36,23 +36,23 @@ WORDS = {"publisher": "publisher", "subscription": "subscriber"}
     HIDDEN,
     flag("-v", "--verbose", help="List full details about each topic"),
 )
-def list_(system: System, asked: Namespace) -> None:
+def list_(system: System, options: Namespace) -> None:
     """Output a list of available topics."""
-    found = system.topics(hidden=asked.include_hidden_topics)
-    if asked.count_topics:
-        system.say(str(len(found)))
-    elif asked.verbose:
-        for kind, side in SIDES.items():
-            ends = [end.name for end in system.ends if end.kind == kind]
+    found = system.topics(hidden=options.include_hidden_topics)
+    if options.count_topics:
+        system.print_line(str(len(found)))
+    elif options.verbose:
+        for kind, title in TITLES.items():
+            endpoints = [end.name for end in system.endpoints if end.kind == kind]
             lines = [
-                f" * {name} [{', '.join(types)}] {count} {WORDS[kind]}{'s' if count > 1 else ''}"
+                f" * {name} [{', '.join(types)}] {count} {NOUNS[kind]}{'s' if count > 1 else ''}"
                 for name, types in found.items()
-                if (count := ends.count(name))
+                if (count := endpoints.count(name))
             ]
-            system.say("\n".join([f"{side} topics:", *lines, ""]))
+            system.print_line("\n".join([f"{title} topics:", *lines, ""]))
     else:
         for name, types in found.items():
-            system.say(f"{name} [{', '.join(types)}]" if asked.show_types else name)
+            system.print_line(f"{name} [{', '.join(types)}]" if options.show_types else name)
 
 
 @topic.verb(
@@ -60,22 +60,22 @@ def list_(system: System, asked: Namespace) -> None:
     NAME,
     flag("-v", "--verbose", help="Also the nodes, type hashes and QoS profiles of both ends"),
 )
-def info(system: System, asked: Namespace) -> None:
+def info(system: System, options: Namespace) -> None:
     """Print information about a topic."""
-    found = system.look_for(asked.topic_name, lambda: system.topics(hidden=True))
-    if asked.topic_name not in found:
-        raise Wrong(f"Unknown topic '{asked.topic_name}'{guess(asked.topic_name, found)}")
-    gap = "\n" if asked.verbose else ""
-    types = found[asked.topic_name]
-    system.say(f"Type: {types[0] if len(types) == 1 else types}{gap}")
-    for kind, word in (("publisher", "Publisher"), ("subscription", "Subscription")):
-        ends = [end for end in system.ends if (end.kind, end.name) == (kind, asked.topic_name)]
-        system.say(f"{word} count: {len(ends)}{gap}")
-        for end in ends if asked.verbose else ():
-            system.say(_described(end) + gap)
+    found = system.look_up(options.topic_name, lambda: system.topics(hidden=True))
+    if options.topic_name not in found:
+        raise CliError(f"Unknown topic '{options.topic_name}'{suggestion(options.topic_name, found)}")
+    gap = "\n" if options.verbose else ""
+    types = found[options.topic_name]
+    system.print_line(f"Type: {types[0] if len(types) == 1 else types}{gap}")
+    for kind, title in (("publisher", "Publisher"), ("subscription", "Subscription")):
+        endpoints = [end for end in system.endpoints if (end.kind, end.name) == (kind, options.topic_name)]
+        system.print_line(f"{title} count: {len(endpoints)}{gap}")
+        for end in endpoints if options.verbose else ():
+            system.print_line(_format(end) + gap)
 
 
-def _described(end: Endpoint) -> str:
+def _format(end: Endpoint) -> str:
     space, _, name = end.node.rpartition("/")
     qos = end.qos
     history = qos.get("history", "unknown").upper()
@@ -106,26 +106,26 @@ def _duration(seconds: float | None) -> str:
 def _type_hash(type_: str) -> str:
     try:
         hashes = json.loads(installed_file(type_, "json").read_text())["type_hashes"]
-    except (LookupError, OSError):  # a type that this machine doesn't have
+    except (LookupError, OSError):  # the type is not installed
         return "INVALID"
-    return next((one["hash_string"] for one in hashes if one["type_name"] == type_), "INVALID")
+    return next((each["hash_string"] for each in hashes if each["type_name"] == type_), "INVALID")
 
 
 @topic.verb("type", NAME, HIDDEN)
-def type_(system: System, asked: Namespace) -> None:
+def type_(system: System, options: Namespace) -> None:
     """Print a topic's type."""
-    found = system.look_for(asked.topic_name, lambda: system.topics(hidden=True))
-    if asked.topic_name not in found:
-        near = guess(asked.topic_name, found)
-        raise Wrong(f"Unknown topic '{asked.topic_name}'{near}")
-    for name in found[asked.topic_name]:
-        system.say(name)
+    found = system.look_up(options.topic_name, lambda: system.topics(hidden=True))
+    if options.topic_name not in found:
+        near = suggestion(options.topic_name, found)
+        raise CliError(f"Unknown topic '{options.topic_name}'{near}")
+    for name in found[options.topic_name]:
+        system.print_line(name)
 
 
 @topic.verb("find", argument("topic_type", help="Topic type to filter for, package/msg/Name"), COUNT, HIDDEN)
-def find(system: System, asked: Namespace) -> None:
+def find(system: System, options: Namespace) -> None:
     """Output a list of available topics of a given type."""
-    topics = system.topics(hidden=asked.include_hidden_topics)
-    found = [name for name, types in topics.items() if asked.topic_type in types]
-    for line in [str(len(found))] if asked.count_topics else found:
-        system.say(line)
+    topics = system.topics(hidden=options.include_hidden_topics)
+    found = [name for name, types in topics.items() if options.topic_type in types]
+    for line in [str(len(found))] if options.count_topics else found:
+        system.print_line(line)

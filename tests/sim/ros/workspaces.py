@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.ros2 import words
+from sim.ros2 import parser
 
 COLCON = Path(sys.executable).with_name("colcon")
 TALKER = """\
@@ -70,7 +70,7 @@ def create(folder: Path, line: str) -> None:
     """Say `ros2 pkg create ...` in a folder."""
     asked = ["pkg", "create", *shlex.split(line)]
     at = ["--destination-directory", str(folder)]
-    assert words.obey(words.parser(), [*asked, *at], None, lambda _: None, print) == 0
+    assert parser.execute(parser.make_parser(), [*asked, *at], None, lambda _: None, print) == 0
 
 
 def build(workspace: Path, *options: str) -> str:

@@ -3,8 +3,8 @@
 import json
 import sys
 
-from sim.ros2 import words
-from sim.ros2.live import Live
+from sim.ros2 import parser
+from sim.ros2.live import LiveSystem
 
 
 class Kept:
@@ -21,12 +21,14 @@ class Kept:
 
 
 def main():
-    reader = words.parser()
+    command_parser = parser.make_parser()
     said, complained = [], []
-    with Live(said.append, complained.append) as system:
+    with LiveSystem(said.append, complained.append) as system:
         for line in sys.stdin:
             asked = json.loads(line)
-            status = words.obey(reader, asked, lambda: Kept(system), said.append, complained.append)
+            status = parser.execute(
+                command_parser, asked, lambda: Kept(system), said.append, complained.append
+            )
             print(json.dumps({"said": said, "complained": complained, "status": status}), flush=True)
             said.clear()
             complained.clear()

@@ -17,27 +17,27 @@ def sockets(tmp_path, monkeypatch):
 
 def test_each_participant_has_two_ports_of_its_domain(sockets):
     sockets(7410, 7411, 7400 + 250 * 42 + 12, 7400 + 250 * 42 + 13, 53, 7400, 40000)
-    assert domains.here() == {0, 42}
-    assert domains.ports(42) == {17912, 17913}
+    assert domains.active_domains() == {0, 42}
+    assert domains.participant_ports(42) == {17912, 17913}
 
 
 def test_the_domain_where_somebody_is_gets_named(sockets):
     sockets(17910, 17911, 7410, 7411)
-    assert domains.note(7) == (
+    assert domains.no_nodes_hint(7) == (
         "Nobody is on ROS domain 7 of this machine; there are nodes on 0 and 42."
         " To speak with them: export ROS_DOMAIN_ID=42"
     )
     sockets(7410, 7411)
-    assert domains.note(42) == (
+    assert domains.no_nodes_hint(42) == (
         "Nobody is on ROS domain 42 of this machine; there are nodes on 0. To speak with them: export"
         " ROS_DOMAIN_ID=0 (runs in notebooks are there, too, and hear nobody)"
     )
     sockets()
-    assert domains.note(42) == (
+    assert domains.no_nodes_hint(42) == (
         "Nobody is on ROS domain 42 of this machine: start a node in another terminal, with ROS_DOMAIN_ID=42"
     )
 
 
 def test_a_machine_that_does_not_tell_its_sockets_has_none(tmp_path, monkeypatch):
     monkeypatch.setattr(domains, "_SOCKETS", tmp_path / "none")
-    assert domains.here() == set()
+    assert domains.active_domains() == set()

@@ -9,8 +9,8 @@ import pytest
 from launch.logging import launch_config
 
 from sim import run
-from sim.ros2 import words
-from sim.ros2.typed import terminal
+from sim.ros2 import parser
+from sim.ros2.cli_program import terminal
 from tests.sim.ros.installed import NAME, install, sourced
 from tests.sim.ros2.test_terminal import ROS2, start
 from tests.sim.standalone.programs import REPOSITORY, free_domain
@@ -36,7 +36,7 @@ def say(package, monkeypatch):
 
     def ask(line):
         lines = []
-        status = words.obey(words.parser(), shlex.split(line), None, lines.append, lines.append)
+        status = parser.execute(parser.make_parser(), shlex.split(line), None, lines.append, lines.append)
         return status, lines
 
     return ask

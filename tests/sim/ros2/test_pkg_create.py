@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from catkin_pkg.package import parse_package
 
-from sim.ros2 import words
+from sim.ros2 import parser
 
 EXPECTED = Path(__file__).with_name("new_packages.txt")
 COMMANDS = [
@@ -21,7 +21,7 @@ WHO = " --maintainer-name Ada --maintainer-email ada@home.org"
 def say(line: str) -> tuple[int, str]:
     """The status and the words of `ros2 pkg ...`."""
     said: list[str] = []
-    status = words.obey(words.parser(), ["pkg", *shlex.split(line)], None, said.append, said.append)
+    status = parser.execute(parser.make_parser(), ["pkg", *shlex.split(line)], None, said.append, said.append)
     return status, "\n".join(said)
 
 

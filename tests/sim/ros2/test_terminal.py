@@ -104,12 +104,12 @@ class Going:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)
 
-def obey(*_):
+def execute(*_):
     Going()
     while True:
         time.sleep(0.1)
 
-terminal.words.obey = obey
+terminal.parser.execute = execute
 raise SystemExit(terminal.main())
 """
     assert ended([sys.executable, "-c", program, "topic", "list"], free_domain()) == (2, "", "")
@@ -241,7 +241,7 @@ def test_where_the_official_command_is_installed_that_one_is_run(tmp_path):
 def test_ctrl_c_while_an_object_is_made_says_nothing(system):
     program = """
 import signal, sys
-from sim.ros2 import terminal, words
+from sim.ros2 import parser, terminal
 
 class HalfMade:
     def __init__(self):
@@ -251,7 +251,7 @@ class HalfMade:
     def __del__(self):
         assert self.made
 
-words.obey = lambda *_: HalfMade()
+parser.execute = lambda *_: HalfMade()
 sys.exit(terminal.main())
 """
     assert ended([sys.executable, "-c", program], system) == (2, "", "")

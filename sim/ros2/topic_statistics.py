@@ -1,4 +1,4 @@
-"""How often messages come, how much of it and how late, in the form of `ros2 topic hz`, `bw` and `delay`."""
+"""Rate, bandwidth and delay of a topic, as `ros2 topic hz`, `bw` and `delay` print them."""
 
 from __future__ import annotations
 
@@ -9,35 +9,35 @@ from collections.abc import Sequence
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.decoder import decode
-from sim.ros2.system import Arrived, Wrong
+from sim.ros2.system import CliError, ReceivedMessage
 
-EVERY = 1.0  # s between two answers
+REPORT_PERIOD = 1.0  # s
 
 
-class Measure(ABC):
-    """Something that is measured of a topic, over so many messages at most."""
+class TopicStatistic(ABC):
+    """A statistic of a topic. window: of so many messages at most."""
 
-    begin = ""  # what is said first, of the topic's name
+    header = ""  # printed first, formatted with the topic's name
 
     def __init__(self, window: int) -> None:
         self.window = window
-        self._said: float | None = None  # when something was said last
+        self._reported_at: float | None = None
 
     @abstractmethod
-    def add(self, arrived: Arrived) -> None:
-        """A message has come."""
+    def add(self, message: ReceivedMessage) -> None:
+        """Add a received message."""
 
     @abstractmethod
     def text(self, now: float) -> str:
-        """What has been measured by now; nothing where there was too little."""
+        """The current value as text; empty if there are too few messages."""
 
     def due(self, now: float) -> str:
-        """The same, but no more than once in a second."""
-        if self._said is None:
-            self._said = now
-        if now < self._said + EVERY - 1e-9:
+        """As `text`, but only once a second; otherwise empty."""
+        if self._reported_at is None:
+            self._reported_at = now
+        if now < self._reported_at + REPORT_PERIOD - 1e-9:
             return ""
-        self._said = now
+        self._reported_at = now
         return self.text(now)
 
 
@@ -49,45 +49,45 @@ def _spread(what: str, values: Sequence[float], mean: float) -> str:
     )
 
 
-class Rate(Measure):
-    """The average rate."""
+class Rate(TopicStatistic):
+    """The average rate in Hz."""
 
     def __init__(self, window: int) -> None:
         super().__init__(window)
         self._last: float | None = None
         self._gaps: deque[float] = deque(maxlen=window)
-        self._told: float | None = None
+        self._reported: float | None = None
 
-    def add(self, arrived: Arrived) -> None:
-        """As `Measure`."""
+    def add(self, message: ReceivedMessage) -> None:
+        """As `TopicStatistic`."""
         if self._last is not None:
-            self._gaps.append(arrived.stamp - self._last)
-        self._last = arrived.stamp
+            self._gaps.append(message.stamp - self._last)
+        self._last = message.stamp
 
     def text(self, now: float) -> str:
-        """As `Measure`; nothing where none came since the last time."""
-        if not self._gaps or self._last == self._told:
+        """As `TopicStatistic`; empty if no message came since the last report."""
+        if not self._gaps or self._last == self._reported:
             return ""
-        self._told = self._last
+        self._reported = self._last
         mean = sum(self._gaps) / len(self._gaps)
         return _spread(f"average rate: {1 / mean if mean > 0 else 0:.3f}", self._gaps, mean)
 
 
-class Bandwidth(Measure):
-    """Bytes a second."""
+class Bandwidth(TopicStatistic):
+    """Bytes per second."""
 
-    begin = "Subscribed to [{}]"
+    header = "Subscribed to [{}]"
 
     def __init__(self, window: int) -> None:
         super().__init__(window)
         self._sizes: deque[tuple[float, int]] = deque(maxlen=window)
 
-    def add(self, arrived: Arrived) -> None:
-        """As `Measure`."""
-        self._sizes.append((arrived.stamp, len(arrived.raw)))
+    def add(self, message: ReceivedMessage) -> None:
+        """As `TopicStatistic`."""
+        self._sizes.append((message.stamp, len(message.raw)))
 
     def text(self, now: float) -> str:
-        """As `Measure`."""
+        """As `TopicStatistic`."""
         if len(self._sizes) < 2 or now <= self._sizes[0][0]:
             return ""
         sizes = [size for _, size in self._sizes]
@@ -100,14 +100,14 @@ class Bandwidth(Measure):
 
 
 def _bytes(number: float, unit_of: float) -> str:
-    """A number of bytes, in the unit that suits another."""
+    """A number of bytes, in the unit that suits `unit_of`."""
     if unit_of < 1e3:
         return f"{number:.0f} B"
     return f"{number / 1e3:.2f} KB" if unit_of < 1e6 else f"{number / 1e6:.2f} MB"
 
 
-class Delay(Measure):
-    """How long ago a message was stamped as it came. epoch: as of a `System`."""
+class Delay(TopicStatistic):
+    """The time from a message's header stamp to its reception. epoch: as `System.epoch`."""
 
     def __init__(self, window: int, epoch: Nanoseconds) -> None:
         super().__init__(window)
@@ -115,18 +115,18 @@ class Delay(Measure):
         self._delays: deque[float] = deque(maxlen=window)
         self._new = False
 
-    def add(self, arrived: Arrived) -> None:
-        """As `Measure`. Raises Wrong for a message without a stamp."""
-        message = decode(arrived.type, arrived.raw)
-        if not hasattr(message, "header"):
-            raise Wrong("msg does not have header")
-        stamp = message.header.stamp
-        late = self._epoch + round(arrived.stamp * SECOND) - stamp.sec * SECOND - stamp.nanosec
+    def add(self, message: ReceivedMessage) -> None:
+        """As `TopicStatistic`. Raises CliError for a message without a header."""
+        decoded = decode(message.type, message.raw)
+        if not hasattr(decoded, "header"):
+            raise CliError("msg does not have header")
+        stamp = decoded.header.stamp
+        late = self._epoch + round(message.stamp * SECOND) - stamp.sec * SECOND - stamp.nanosec
         self._delays.append(late / SECOND)
         self._new = True
 
     def text(self, now: float) -> str:
-        """As `Measure`."""
+        """As `TopicStatistic`."""
         if not self._delays:
             return ""
         if not self._new:

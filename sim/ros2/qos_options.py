@@ -1,4 +1,4 @@
-"""The options of ros2 that choose a quality of service."""
+"""The ros2 options that select a QoS profile."""
 
 from __future__ import annotations
 
@@ -43,18 +43,18 @@ QOS = (
 )
 
 
-def asked_profile(asked: Namespace, default: str) -> QoSProfile | None:
-    """The profile that the options ask for; None where none of them is given. default: a preset's name."""
-    chosen = {name: getattr(asked, f"qos_{name}") for name in POLICIES}
-    lease = asked.qos_liveliness_lease_duration_seconds
-    if not any((asked.qos_profile, asked.qos_depth, lease, *chosen.values())):
+def profile_from_options(options: Namespace, default: str) -> QoSProfile | None:
+    """The profile selected by the options; None if no such option is given. default: a preset's name."""
+    chosen = {name: getattr(options, f"qos_{name}") for name in POLICIES}
+    lease = options.qos_liveliness_lease_duration_seconds
+    if not any((options.qos_profile, options.qos_depth, lease, *chosen.values())):
         return None
-    profile = copy.copy(QoSPresetProfiles.get_from_short_key(asked.qos_profile or default))
-    for name, word in chosen.items():
-        if word:
-            setattr(profile, name, POLICIES[name].get_from_short_key(word))
-    if asked.qos_depth is not None:
-        profile.depth = asked.qos_depth
+    profile = copy.copy(QoSPresetProfiles.get_from_short_key(options.qos_profile or default))
+    for name, value in chosen.items():
+        if value:
+            setattr(profile, name, POLICIES[name].get_from_short_key(value))
+    if options.qos_depth is not None:
+        profile.depth = options.qos_depth
     if lease:
         profile.liveliness_lease_duration = Duration(seconds=lease)
     if profile.durability is DurabilityPolicy.TRANSIENT_LOCAL and not profile.depth:

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from sim.ros2.typed import terminal
+from sim.ros2.cli_program import terminal
 
 TWIST = "geometry_msgs/msg/Twist '{linear: {x: 0.3}}'"
 SAID = {
