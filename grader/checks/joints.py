@@ -130,9 +130,9 @@ def draws(recording: Recording, line: Sequence[Point], *, tolerance: float = 0.0
 
 def _filled(line: Sequence[Point], step: float) -> np.ndarray:
     """Points on a line through points, at most `step` metres apart; shape (n, 2)."""
-    points = [np.asarray(line[:1], dtype=float)]
+    points = [np.asarray(line[:1])]
     for begin, end in itertools.pairwise(line):
-        count = max(1, math.ceil(math.dist(begin, end) / step))
+        count = math.ceil(math.dist(begin, end) / step)
         points.append(np.linspace(begin, end, count + 1)[1:])
     return np.concatenate(points)
 
