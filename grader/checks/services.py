@@ -1,15 +1,20 @@
-"""Measures over services: who offers them, who asks, and whether the answers come and are right."""
+"""Measures over services: servers, clients, and whether responses come and are right."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from grader.checks.check import Missed
+from grader.checks.check import Missed, hinting
 from grader.checks.ends import declared
-from grader.checks.fields import differing, read, told, words
+from grader.checks.fields import differing, plain, read, told, words
 from grader.checks.no_data import no_data
 from sim.evidence import Call, Endpoint, Recording, Seconds
+
+STUCK = (
+    "The callback of the service has not come back: it waits, or goes round in a loop. Let it note "
+    "in self what is wanted, and return the response at once."
+)
 
 
 def serves(recording: Recording, service: str, type: str = "") -> list[Endpoint]:
@@ -77,13 +82,13 @@ def _began(call: Call) -> Seconds:
 def _miss(call: Call, right: Callable[[Any], Mapping[str, Any]], within: Seconds) -> tuple[str, str] | None:
     """What was expected of an answer and what was seen, for one that isn't as it should be."""
     if call.answered is None or call.answered - _began(call) > within:
-        return f"an answer to {question(call)} within {within:g} s", _no_answer(call)
+        return f"an answer to {call_text(call)} within {within:g} s", _no_answer(call)
     values = right(call.request)
     wrong = differing(call.response, values)
     if not wrong:
         return None
     saw = ", ".join(f"{name}={read(call.response, name)!r}" for name in wrong)
-    return f"{words({name: values[name] for name in wrong})} as the answer to {question(call)}", saw
+    return f"{words({name: values[name] for name in wrong})} as the answer to {call_text(call)}", saw
 
 
 def _no_answer(call: Call) -> str:
@@ -94,7 +99,54 @@ def _no_answer(call: Call) -> str:
     return "no answer" if call.taken is not None else "nobody took the request"
 
 
-def question(call: Call) -> str:
-    """A call in words: "/arm (data=True) at 1.5 s"."""
+def call_text(call: Call) -> str:
+    """Return a call as text: "/arm (data=True) at 1.5 s"."""
     text = told(call.request)
     return f"{call.service}{f' ({text})' if text else ''} at {_began(call):.3g} s"
+
+
+def course_calls(run: Recording, service: str, at_least: int = 1) -> list[Call]:
+    """The course's calls of a service. Raises Missed when the run ended before there were so many."""
+    made = [call for call in run.calls_of(service) if call.requested_by_course]
+    if len(made) < at_least:
+        expected = f"a run that lasts until {service} is called"
+        raise Missed(expected if at_least == 1 else f"{expected} {at_least} times", run.ended.detail)
+    return made
+
+
+def offers(run: Recording, service: str, type: str) -> None:
+    """A node offers a service of this type. Raises Missed with what is offered instead."""
+    name = type.rsplit("/", 1)[-1]
+    with hinting(f'self.create_service({name}, "{service}", self.callback) offers one.'):
+        serves(run, service, type)
+
+
+def has_client(run: Recording, service: str, type: str) -> list[Call]:
+    """The calls that clients of a service made, if any. Raises Missed without a client of this type."""
+    name = type.rsplit("/", 1)[-1]
+    with hinting(f'self.client = self.create_client({name}, "{service}") makes one.'):
+        declared(run, "client", service, type, f"a client for {service} of type {type}")
+    return [call for call in run.calls_of(service) if call.requested is not None]
+
+
+def response_fields(call: Call) -> dict[str, Any]:
+    """Return the fields of the response, as `plain` gives them; {} without one."""
+    return {} if call.response is None else plain(call.response)
+
+
+def is_success(call: Call) -> bool:
+    """Whether the response says success."""
+    fields = response_fields(call)
+    return bool(fields.get("success", fields.get("successful")))
+
+
+def is_refusal(call: Call) -> bool:
+    """Whether the response says that it refuses. Without a response it is neither."""
+    return call.response is not None and not is_success(call)
+
+
+def wrong_response(expected: str, call: Call, guess: str = "", *, credit: float = 0.0) -> Missed:
+    """Return what to raise for a call with another response than expected, or with none."""
+    stuck = call.taken is not None and call.answered is None
+    saw = words(response_fields(call)) or "no answer"
+    return Missed(expected, saw, STUCK if stuck else "", guess=guess, credit=credit, about=(call,))

@@ -60,6 +60,17 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     return measured
 
 
+def keeps_pace(recording: Recording, topic: str, hint: str) -> None:
+    """Messages are published at 10 Hz. Raises Missed; what delays them is a slow callback."""
+    from grader.diagnosis.activity import slow_callback
+
+    try:
+        rate(recording, topic, 10.0)
+    except Missed as missed:
+        missed.hint = slow_callback(recording) or hint  # rate's own is for timers of another period
+        raise
+
+
 def _can_be_heard(recording: Recording, topic: str, expected: str) -> None:
     from grader.diagnosis.connections import publisher_for_each_message
 

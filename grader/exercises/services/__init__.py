@@ -1,12 +1,14 @@
 """The exercises of 03_services, from a service in one line to a mode manager."""
 
-from grader.exercises.services.answering import add, calibrate
+from grader.companions.service_clients import Operator, Pilot, Questioner, Technician, Tuner
+from grader.companions.service_servers import Door, RawGyro, SlowAdder, Wheels
+from grader.exercises.services.add import add
 from grader.exercises.services.arming import arming
-from grader.exercises.services.asking import door, ticks
+from grader.exercises.services.calibrate import calibrate
+from grader.exercises.services.door import door
 from grader.exercises.services.modes import modes
-from grader.exercises.services.partners import Operator, Pilot, Questioner, RawGyro, Technician, Tuner
-from grader.exercises.services.servers import Door, SlowAdder, Wheels
-from grader.exercises.services.settings import launch, parameters
+from grader.exercises.services.parameters import launch, parameters
+from grader.exercises.services.ticks import ticks
 
 __all__ = [
     "Door",

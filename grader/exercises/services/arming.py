@@ -1,4 +1,4 @@
-"""An exercise on a service that does something to the robot: it drives only while it is armed."""
+"""A service with an effect on the robot: it drives only while it is armed."""
 
 from __future__ import annotations
 
@@ -6,11 +6,18 @@ import itertools
 import math
 import re
 
-from grader.checks import Missed, ends_with_a_stop, travelled
-from grader.checks.services import question
+from grader.checks import Missed, ends_with_a_stop, series, travelled
+from grader.checks.check import otherwise
+from grader.checks.services import (
+    call_text,
+    course_calls,
+    is_success,
+    offers,
+    response_fields,
+    wrong_response,
+)
+from grader.companions.service_clients import Pilot
 from grader.exercise import Exercise
-from grader.exercises.services.calls import accepted, answer, offers, our_calls, wrong_answer
-from grader.exercises.services.partners import Pilot
 from sim.evidence import Call, Recording
 
 ARM = "/arm"
@@ -39,61 +46,84 @@ def offers_to_arm(run: Recording) -> None:
     offers(run, ARM, "std_srvs/srv/SetBool")
 
 
-@arming.check(3, after=offers_to_arm)
-def says_what_it_did(run: Recording) -> None:
+@arming.check(
+    3,
+    after=offers_to_arm,
+    guess={
+        INVERTED: lambda run, call: _is_inverted(run),
+        "success says whether the call went well, and here it always does. The message says the rest.": (
+            lambda run, call: _words(call) == [_word(call)]
+        ),
+        'The message says how things are after this call: "armed" if self.armed else "disarmed".': (
+            lambda run, call: is_success(call)
+        ),
+    },
+)
+def reports_its_state(run: Recording) -> None:
     """Every call is answered with success, and with the message `armed` or `disarmed`."""
-    made = our_calls(run, ARM, CALLS)
-    for call in made:
-        if not accepted(call) or _said(call) != [_word(call)]:
-            expected = f"success=True, message={_word(call)!r} for {question(call)}"
-            raise wrong_answer(expected, call, _answering_hint(made, call))
+    for call in course_calls(run, ARM, CALLS):
+        if not is_success(call) or _words(call) != [_word(call)]:
+            raise wrong_response(f"success=True, message={_word(call)!r} for {call_text(call)}", call)
 
 
-@arming.check(4, after=offers_to_arm)
+@arming.check(
+    4,
+    after=offers_to_arm,
+    hints={
+        "Nothing was published on /cmd_vel: publish a Twist in drive, each time.": (
+            lambda run, call: not run.messages("/cmd_vel")
+        ),
+        INVERTED: lambda run, call: _is_inverted(run),
+        "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.": (
+            lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z")
+        ),
+        "All commands were 0: does arm set self.armed (with self), and does drive look at it?": (
+            lambda run, call: not _commands(run, "linear.x")
+        ),
+        SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
+        "A second data=True must not switch it off again: write self.armed = request.data.": (
+            lambda run, call: any(other.request.data for other in _before(run, call)[-1:])
+        ),
+        f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": (
+            otherwise
+        ),
+    },
+)
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
-    _stands(run.during(0.0, our_calls(run, ARM, CALLS)[0].requested), "before the first call", NOT_YET)
+    first = course_calls(run, ARM, CALLS)[0]
+    _stands(run.during(0.0, first.requested), "before the first call", NOT_YET)
     _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
         speed = _mean_speed(phase)
         if not math.isclose(speed, SPEED, rel_tol=0.15):
-            raise Missed(
-                f"{SPEED} m/s after {question(call)}",
-                f"{speed:.2g} m/s",
-                _driving_hint(run, call),
-                picture="path",
-            )
+            expected, saw = f"{SPEED} m/s after {call_text(call)}", f"{speed:.2g} m/s"
+            raise Missed(expected, saw, picture="path", about=(call,))
 
 
 @arming.check(4, after=drives_while_armed)
 def stands_while_disarmed(run: Recording) -> None:
     """While it is not armed, the robot stands still: at the start, too."""
     for call, phase in _phases(run, armed=False):
-        _stands(phase, f"after {question(call)}", NO_MORE)
+        _stands(phase, f"after {call_text(call)}", NO_MORE)
     ends_with_a_stop(run, credit=0.5)
 
 
 def _mean_speed(phase: Recording) -> float:
-    """In m/s, from the first pose to the last; they lie up to 50 ms within the phase, which may be short."""
+    """In m/s, from the first pose to the last; they are up to 50 ms inside the phase, which may be short."""
     seconds = phase.path[-1].stamp - phase.path[0].stamp if phase.path else 0.0
     return travelled(phase) / seconds if seconds else 0.0
 
 
 def _begins_when_armed(run: Recording) -> None:
     """Just before a call that arms it, the robot stands. Raises Missed if not."""
-    made = our_calls(run, ARM, CALLS)
+    made = course_calls(run, ARM, CALLS)
     for before, call in itertools.pairwise(made):
         if call.request.data and not before.request.data:
             begin = max(before.requested + SETTLING, call.requested - JUST)
-            _stands(run.during(begin, call.requested), f"until {question(call)}", _why_it_drives(run, made))
-
-
-def _why_it_drives(run: Recording, made: list[Call]) -> str:
-    """The usual reasons for a robot that drives while it isn't armed."""
-    if _is_inverted(made):
-        return INVERTED
-    armed = run.during(made[1].requested + SETTLING, made[2].requested)
-    return NO_MORE if travelled(armed) > 10 * STILL else SWITCHES
+            armed = run.during(made[1].requested + SETTLING, made[2].requested)
+            hint = INVERTED if _is_inverted(run) else NO_MORE if travelled(armed) > 10 * STILL else SWITCHES
+            _stands(run.during(begin, call.requested), f"until {call_text(call)}", hint)
 
 
 def _stands(phase: Recording, when: str, hint: str) -> None:
@@ -104,8 +134,8 @@ def _stands(phase: Recording, when: str, hint: str) -> None:
 
 
 def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
-    """The calls that armed or disarmed, each with what came of it before the next call."""
-    made = our_calls(run, ARM, CALLS)
+    """The calls that armed or disarmed, each with the run until the next call."""
+    made = course_calls(run, ARM, CALLS)
     ends = [*(call.requested for call in made[1:]), run.ended.stamp]
     return [
         (call, run.during(call.requested + SETTLING, end))
@@ -118,39 +148,24 @@ def _word(call: Call) -> str:
     return "armed" if call.request.data else "disarmed"
 
 
-def _said(call: Call) -> list[str]:
-    return re.findall(r"\b(?:dis)?armed\b", answer(call).get("message", "").lower())
+def _words(call: Call) -> list[str]:
+    return re.findall(r"\b(?:dis)?armed\b", response_fields(call).get("message", "").lower())
 
 
-def _is_inverted(made: list[Call]) -> bool:
-    """Whether each call did the opposite of what it asked for, as its message says."""
-    return all(len(_said(call)) == 1 and _said(call) != [_word(call)] for call in made)
+def _is_inverted(run: Recording) -> bool:
+    """Whether each call did the opposite of its request, by its message."""
+    made = course_calls(run, ARM, CALLS)
+    return all(len(_words(call)) == 1 and _words(call) != [_word(call)] for call in made)
 
 
-def _answering_hint(made: list[Call], call: Call) -> str:
-    if _is_inverted(made):
-        return INVERTED
-    if _said(call) == [_word(call)]:
-        return "success says whether the call went well, and here it always does. The message says the rest."
-    if accepted(call):
-        return 'The message says how things are after this call: "armed" if self.armed else "disarmed".'
-    return "Set response.success and response.message, then return response."
+def _before(run: Recording, call: Call) -> list[Call]:
+    return [other for other in course_calls(run, ARM, CALLS) if other.requested < call.requested]
 
 
-def _driving_hint(run: Recording, call: Call) -> str:
-    made = our_calls(run, ARM, CALLS)
-    before = [other for other in made if other.requested < call.requested]
-    commands = [heard.message for heard in run.messages("/cmd_vel")]
-    if not commands:
-        return "Nothing was published on /cmd_vel: publish a Twist in drive, each time."
-    if _is_inverted(made):
-        return INVERTED
-    if not any(command.linear.x for command in commands):
-        if any(command.angular.z for command in commands):
-            return "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns."
-        return "All commands were 0: does arm set self.armed (with self), and does drive look at it?"
-    if before and travelled(run.during(made[0].requested, made[1].requested)) > 0.1:
-        return SWITCHES
-    if before and before[-1].request.data:
-        return "A second data=True must not switch it off again: write self.armed = request.data."
-    return f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second."
+def _commands(run: Recording, field: str) -> bool:
+    return any(value for _, value in series(run, "/cmd_vel", field))
+
+
+def _drives_before_the_second_call(run: Recording, call: Call) -> bool:
+    first, second = course_calls(run, ARM, CALLS)[:2]
+    return bool(_before(run, call)) and travelled(run.during(first.requested, second.requested)) > 0.1

@@ -1,13 +1,20 @@
-"""The project: a mode manager, made of a parameter, two services and a bumper."""
+"""A mode manager: a parameter, two services and a bumper."""
 
 from __future__ import annotations
 
 from grader.checks import Missed, ends_with_a_stop, named, publishes
 from grader.checks.fields import plain
-from grader.checks.services import question
+from grader.checks.services import (
+    call_text,
+    course_calls,
+    is_refusal,
+    is_success,
+    offers,
+    response_fields,
+    wrong_response,
+)
+from grader.companions.service_clients import Operator
 from grader.exercise import Exercise
-from grader.exercises.services.calls import accepted, answer, offers, our_calls, refused, wrong_answer
-from grader.exercises.services.partners import Operator
 from sim.evidence import Call, Recording, Seconds
 
 ARM, RESET, SET = "/arm", "/reset", "/manager/set_parameters"
@@ -23,12 +30,7 @@ BUMPED = "In on_bumper, when the robot has just bumped: self.armed = False and s
 UNARMED = "Only arming makes the robot drive: look at self.armed in drive, and send zeros without it."
 
 modes = Exercise(
-    "modes",
-    "A mode manager",
-    world="room",
-    seconds=40,
-    companions=[Operator],
-    seeds=(1, 2),
+    "modes", "A mode manager", world="room", seconds=40, companions=[Operator], seeds=(1, 2)
 )
 
 
@@ -38,22 +40,22 @@ def offers_its_services(run: Recording) -> None:
     named(run, "/manager")
     offers(run, ARM, "std_srvs/srv/SetBool")
     offers(run, RESET, "std_srvs/srv/Trigger")
-    first = our_calls(run, SET)[0]
-    if not accepted(first):
+    first = course_calls(run, SET)[0]
+    if not is_success(first):
         guess = 'self.declare_parameter("mode", "idle") in __init__.'
-        if "invalid type" in answer(first).get("reason", ""):
+        if "invalid type" in response_fields(first).get("reason", ""):
             guess = (
                 "check has to return something for a good mode, too: SetParametersResult(successful=True)."
             )
-        raise wrong_answer(f"successful=True for {question(first)}", first, guess)
+        raise wrong_response(f"successful=True for {call_text(first)}", first, guess)
 
 
 @modes.check(5, after=offers_its_services)
 def drives_as_the_mode_says(run: Recording) -> Seconds:
     """While it is armed, /cmd_vel says what the mode says; otherwise it says zero."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
-    our_calls(run, ARM, at_least=3)
-    pressed = [heard.stamp for heard in run.messages("/bumper") if heard.message.data]
+    course_calls(run, ARM, at_least=3)
+    pressed = [row.stamp for row in run.messages("/bumper") if row.message.data]
     bump = pressed[0] if pressed else run.ended.stamp
     mode, armed = "idle", False
     for call, phase in _phases(run.during(0.0, bump)):
@@ -70,38 +72,35 @@ def drives_as_the_mode_says(run: Recording) -> Seconds:
 @modes.check(3, after=offers_its_services)
 def refuses_other_modes(run: Recording) -> None:
     """A mode that it doesn't know is refused, with a reason."""
-    call = next(call for call in our_calls(run, SET, at_least=3) if _mode(call) not in MODES)
-    if not refused(call) or not answer(call)["reason"].strip():
+    call = next(call for call in course_calls(run, SET, at_least=3) if _mode(call) not in MODES)
+    if not is_refusal(call) or not response_fields(call)["reason"].strip():
         guess = 'If p.value not in MODES: return SetParametersResult(successful=False, reason="...").'
-        raise wrong_answer(f"successful=False and a reason for {question(call)}", call, guess)
+        raise wrong_response(f"successful=False and a reason for {call_text(call)}", call, guess)
 
 
 @modes.check(5, after=drives_as_the_mode_says)
 def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     """When the robot bumps into something it stops, and refuses to be armed until it is reset."""
-    again = next(iter(run.during(bump).calls_of(ARM)), None)
-    if again is None:
-        expected, saw = "a robot that drives ahead until it bumps", "it never came to a wall"
-        raise Missed(expected, saw, "In drive: MODES[mode].", picture="path")
+    again = course_calls(run.during(bump), ARM)[0]
     _commands(run.during(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
-    refusal = refused(again)
+    refusal = is_refusal(again)
     if not refusal or not again.response.message.strip():
         guess = (
             "In arm: if request.data and self.bumped, then success is False, and the message says what to "
             "do; otherwise self.armed = request.data."
         )
-        expected = f"success=False and a message for {question(again)}"
-        raise wrong_answer(expected, again, guess, credit=0.6 if refusal else 0.0)
-    reset = our_calls(run, RESET)[0]
+        expected = f"success=False and a message for {call_text(again)}"
+        raise wrong_response(expected, again, guess, credit=0.6 if refusal else 0.0)
+    reset = course_calls(run, RESET)[0]
     _commands(run.during(again.requested, reset.requested), STOPPED, "after arming was refused")
 
 
 @modes.check(3, after=stops_when_it_bumps)
 def drives_on_after_a_reset(run: Recording) -> None:
     """After /reset it can be armed again, and drives."""
-    reset = our_calls(run, RESET)[0]
-    _is_accepted(reset, "In reset: self.bumped = False, response.success = True, return response.")
-    arm, disarm = our_calls(run, ARM, at_least=6)[-2:]
+    reset = course_calls(run, RESET)[0]
+    _is_accepted(reset)
+    arm, disarm = course_calls(run, ARM, at_least=6)[-2:]
     _commands(run.during(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
     again = (
         "reset has to take back what the bump has set: self.bumped = False. And still touching the wall "
@@ -118,7 +117,7 @@ def _mode(call: Call) -> str:
 
 
 def _phases(run: Recording) -> list[tuple[Call | None, Recording]]:
-    """The calls, each with what came of it before the next one; at first no call, and the time before any."""
+    """The calls, each with the run until the next one; first no call, and the time before any."""
     calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.requested)
     begins = [0.0, *(call.requested for call in calls)]
     ends = [*begins[1:], run.ended.stamp]
@@ -128,14 +127,15 @@ def _phases(run: Recording) -> list[tuple[Call | None, Recording]]:
     ]
 
 
-def _is_accepted(call: Call, guess: str) -> None:
-    if not accepted(call):
-        raise wrong_answer(f"success=True for {question(call)}", call, guess)
+def _is_accepted(call: Call, guess: str = "") -> None:
+    if not is_success(call):
+        raise wrong_response(f"success=True for {call_text(call)}", call, guess)
 
 
 def _commands(run: Recording, wanted: Velocity, why: str, guess: str = UNARMED) -> None:
     """All commands are these; without any the robot stands still. guess: for a robot that should stand."""
-    found = [(h.stamp, h.message.linear.x, h.message.angular.z) for h in run.messages("/cmd_vel")]
+    sent = run.messages("/cmd_vel")
+    found = [(row.stamp, row.message.linear.x, row.message.angular.z) for row in sent]
     wrong = [it for it in found if max(abs(it[1] - wanted[0]), abs(it[2] - wanted[1])) > 1e-3]
     if wrong or (not found and any(wanted) and run.stamp - run.begin > SOON):
         at, v, w = wrong[0] if wrong else (run.begin, 0.0, 0.0)

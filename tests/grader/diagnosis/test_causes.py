@@ -2,9 +2,9 @@
 
 import pytest
 
+from grader.companions.service_clients import Tuner
 from grader.diagnosis import DIAGNOSES, explain
 from grader.exercises.actions import DriveServer, SpinServer
-from grader.exercises.services.partners import Tuner
 from sim import run
 from tests.grader.diagnosis import test_radio
 from tests.grader.diagnosis.service_causes import SERVICE_CAUSES

@@ -226,3 +226,21 @@ class LeavesTheStopToTheRobot(DriverThatStartsATimer):
 
     def stop(self):
         pass
+
+
+class ReportsNothing(Driver):
+    def arm(self, request, response):
+        self.armed = request.data
+        return response
+
+
+class PublishesNothing(Driver):
+    def drive(self):
+        Twist(linear=Vector3(x=0.3 if self.armed else 0.0))
+
+
+class SecondYesSwitchesOff(Driver):
+    def arm(self, request, response):
+        self.armed = request.data and not self.armed
+        response.success, response.message = True, "armed" if request.data else "disarmed"
+        return response

@@ -290,3 +290,9 @@ class AsksWithTheClass(Visitor):
     def ask(self):
         if self.client.service_is_ready():
             self.client.call_async(Trigger.Request).add_done_callback(self.hear)
+
+
+class AsksBeforeTheAnswer(Visitor):
+    """Ten times a second, while an answer takes 0.2 s."""
+
+    pause = 0.1

@@ -334,3 +334,23 @@ class LeavesTheStopToTheRobot(StateMachine):
 
     def stop(self):
         pass
+
+
+class ArmsWithoutSuccess(Manager):
+    def arm(self, request, response):
+        super().arm(request, response)
+        response.success = False
+        return response
+
+
+class StandsAfterTheReset(Manager):
+    was_reset = False
+
+    def reset(self, request, response):
+        self.was_reset = True
+        return super().reset(request, response)
+
+    def drive(self):
+        if not self.was_reset:
+            return super().drive()
+        self.publisher.publish(Twist())

@@ -1,4 +1,4 @@
-"""Nodes of ours for 03_services that use the student's services. All they do varies with the run's seed."""
+"""Programs that call students' services. Everything they do varies with the run's seed."""
 
 from __future__ import annotations
 
@@ -11,32 +11,31 @@ from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from std_msgs.msg import Bool, Float64
+from std_msgs.msg import Bool
 from std_srvs.srv import SetBool, Trigger
 
 from grader.checks.fields import plain, words
-from sim.evidence import since_start
 
 READINGS = 50  # that a calibration takes the mean of
 
 
-class Caller(Node):
-    """A node of ours that calls the student's services, logs the answers, and never waits for one."""
+class ServiceCaller(Node):
+    """Calls the student's services, logs the responses, and never waits for one."""
 
-    def ask(self, client: Client, request: Any) -> None:
-        """Call a service, and log what comes of it."""
+    def call(self, client: Client, request: Any) -> None:
+        """Call a service, and log the response."""
         fields = words(plain(request))
-        question = f"{client.service_name} ({fields})" if fields else client.service_name
+        request_text = f"{client.service_name} ({fields})" if fields else client.service_name
         if not client.service_is_ready():
-            self.get_logger().info(f"{question}: nobody offers this service")
+            self.get_logger().info(f"{request_text}: nobody offers this service")
         future = client.call_async(request)
         future.add_done_callback(
-            lambda future: self.get_logger().info(f"{question} -> {words(plain(future.result()))}")
+            lambda future: self.get_logger().info(f"{request_text} -> {words(plain(future.result()))}")
         )
 
 
-class Questioner(Caller):
-    """Asks /add_two_ints (AddTwoInts) once a second, with numbers of every kind."""
+class Questioner(ServiceCaller):
+    """Calls /add_two_ints (AddTwoInts) once a second, with numbers of every kind."""
 
     def __init__(self) -> None:
         super().__init__("questioner")
@@ -46,42 +45,23 @@ class Questioner(Caller):
         self.create_timer(1.0, self.next)
 
     def next(self) -> None:
-        """Ask the next question, as long as there is one."""
+        """Send the next request, as long as there is one."""
         if self.pairs:
             a, b = self.pairs.pop()
-            self.ask(self.client, AddTwoInts.Request(a=a, b=b))
+            self.call(self.client, AddTwoInts.Request(a=a, b=b))
 
 
-class RawGyro(Node):
-    """A gyro on a robot that stands still: Float64 in rad/s on /gyro/raw, 50 a second, from 1 s on.
-
-    It should read 0, but reads a small bias and some noise. At 6 s it has warmed up, and has another bias.
-    """
-
-    def __init__(self) -> None:
-        super().__init__("raw_gyro")
-        self.publisher = self.create_publisher(Float64, "/gyro/raw", 10)
-        self.biases = [random.choice((-1, 1)) * random.uniform(0.05, 0.2) for _ in range(2)]
-        self.create_timer(0.02, self.measure)
-
-    def measure(self) -> None:
-        """Send a reading."""
-        now = since_start(self.get_clock().now().to_msg())
-        if now > 0.99:
-            self.publisher.publish(Float64(data=self.biases[now >= 6.0] + random.gauss(0.0, 0.004)))
-
-
-class Technician(Caller):
+class Technician(ServiceCaller):
     """Calls /gyro/calibrate (Trigger): twice too early, then in time, then when the gyro is warm."""
 
     def __init__(self) -> None:
         super().__init__("technician")
         self.client = self.create_client(Trigger, "/gyro/calibrate")
         for moment in (0.6, 1.5, random.uniform(3.0, 4.0), random.uniform(8.0, 8.5)):
-            at(self, moment, lambda: self.ask(self.client, Trigger.Request()))
+            call_at(self, moment, lambda: self.call(self.client, Trigger.Request()))
 
 
-class Pilot(Caller):
+class Pilot(ServiceCaller):
     """Calls /arm (SetBool): disarms what is not armed, arms, disarms, arms twice, disarms."""
 
     def __init__(self) -> None:
@@ -89,17 +69,17 @@ class Pilot(Caller):
         self.client = self.create_client(SetBool, "/arm")
         moment = random.uniform(0.5, 2.5)
         for armed in (False, True, False, True, True, False):
-            at(self, moment, lambda armed=armed: self.ask(self.client, SetBool.Request(data=armed)))
+            call_at(self, moment, lambda armed=armed: self.call(self.client, SetBool.Request(data=armed)))
             moment += random.uniform(1.2, 2.6)
 
 
-class Reader(Caller):
+class Reader(ServiceCaller):
     """Reads the parameter `speed` of /cruiser."""
 
     def __init__(self, name: str = "reader") -> None:
         super().__init__(name)
         self.get = self.create_client(GetParameters, "/cruiser/get_parameters")
-        at(self, 0.7, lambda: self.ask(self.get, GetParameters.Request(names=["speed"])))
+        call_at(self, 0.7, lambda: self.call(self.get, GetParameters.Request(names=["speed"])))
 
 
 class Tuner(Reader):
@@ -110,13 +90,14 @@ class Tuner(Reader):
         self.set = self.create_client(SetParameters, "/cruiser/set_parameters")
         speeds = [random.randint(40, 45) / 100, random.randint(55, 90) / 100, -0.1, 0.1, 0.5, 0.51, 0.0]
         for number, speed in enumerate(speeds):
-            at(self, 2.0 + 1.5 * number, lambda speed=speed: set_parameter(self, self.set, "speed", speed))
+            moment = 2.0 + 1.5 * number
+            call_at(self, moment, lambda speed=speed: set_parameter(self, self.set, "speed", speed))
 
 
-class Operator(Caller):
-    """Works with the mode manager: /arm (SetBool), /reset (Trigger) and the parameter `mode` of /manager.
+class Operator(ServiceCaller):
+    """Operates the mode manager: /arm (SetBool), /reset (Trigger) and the parameter `mode` of /manager.
 
-    First all that is allowed, and a mode that there isn't; then it drives on until the robot bumps into
+    First everything that is allowed, and a mode that does not exist; then ahead until the robot bumps into
     something. Then it arms once more, resets, and drives away.
     """
 
@@ -136,32 +117,32 @@ class Operator(Caller):
         """Take the steps one after the other, one a second."""
         for number, step in enumerate(steps):
             if step:
-                at(self, begin + number, step)
+                call_at(self, begin + number, step)
 
     def arm(self) -> None:
         """Switch the motors on."""
-        self.ask(self.arming, SetBool.Request(data=True))
+        self.call(self.arming, SetBool.Request(data=True))
 
     def disarm(self) -> None:
         """Switch the motors off."""
-        self.ask(self.arming, SetBool.Request(data=False))
+        self.call(self.arming, SetBool.Request(data=False))
 
     def reset(self) -> None:
-        """Say that all is well again."""
-        self.ask(self.resetting, Trigger.Request())
+        """Reset the emergency stop."""
+        self.call(self.resetting, Trigger.Request())
 
     def mode(self, name: str) -> Callable[[], None]:
-        """What sets the mode."""
+        """Return an action that sets the mode."""
         return lambda: set_parameter(self, self.setting, "mode", name)
 
     def on_bumper(self, msg: Bool) -> None:
-        """After the first bump: try to drive on, reset, drive away."""
+        """After the first bump: try to arm, reset, drive away."""
         if msg.data and not self.bumped:
             self.bumped = True
             self.plan(1.0, self.arm, self.reset, self.mode("back"), self.arm, None, self.disarm)
 
 
-def at(node: Node, moment: float, action: Callable[[], None]) -> None:
+def call_at(node: Node, moment: float, action: Callable[[], None]) -> None:
     """Do something once, so many seconds from now."""
 
     def once() -> None:
@@ -171,7 +152,7 @@ def at(node: Node, moment: float, action: Callable[[], None]) -> None:
     timer = node.create_timer(moment, once)
 
 
-def set_parameter(caller: Caller, client: Client, name: str, value: float | str) -> None:
+def set_parameter(caller: ServiceCaller, client: Client, name: str, value: float | str) -> None:
     """Set one parameter of the student's node, over its service."""
     parameter = Parameter(name, value=value).to_parameter_msg()
-    caller.ask(client, SetParameters.Request(parameters=[parameter]))
+    caller.call(client, SetParameters.Request(parameters=[parameter]))

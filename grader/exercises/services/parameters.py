@@ -1,4 +1,4 @@
-"""Exercises on parameters: a speed that can be set, but not to anything, and a start with another one."""
+"""A speed that can be set within limits, and a node that is started with another one."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ import math
 
 from grader.checks import Missed, named, publishes, series
 from grader.checks.fields import plain
-from grader.checks.services import question
+from grader.checks.services import (
+    call_text,
+    course_calls,
+    is_refusal,
+    is_success,
+    response_fields,
+    wrong_response,
+)
+from grader.companions.service_clients import Reader, Tuner
 from grader.exercise import Exercise
-from grader.exercises.services.calls import accepted, answer, our_calls, refused, wrong_answer
-from grader.exercises.services.partners import Reader, Tuner
 from sim.evidence import Call, Recording, Seconds
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
@@ -18,12 +24,7 @@ SETTINGS = 7  # that the tuner makes
 INSIDE = f"{LOW} <= parameter.value <= {HIGH}"
 
 parameters = Exercise(
-    "parameters",
-    "A speed that can be set",
-    world="yard",
-    seconds=14,
-    companions=[Tuner],
-    seeds=(1, 2),
+    "parameters", "A speed that can be set", world="yard", seconds=14, companions=[Tuner], seeds=(1, 2)
 )
 
 
@@ -31,12 +32,11 @@ parameters = Exercise(
 def declares_speed(run: Recording) -> float:
     """The node /cruiser has a parameter `speed`, a number with a decimal point."""
     named(run, "/cruiser")
-    given = answer(our_calls(run, GET)[0])
+    given = response_fields(course_calls(run, GET)[0])
     if not isinstance(given.get("value"), float):
         raise Missed(
             "a parameter `speed` of /cruiser with a value such as 0.2",
             "no such parameter, or one of another kind" if given else "no answer",
-            guess='In __init__: self.declare_parameter("speed", 0.2). Its kind is that of the default.',
         )
     return given["value"]
 
@@ -50,14 +50,14 @@ def begins_with_its_default(run: Recording, speed: float) -> None:
 @parameters.check(4, after=declares_speed)
 def follows_the_setting(run: Recording) -> None:
     """A new speed takes effect at once: on /cmd_vel, linear.x is what the parameter says."""
-    made = our_calls(run, SET, SETTINGS)
+    made = course_calls(run, SET, SETTINGS)
     for call in filter(_is_allowed, made):
-        if not accepted(call):
+        if not is_success(call):
             guess = (
                 f"A speed from {LOW} to {HIGH}, both ends included, is fine. Look at the new one, in "
                 "parameter.value, and return SetParametersResult(successful=True)."
             )
-            raise wrong_answer(f"successful=True for {question(call)}", call, guess)
+            raise wrong_response(f"successful=True for {call_text(call)}", call, guess)
         later = [other.requested for other in made if other.requested > call.requested]
         _drives_at(run, _speed(call), call.requested + 0.3, min(later, default=math.inf))
 
@@ -65,10 +65,10 @@ def follows_the_setting(run: Recording) -> None:
 @parameters.check(4, after=declares_speed)
 def refuses_other_speeds(run: Recording) -> None:
     """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing."""
-    others = [call for call in our_calls(run, SET, SETTINGS) if not _is_allowed(call)]
+    others = [call for call in course_calls(run, SET, SETTINGS) if not _is_allowed(call)]
     for call in others:
-        expected = f"successful=False and a reason for {question(call)}"
-        if not refused(call):
+        expected = f"successful=False and a reason for {call_text(call)}"
+        if not is_refusal(call):
             guess = (
                 "Nothing was refused. Is the method handed over, self.add_on_set_parameters_callback("
                 f"self.check)? And does it refuse where parameter.name is `speed`, unless {INSIDE}?"
@@ -79,12 +79,12 @@ def refuses_other_speeds(run: Recording) -> None:
                     "well, and the robot does something else. Return SetParametersResult(successful=False, "
                     'reason="...").'
                 )
-            if any(map(refused, others)):
+            if any(map(is_refusal, others)):
                 guess = f"The range has two ends: refuse a value unless {INSIDE}."
-            raise wrong_answer(expected, call, guess)
-        if not answer(call)["reason"].strip():
+            raise wrong_response(expected, call, guess)
+        if not response_fields(call)["reason"].strip():
             guess = 'Say why: SetParametersResult(successful=False, reason="...").'
-            raise wrong_answer(expected, call, guess, credit=0.6)
+            raise wrong_response(expected, call, guess, credit=0.6)
 
 
 def _speed(call: Call) -> float:
@@ -99,14 +99,14 @@ def _is_cut(run: Recording, call: Call) -> bool:
     """Whether a speed was accepted, and the robot drove at the nearest one that is allowed."""
     soon = series(run.during(call.requested + 0.3, call.requested + 1.3), "/cmd_vel", "linear.x")
     limit = min(max(_speed(call), LOW), HIGH)
-    return accepted(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
+    return is_success(call) and bool(soon) and all(abs(speed - limit) < 1e-6 for _, speed in soon)
 
 
 def _begins_with(run: Recording, speed: float, expected: float, hint: str = "") -> None:
     """The parameter has the expected value at the start, and the commands, too."""
     if not math.isclose(speed, expected):
         raise Missed(f"speed {expected} from the start", f"{speed:g}", hint)
-    later = [call.requested for call in our_calls(run, SET, at_least=0)]
+    later = [call.requested for call in course_calls(run, SET, at_least=0)]
     _drives_at(run, expected, 0.5, min(later, default=math.inf))
 
 

@@ -1,4 +1,4 @@
-"""Nodes of ours for 03_services whose services the student's nodes use."""
+"""Programs whose services and topics students' clients use: a door, an adder, wheels, a raw gyro."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from example_interfaces.srv import AddTwoInts
 from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
-from std_msgs.msg import Int64
+from std_msgs.msg import Float64, Int64
 from std_srvs.srv import Trigger
 
-from grader.exercises.services.partners import at
+from grader.companions.service_clients import call_at
+from sim.evidence import since_start
 
 REFUSALS = (
     "The door is locked.",
@@ -22,25 +23,25 @@ REFUSALS = (
 
 
 class Door(Node):
-    """Offers /door/open (Trigger), but only from 2 or 3 s on; says no two or three times, then yes.
+    """Offers /door/open (Trigger), but only from 2 or 3 s on; refuses two or three times, then opens.
 
-    Times and words come from the run's seed.
+    Times and messages come from the run's seed.
     """
 
     def __init__(self) -> None:
         super().__init__("door")
         self.refusals = random.sample(REFUSALS, random.randint(2, 3))
-        at(self, random.uniform(2.1, 3.4), self.open_up)
+        call_at(self, random.uniform(2.1, 3.4), self.open_up)
 
     def open_up(self) -> None:
-        """Begin to answer."""
+        """Offer the service."""
         try:
             self.create_service(Trigger, "/door/open", self.answer)
         except rclpy_implementation.RCLError:  # the student's client is of another type
             self.get_logger().info("/door/open is used with another type")
 
     def answer(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """No, no, yes."""
+        """Refuse as long as there is a refusal left."""
         self.get_clock().sleep_for(Duration(seconds=0.2))  # it takes a moment
         response.success = not self.refusals
         response.message = "The door is open." if response.success else self.refusals.pop()
@@ -55,7 +56,7 @@ class SlowAdder(Node):
         self.create_service(AddTwoInts, "/add_two_ints", self.add)
 
     def add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
-        """Think, then add."""
+        """Wait, then add."""
         self.get_clock().sleep_for(Duration(seconds=0.3))
         response.sum = request.a + request.b
         return response
@@ -71,7 +72,26 @@ class Wheels(Node):
         self.create_timer(0.2, self.turn)
 
     def turn(self) -> None:
-        """A bit further, and never the same way on both sides."""
+        """Turn a bit further, by different amounts on the two sides."""
         for side, publisher in enumerate(self.sides):
             self.counts[side] += random.randint(3, 20)
             publisher.publish(Int64(data=self.counts[side]))
+
+
+class RawGyro(Node):
+    """A gyro on a robot at rest: Float64 in rad/s on /gyro/raw at 50 Hz, from 1 s on.
+
+    It should read 0, but reads a small bias and some noise. At 6 s it has warmed up and has another bias.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("raw_gyro")
+        self.publisher = self.create_publisher(Float64, "/gyro/raw", 10)
+        self.biases = [random.choice((-1, 1)) * random.uniform(0.05, 0.2) for _ in range(2)]
+        self.create_timer(0.02, self.measure)
+
+    def measure(self) -> None:
+        """Publish a reading."""
+        now = since_start(self.get_clock().now().to_msg())
+        if now > 0.99:
+            self.publisher.publish(Float64(data=self.biases[now >= 6.0] + random.gauss(0.0, 0.004)))

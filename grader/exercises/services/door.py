@@ -1,0 +1,109 @@
+"""A client that gets what it wants from a door, and goes on meanwhile."""
+
+from __future__ import annotations
+
+import itertools
+
+from grader.checks import Missed, series
+from grader.checks.services import has_client, is_refusal, is_success
+from grader.checks.topics import keeps_pace
+from grader.companions.service_servers import Door
+from grader.exercise import Exercise
+from grader.responses import Window
+from sim.evidence import Call, Recording
+
+WAITING = (
+    "While a callback or __init__ waits, nothing else of the node can run, and no answer comes in. "
+    "Ask, return, and let the done callback do the rest."
+)
+OPEN = "/door/open"
+
+door = Exercise(
+    "door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2)
+)
+
+
+@door.check(4)
+def calls_the_door(run: Recording) -> list[Call]:
+    """The node asks /door/open (Trigger), although the door comes late."""
+    made = has_client(run, OPEN, "std_srvs/srv/Trigger")
+    taken = [call for call in made if call.taken is not None]
+    lost = [call for call in made if call.lost]
+    answered = [call for call in made if call.answered is not None]
+    if lost or not taken:
+        hint = (
+            "A question to a service that isn't there yet is lost. Let a timer look once a second, and ask "
+            "only when self.client.service_is_ready(), with brackets, is True."
+        )
+        saw = f"{len(lost)} asked too early, at {lost[0].requested:.3g} s" if lost else "no question"
+        credit = 0.5 if taken else 0.0
+        raise Missed("questions to the door, once it is there", saw, hint, credit=credit, measured=answered)
+    if all(call.received is None for call in taken):
+        saw = f"it asked at {taken[0].requested:.3g} s, and took no answer"
+        raise Missed("a question, and the answer", saw, WAITING)
+    return answered
+
+
+@door.check(3, after=calls_the_door)
+def keeps_driving_commands(run: Recording) -> None:
+    """While it waits, the node goes on: a command on /cmd_vel comes 10 times a second."""
+    keeps_pace(run, "/cmd_vel", WAITING)
+
+
+@door.check(
+    3,
+    after=calls_the_door,
+    guess="In the done callback: answer = future.result(). When answer.success is False: "
+    "self.get_logger().warning(answer.message).",
+)
+def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
+    """Each refusal is logged as a warning, with the door's message."""
+    for call in filter(is_refusal, answered):
+        message = call.response.message
+        soon = Window.after(call.answered, 0.6).rows(run.logs)
+        lines = [line for line in soon if message in line.text]
+        if not any(line.level == "WARN" for line in lines):
+            saw = f"“{lines[0].text}” at level {lines[0].level}" if lines else "no line with it"
+            raise Missed(f"a warning with “{message}” at {call.answered:.3g} s", saw)
+
+
+@door.check(3, after=calls_the_door)
+def calls_until_yes(run: Recording, answered: list[Call]) -> None:
+    """After a no it asks again, about once a second; after the yes it asks no more."""
+    pauses = [after.requested - before.answered for before, after in itertools.pairwise(answered)]
+    if pauses and max(pauses) < 0.3:
+        saw = f"{max(pauses):.2g} s" if max(pauses) >= 0 else "it asks again before the answer is there"
+        guess = "Only the timer asks, once a second: no loop, and not the done callback."
+        raise Missed("a pause of about a second before it asks again", saw, guess=guess)
+    yes = _yes(answered)
+    if yes is None:
+        saw = f"{len(answered)} in all, the last at {answered[-1].requested:.3g} s, and it was refused"
+        guess = "Let a timer ask once a second, for as long as the answer is no."
+        raise Missed("questions until the door says yes", saw, guess=guess)
+    late = [call for call in answered if call.requested > yes.answered]
+    if late:
+        saw = f"{len(late)}, the first at {late[0].requested:.3g} s"
+        guess = "When it is open: self.timer.cancel() stops the asking."
+        raise Missed("no question after the yes", saw, guess=guess)
+
+
+@door.check(3, after=calls_the_door)
+def drives_through_the_open_door(run: Recording, answered: list[Call]) -> None:
+    """It stands still until the door says yes, and then drives at 0.3 m/s."""
+    yes = _yes(answered)
+    opened = yes.answered if yes else run.ended.stamp
+    commands = series(run, "/cmd_vel", "linear.x")
+    early = [(at, speed) for at, speed in commands if speed and at < opened]
+    if early:
+        saw = f"{early[0][1]:g} m/s at {early[0][0]:.3g} s, with the door closed"
+        hint = "Not every answer is a yes: look at answer.success before you drive."
+        raise Missed("linear.x 0 until the door is open", saw, hint, unsafe=True)
+    late = [(at, speed) for at, speed in commands if at > opened + 0.5 and abs(speed - 0.3) > 0.03]
+    if late or not yes:
+        saw = f"linear.x {late[0][1]:g} m/s at {late[0][0]:.3g} s" if late else "no yes from the door"
+        guess = "In the done callback, when answer.success is True: self.speed = 0.3."
+        raise Missed("0.3 m/s from the yes on", saw, guess=guess)
+
+
+def _yes(calls: list[Call]) -> Call | None:
+    return next(filter(is_success, calls), None)

@@ -1,0 +1,67 @@
+"""A client that must not freeze while it waits for an answer."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, publishes, series
+from grader.checks.services import call_text, has_client
+from grader.checks.topics import keeps_pace
+from grader.companions.service_servers import SlowAdder, Wheels
+from grader.exercise import Exercise
+from grader.responses import Window
+from sim.evidence import Call, Recording
+
+ADD, TOTAL = "/add_two_ints", "/ticks/total"
+GROUPS = (
+    "While look waits for an answer, or awaits it, nothing else of its callback group runs. Give its timer "
+    "and the client a group of their own, a ReentrantCallbackGroup; or use a done callback."
+)
+
+ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, Wheels], seeds=(1, 2))
+
+
+@ticks.check(4)
+def calls_every_second(run: Recording) -> list[Call]:
+    """Once a second the node asks /add_two_ints."""
+    made = has_client(run, ADD, "example_interfaces/srv/AddTwoInts")
+    due = int(run.seconds) - 1
+    if len(made) < 0.8 * due:
+        hint = "Let a timer with a period of 1 s call look, and ask there: self.client.call_async(request)."
+        raise Missed(f"{due} questions in {run.seconds:g} s", f"{len(made)}", hint)
+    return made
+
+
+@ticks.check(4, after=calls_every_second)
+def publishes_the_totals(run: Recording, made: list[Call]) -> None:
+    """Each answer is published on /ticks/total (Int64), as soon as it is there."""
+    publishes(run, TOTAL, "std_msgs/msg/Int64")
+    for call in made:
+        if call.answered is None:
+            continue
+        total = call.response.sum
+        sent = Window.after(call.answered, 0.2).rows(run.messages(TOTAL))
+        sums = [row.message.data for row in sent]
+        if total not in sums:
+            raise Missed(
+                f"{total} on {TOTAL}, the answer of {call.answered:.3g} s",
+                f"{', '.join(map(str, sums)) or 'no message'} in the 0.2 s after it",
+                guess="Publish the sum of the answer itself, once it is there: answer.sum.",
+            )
+
+
+@ticks.check(2, after=calls_every_second)
+def sends_the_newest_ticks(run: Recording, made: list[Call]) -> None:
+    """It asks for the sum of the newest ticks of both wheels."""
+    counts = [series(run, f"/ticks/{side}", "data") for side in ("left", "right")]
+    for call in made:
+        # Two of each: a message published at the moment of the request may arrive before or after it.
+        left, right = ([value for at, value in side if at <= call.requested][-2:] for side in counts)
+        a, b = call.request.a, call.request.b
+        if not (a in left and b in right) and not (b in left and a in right):
+            hint = "AddTwoInts.Request(a=self.left, b=self.right), made anew for each question."
+            raise Missed(f"a={left[-1]}, b={right[-1]}", call_text(call), hint)
+
+
+@ticks.check(4, after=sends_the_newest_ticks)
+def heart_goes_on(run: Recording) -> None:
+    """The heart beats on at 10 Hz, also while the node waits for an answer."""
+    keeps_pace(run, "/heartbeat", GROUPS)
