@@ -42,7 +42,7 @@ class ByFile(LoadScopeScheduling):
         file, _, rest = nodeid.partition("::")
         if file in LAB:
             return "JupyterLab"
-        if file.startswith("tests/marking/machines/"):
+        if file.startswith("tests/marking/extras/dask_cluster/"):
             return "cluster"
         exercise = rest.partition("[")[2].partition("-")[0] if file.startswith("tests/exercises/") else ""
         return f"{file}[{exercise}]" if exercise else file

@@ -8,7 +8,7 @@ import socket
 import tempfile
 from dataclasses import dataclass, field
 
-from grader.marking.league.contest import Contest
+from grader.marking.extras.league.contest import Contest
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import SubmittedFiles
 

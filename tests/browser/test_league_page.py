@@ -2,9 +2,9 @@
 
 import pytest
 
-from grader.marking.league.contest import Contest, game_of
-from grader.marking.league.page import write_pages
-from grader.marking.league.standings import REFERENCE, Row
+from grader.marking.extras.league.contest import Contest, game_of
+from grader.marking.extras.league.league_pages import write_pages
+from grader.marking.extras.league.standings import REFERENCE, LeagueRow
 from sim import World, run
 from tests.browser.lab import ARTIFACTS
 from tests.browser.pictures import watch
@@ -21,8 +21,8 @@ def league(tmp_path_factory):
     world, rows = World.generate("warehouse", seed=2), []
     for place, (name, node) in enumerate(ROBOTS.items(), 1):
         game = game_of(run(node, world=world, seconds=30, seed=2, quiet=True))
-        reference = name == "the reference"
-        rows.append(Row(REFERENCE if reference else name, name, (game,), rank=0 if reference else place))
+        student, rank = (REFERENCE, 0) if name == "the reference" else (name, place)
+        rows.append(LeagueRow(student, name, (game,), rank=rank))
     return write_pages(tmp_path_factory.mktemp("league"), rows, Contest("words", 1, 30.0), own=False)
 
 

@@ -91,7 +91,7 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
 
 def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[Marker]:
     if settings.dask:
-        from grader.marking.machines import DaskPool  # this import takes half a second
+        from grader.marking.extras.dask_cluster import DaskPool  # this import takes half a second
 
         return DaskPool(settings.dask, settings.unsafe, secret)
     return Pool(settings.jobs, settings.unsafe, secret)

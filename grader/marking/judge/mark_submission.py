@@ -10,7 +10,7 @@ from time import monotonic
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.judge.league_run import LeagueRun
+from grader.marking.extras.league.contest_run import ContestRun
 from grader.marking.judge.marking import Marking, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
@@ -78,7 +78,7 @@ def run_and_play(marking: Marking) -> None:
     for name in marking.exercises:
         marking.cells[name] = []
         if name in marking.rebuilt.notebooks:
-            LeagueRun(marking, name, marking.task.contest).run_all()
+            ContestRun(marking, name, marking.task.contest).run_all()
         else:
             marking.stops.append(marking.rebuilt.missing[name])
 

@@ -26,7 +26,10 @@ PARTS = (
     *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
-MARKING = ("command", "certificate", "gradebook", "machines", "release", "secret.py")
+MARKING = (
+    *("command", "gradebook", "release", "secret.py"),
+    *("extras/certificate", "extras/dask_cluster"),
+)
 KEPT_BACK = (
     *(f"grader/marking/{part}" for part in MARKING),
     *("jupyter/teach", "course/README.md", "grader/README.md"),

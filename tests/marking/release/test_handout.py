@@ -64,7 +64,7 @@ def test_students_get_no_solution_no_test_no_marking_and_nothing_of_a_class(hand
     kept_back = ("solutions/", "tests/", "class/", "work/", "jupyter/teach/", ".secret")
     assert [name for name in handout if name.startswith(kept_back)] == []
     assert {name.split("/")[2] for name in handout if name.startswith("grader/marking/")} == {
-        *("build_process", "submission", "judge", "league", "sandbox", "student_process"),
+        *("build_process", "extras", "submission", "judge", "sandbox", "student_process"),
         *("__init__.py", "cores.py", "errors.py", "journal.py", "outputs.py", "pool.py", "preload.py"),
         *("progress_line.py", "result.py", "task.py", "page_templates.py", "version.py", "atomic_file.py"),
     }

@@ -1,0 +1,1 @@
+"""Optional packages: the core of marking imports none of them at import time."""

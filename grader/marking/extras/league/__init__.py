@@ -1,0 +1,1 @@
+"""`python -m grader league`: compares capstones in the same warehouses."""

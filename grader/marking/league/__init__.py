@@ -1,1 +1,0 @@
-"""`python -m grader league`: capstones in the same warehouses, compared."""
