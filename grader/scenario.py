@@ -1,0 +1,76 @@
+"""One run of the student's programs, with the world and the companions that it has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from grader.programs import Prepare, ProgramSource
+from grader.workspace.package import Package, PackageRun
+from sim.evidence import Recording, Seconds
+from sim.network import Network
+
+Companions = Sequence[Any] | Callable[[int], Sequence[Any]]
+
+
+class CompanionError(Exception):
+    """A node of the course raised an exception: not the student's mistake."""
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One run of the student's nodes.
+
+    seconds: how long it lasts; 0 where nothing is run, and only the package is looked at.
+    world: the name of a world, or None for a run without a robot; or a function of the seed that gives a
+        World, such as `lambda seed: World.generate("maze", seed=seed)`.
+    companions: programs of the course, as for sim.run; or a function of the seed that returns them.
+    until: a function of the growing recording that ends the run early, as in sim.run.
+    prepare: a module's function that makes of each of the student's programs the one that runs in its place.
+    name: by which checks that hold in some scenarios only name this one.
+    network: what lies between the robot and the student's nodes, as in sim.run.
+    fair: the seeds of which students get one each when they are marked, where luck decides in others.
+    """
+
+    world: Any = None
+    seconds: Seconds = 10.0
+    seed: int = 0
+    companions: Companions = ()
+    until: Callable[[Recording], bool] | None = None
+    prepare: Prepare | None = None
+    name: str = ""
+    network: Network | None = None
+    fair: Sequence[int] = ()
+
+    def run(self, source: ProgramSource, seed: int, package: Package | None = None) -> Recording:
+        """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
+
+        The course's programs start first, as a robot's drivers do. Raises CompanionError if one raised.
+        """
+        recording = self._run(source, seed) if self.seconds else Recording(seed=seed)
+        return recording if package is None else PackageRun.of(recording, package)
+
+    def _run(self, source: ProgramSource, seed: int) -> Recording:
+        from sim import run
+
+        recording = run(
+            *source.programs(self.prepare),
+            companions=self.companions(seed) if callable(self.companions) else self.companions,
+            world=self._world(seed),
+            seconds=self.seconds,
+            seed=seed,
+            until=self.until,
+            quiet=True,
+            network=self.network,
+        )
+        for error in recording.course_errors:
+            raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")
+        return recording
+
+    def _world(self, seed: int) -> Any:
+        if not callable(self.world):
+            return self.world
+        world = self.world(seed)
+        # Scores and replays show the name, and in marking the seed is a private one.
+        return replace(world, name=world.name.removesuffix(f"_{seed}"))
