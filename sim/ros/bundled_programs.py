@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import pkgutil
 import sys
+from collections.abc import Callable
 
 # Package -> program -> arguments of `python`. {domain} is replaced by ROS_DOMAIN_ID.
 PROGRAMS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -20,6 +22,8 @@ PROGRAMS: dict[str, dict[str, tuple[str, ...]]] = {
 MODULES_IN_A_RUN: dict[tuple[str, str], str] = {
     ("turtlesim", "turtlesim_node"): "sim.ros.robots.turtlesim_node"
 }
+# Commands that are not part of a package -> the main() function that executes them in a run.
+COMMANDS_IN_A_RUN: dict[str, str] = {"ros2": "sim.ros2.cli_program:ros2"}
 # Programs that are not included: what to use instead.
 ALTERNATIVES: dict[tuple[str, str], str] = {
     ("turtlesim", "turtle_teleop_key"): (
@@ -43,6 +47,12 @@ def module_in_a_run(package: str, name: str) -> str | None:
     """The module whose main() is the program in a run, or None if there is none."""
     arguments = PROGRAMS.get(package, {}).get(name, ())
     return MODULES_IN_A_RUN.get((package, name), arguments[1] if arguments else None)
+
+
+def command_in_a_run(name: str) -> Callable[[], None] | None:
+    """The main() function that executes a command such as `ros2` in a run, or None if there is none."""
+    function = COMMANDS_IN_A_RUN.get(name)
+    return None if function is None else pkgutil.resolve_name(function)
 
 
 def alternative(package: str, name: str) -> str | None:

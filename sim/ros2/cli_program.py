@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import sys
 from collections.abc import Callable, Sequence
 
 import rclpy
@@ -21,10 +22,15 @@ def terminal(command: str | Callable[[], str]) -> Process:
     An invalid command prints an error, as in a terminal, and the program ends.
     """
 
-    def ros2() -> None:
+    def ros2() -> None:  # the program's name
         _execute_line(command() if callable(command) else command)
 
     return Process(ros2)
+
+
+def ros2() -> None:
+    """Execute the command whose arguments are in `sys.argv`: the main() of `ros2` in a launch file."""
+    _execute(sys.argv[1:])
 
 
 def _execute_line(line: str) -> None:

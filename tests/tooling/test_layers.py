@@ -1,4 +1,5 @@
 """Checks that imports follow the layers of the map and have no cycles."""
+
 import ast
 import fnmatch
 import functools
@@ -227,6 +228,31 @@ def test_sim_ros_imports_in_one_direction():
         if SIM_ROS.index(part_of_sim_ros(other)) > SIM_ROS.index(part_of_sim_ros(module))
     ]
     assert back == []
+
+
+def test_sim_ros_imports_no_ros2_commands():
+    files = {module_name(file): source for file, source in modules()}
+    graph = import_graph(files, annotations=True)
+    upward = {
+        f"{module} imports {other}"
+        for module in graph
+        if part_of_sim_ros(module) is not None
+        for other in graph[module]
+        if other.split(".")[:2] == ["sim", "ros2"]
+    }
+    assert upward == set()
+
+
+@pytest.mark.parametrize(
+    "package",
+    ["sim.ros.launching", "sim.ros.messages", "sim.ros.play", "sim.ros.remote", "sim.ros.robots", "sim.ros2"],
+)
+def test_no_imports_of_these_packages_form_a_cycle(package):
+    """Not even imports for annotations."""
+    files = {module_name(file): source for file, source in modules()}
+    inside = {name: source for name, source in files.items() if f"{name}.".startswith(f"{package}.")}
+    assert inside
+    assert find_cycle(import_graph(inside, annotations=True)) == []
 
 
 @pytest.mark.parametrize("folder", ROS_PACKAGES)

@@ -14,6 +14,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from sim.ros.bundled_programs import command_in_a_run
 from sim.ros.engine.program import Process
 from sim.ros.fibers.exceptions import RunOver
 from sim.ros.launching.respawned import kill
@@ -133,17 +134,16 @@ def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]
     """The main() function of a command, and its arguments. Raises UnsupportedProgram."""
     if not cmd:
         raise _unsupported("an empty command")
-    first, *words = cmd
+    first, *arguments = cmd
     name = os.path.basename(first)
-    if name == "ros2":
-        from sim.ros2.cli_program import terminal  # imported late: few launch files need it
-
-        return _named(terminal(shlex.join(["ros2", *words])).target, "ros2"), []
+    command = command_in_a_run(name)
+    if command is not None:
+        return command, arguments
     if PYTHON.fullmatch(name):
-        words = words[1:] if words[:1] == ["-u"] else words
-        if not words or words[0].startswith("-"):
+        arguments = arguments[1:] if arguments[:1] == ["-u"] else arguments
+        if not arguments or arguments[0].startswith("-"):
             raise _unsupported(f"`{shlex.join(cmd)}`")
-        first, *words = words
+        first, *arguments = arguments
     path = Path(folder, first)
     if not path.is_file():
         if first == name and not path.suffix:
@@ -158,7 +158,7 @@ def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]
         names = {"__name__": "__main__", "__file__": str(path)}
         exec(compile(text, str(path), "exec"), names)
 
-    return _named(main, path.stem), words
+    return _named(main, path.stem), arguments
 
 
 def _named(function: Callable[[], None], name: str) -> Callable[[], None]:
