@@ -1,6 +1,7 @@
 """Exceptions as rclpy and Python word them, and what a beginner does about each.
 
-The patterns are those of rclpy 7.1 and CPython 3.11 to 3.14. `{0}`, `{1}` ... stand for the pattern's groups.
+The patterns are those of the versions in `sim.ros.hooks.verify.WRITTEN_FOR`. `{0}`, `{1}` ... are the
+pattern's groups.
 """
 
 from __future__ import annotations

@@ -6,9 +6,11 @@ import sys
 from importlib import metadata
 from pathlib import Path
 
+from sim.distro import RCLPY_DISTRIBUTION
+
 CODE = Path(__file__).parents[2]
 PACKAGES = ("grader", "sim", "ros_packages")  # the last has tf2_ros and launch
-LIBRARIES = ("ros-jazzy-rclpy", "numpy", "pymunk", "ipython", "matplotlib")
+LIBRARIES = (RCLPY_DISTRIBUTION, "numpy", "pymunk", "ipython", "matplotlib")
 
 
 @functools.cache

@@ -14,6 +14,7 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Schema
 from mcap.writer import Writer
 
+from sim.distro import DISTRO
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.definitions import definition
 from sim.ros2.system import CliError, ReceivedMessage
@@ -99,7 +100,7 @@ class BagWriter:
                 "relative_file_paths": [self.file.name],
                 "files": [{"path": self.file.name, **span}],
                 "custom_data": None,
-                "ros_distro": "jazzy",
+                "ros_distro": DISTRO,
             }
         }
 
@@ -146,7 +147,7 @@ class Bag:
             "Files": ("\n" + 19 * " ").join(file.name for file in self.files),
             "Bag size": _size(sum(file.stat().st_size for file in self.files)),
             "Storage id": "mcap",
-            "ROS Distro": "jazzy",
+            "ROS Distro": DISTRO,
             "Duration": f"{_seconds(end - begin)}s",
             "Start": _date(begin),
             "End": _date(end),

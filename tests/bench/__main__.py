@@ -7,6 +7,8 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+from sim.distro import RCLPY_DISTRIBUTION
+
 PARTS = (
     "scenario",
     "startup",
@@ -29,7 +31,7 @@ def machine() -> str:
     """What it all ran on."""
     model = [line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
     processor = model[0].split(":")[1].strip() if model else platform.machine()
-    rclpy = version("ros-jazzy-rclpy")
+    rclpy = version(RCLPY_DISTRIBUTION)
     return f"{processor}, {len(model)} cores; Python {platform.python_version()}, rclpy {rclpy}"
 
 

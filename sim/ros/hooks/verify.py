@@ -10,10 +10,11 @@ from platform import python_version
 from types import FunctionType, ModuleType
 from typing import Any
 
+from sim.distro import RCLPY_DISTRIBUTION
 from sim.ros.hooks.table import Hook
 
 WRITTEN_FOR = {"rclpy": "7.1.6", "numpy": "2.4.6", "Python": "3.11 to 3.14"}
-_DISTRIBUTIONS = {"rclpy": "ros-jazzy-rclpy", "numpy": "numpy"}
+_DISTRIBUTIONS = {"rclpy": RCLPY_DISTRIBUTION, "numpy": "numpy"}
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
