@@ -48,12 +48,12 @@ bench: tools  ## print the benchmarks (make bench ARGS=scenario prints one)
 	$(BIN)/python -m tests.bench $(ARGS)
 
 tidy: tools  ## normalise the notebooks, sort imports
-	$(BIN)/python -m grader.notebooks
+	$(BIN)/python -m grader.notebook_format
 	$(BIN)/ruff check --fix
 
 lint: tools  ## say what is untidy, change nothing
 	$(BIN)/ruff check
-	$(BIN)/python -m grader.notebooks --check
+	$(BIN)/python -m grader.notebook_format --check
 	$(BIN)/python -m grader.marking.release.make_exercises --check
 
 setup: $(VENV)/.interfaces  ## make .venv and nothing more

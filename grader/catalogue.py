@@ -1,4 +1,4 @@
-"""All exercises of the course, found in grader.exercises by their names."""
+"""The catalogue of all exercises in grader.exercises, by name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sim.suggestions import unknown_name
 
 @functools.cache
 def exercises() -> dict[str, Exercise]:
-    """Name to exercise, sorted by name. Raises ValueError when two share one."""
+    """All exercises by name, sorted. Raises ValueError for a duplicate name."""
     import grader.exercises as package
 
     found: dict[str, Exercise] = {}
@@ -26,15 +26,15 @@ def exercises() -> dict[str, Exercise]:
 
 
 def grade(exercise: Exercise | str, *nodes: Any) -> Score:
-    """The score of a student's nodes in an exercise, given as the object or by its name.
+    """The score of a student's nodes in an exercise, given as an object or by name.
 
-    Raises LookupError for a name that no exercise has.
+    Raises LookupError for an unknown name.
     """
     return (exercise if isinstance(exercise, Exercise) else find(exercise)).grade(*nodes)
 
 
 def find(name: str) -> Exercise:
-    """The exercise of this name. Raises LookupError for a name that no exercise has."""
+    """The exercise with this name. Raises LookupError for an unknown name."""
     known = exercises()
     if name not in known:
         raise LookupError(unknown_name("exercise", name, known))

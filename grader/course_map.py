@@ -1,6 +1,6 @@
-"""The map of the course: its notebooks with times, what is done and the points so far, and what comes next.
+"""The course map: all notebooks with their time, progress and points, and the next one.
 
-All of it is read from the notebooks as they were saved last, so there is nothing else to keep in step.
+Everything is read from the saved notebooks; no other state is stored.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from grader.page import number
+from grader.page import format_points
 
 PART = re.compile(r"(\d\d)_(\w+)")
-# What a notebook's first cell says of itself.
+# Metadata in the text of a notebook's first cell.
 TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
 NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
-DONE = 0.9  # of a lesson's cells; who leaves out the rest has read it, too
-NEW_VERSION = "-new"  # ends the name of a newer version that came to lie beside the student's own
+DONE = 0.9  # fraction of a lesson's cells that counts as done
+NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
 
 
 @dataclass(frozen=True)
 class Notebook:
-    """A lesson or an assignment, as its file says. The points are 0 of 0 in a lesson."""
+    """The state of a lesson or an assignment in its file. A lesson has 0 of 0 points."""
 
     path: Path
     title: str
@@ -38,12 +38,12 @@ class Notebook:
 
     @property
     def done(self) -> bool:
-        """Whether there is nothing left to run, or to earn."""
+        """Whether enough cells were run, or all points earned."""
         return self.points >= self.most if self.most else self.run >= DONE * self.cells > 0
 
 
 class CourseMap:
-    """Shows itself in Jupyter as a table with links, in a terminal as lines. Made by `course_map`."""
+    """The course map: in Jupyter a table with links, in a terminal lines of text; see `course_map`."""
 
     def __init__(self, root: Path, here: Path) -> None:
         self._root, self._here = root, here
@@ -51,7 +51,7 @@ class CourseMap:
 
     @property
     def next(self) -> Notebook | None:
-        """The first notebook that is not done; None after the last."""
+        """The first notebook that is not done; None if all are."""
         return next((notebook for notebook in self.notebooks if not notebook.done), None)
 
     def __repr__(self) -> str:
@@ -80,7 +80,7 @@ class CourseMap:
 
     def _points(self) -> str:
         earned, most = (sum(getattr(item, name) for item in self.notebooks) for name in ("points", "most"))
-        return f"Your points so far: {number(earned)} of {number(most)}"
+        return f"Your points so far: {format_points(earned)} of {format_points(most)}"
 
     def _link(self, item: Notebook) -> str:
         up = len(self._here.relative_to(self._root).parts)
@@ -93,14 +93,14 @@ class CourseMap:
 
     def _state(self, item: Notebook) -> str:
         if item.most:
-            return f"{number(item.points)} of {number(item.most)} points"
+            return f"{format_points(item.points)} of {format_points(item.most)} points"
         return "✔ done" if item.done else f"{item.run} of {item.cells} cells run"
 
 
 def course_map(here: Path | str | None = None) -> CourseMap:
-    """The map of the course that `here` lies in; the folder of the notebook when left out.
+    """The map of the course that contains the folder `here`, by default the notebook's folder.
 
-    Raises LookupError when that is no folder of the course.
+    Raises LookupError if it is not in a course.
     """
     here = Path(here or Path.cwd()).resolve()
     for root in (here, *here.parents):
@@ -110,7 +110,7 @@ def course_map(here: Path | str | None = None) -> CourseMap:
 
 
 def _notebooks(root: Path) -> Iterator[Notebook]:
-    """Lessons and assignments in the order in which one learns."""
+    """Lessons and assignments in the order of the course."""
     found = [path for folder in ("course", "exercises") for path in (root / folder).glob("*/*.ipynb")]
     found = [path for path in found if PART.fullmatch(path.parent.name) and NEW_VERSION not in path.stem]
     for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
@@ -118,7 +118,7 @@ def _notebooks(root: Path) -> Iterator[Notebook]:
             cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
             yield _notebook(path, [cell | {"source": "".join(cell["source"])} for cell in cells])
         except (AttributeError, KeyError, OSError, TypeError, ValueError):
-            continue  # damaged; JupyterLab says so when it is opened
+            continue  # invalid; JupyterLab reports it when it is opened
 
 
 def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
@@ -140,12 +140,12 @@ def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
 
 
 def _phrase(pattern: re.Pattern[str], text: str) -> str:
-    """What the pattern finds first, on one line; "" without."""
+    """The first match of the pattern, on one line; "" without a match."""
     return " ".join(next(iter(pattern.findall(text)), "").replace("`", "").split())
 
 
 def _earned(cell: dict[str, Any]) -> float:
-    """The points that a check's output shows; 0 without any."""
+    """The points in the output of a test cell; 0 without a score."""
     most = cell["metadata"]["nbgrader"].get("points", 0)
     for output in cell.get("outputs", []):
         text = "".join(output.get("data", {}).get("text/plain", ""))

@@ -13,9 +13,9 @@ from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation
-from grader.quiet import quiet_stderr
 from grader.scenario import Companions, Scenario
 from grader.score import Score
+from grader.stderr_redirect import redirect_stderr
 from grader.typos import (
     MAX_CHAINED,
     auto_correct,
@@ -156,7 +156,7 @@ class Exercise:
         """
         if not self.points > 0:
             raise ValueError(f"exercise {self.name}: its checks have no points")
-        with quiet_stderr():
+        with redirect_stderr():
             found = source.package(self.package, self.build_type) if self.package else source.refusal()
             if isinstance(found, Fault):
                 reason = "Not judged: there is nothing to run."

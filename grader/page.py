@@ -1,8 +1,8 @@
-"""A score as HTML and as text.
+"""Renders a score as HTML and as text.
 
-The HTML is one table with inline styles: no script, no class, no address but that of a picture inside it.
-Text takes the page's colour and the marks have a middle brightness: light and dark themes show both well.
-Equal scores give equal bytes.
+The HTML is one table with inline styles: no scripts, no classes, no URLs except of embedded pictures. Text
+has the page's colour and symbols have medium brightness, so they are legible in light and dark themes. Equal
+scores give equal bytes.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from collections.abc import Iterator, Sequence
 from grader.checks.judge import Verdict
 
 # Per status: symbol, word, colour. The colours have a contrast of 4 or more on white and on black.
-MARKS = {
+STATUS_STYLES = {
     "passed": ("✔", "passed", "#16883c"),
     "partly": ("◐", "partly", "#aa7300"),
     "failed": ("✘", "missed", "#d64541"),
     "skipped": ("○", "skipped", "#787878"),
     "broken": ("!", "our mistake", "#8a63d2"),
 }
-WIDTH = 88  # characters of a line in a terminal
+WIDTH = 88  # characters per line in a terminal
 
 
 def html(
@@ -34,17 +34,17 @@ def html(
     note: str = "",
     below: tuple[int, str] = (0, ""),
 ) -> str:
-    """The table that Jupyter shows.
+    """The table for Jupyter.
 
-    runs: what to call each run, where there are several. note: a sentence on the points as a whole.
-    below: the index of a verdict, and HTML to stand below its words.
+    runs: the label of each run, if there are several. note: a sentence on the total points.
+    below: the index of a verdict, and HTML to insert below its text.
     """
     more = {below[0]: below[1]}
     rows = "".join(_row(verdict, runs, more.get(index, "")) for index, verdict in enumerate(verdicts))
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
-        f"<b>{_escape(title)}: {number(points)} of {number(most)} points</b>"
+        f"<b>{_escape(title)}: {format_points(points)} of {format_points(most)} points</b>"
         f'{note and f"<br>{_escape(note)}"}</caption>'
         f"<thead><tr>{_heading('', '6.5em')}{_heading('What is checked')}{_heading('Points', '5em')}</tr>"
         "</thead>"
@@ -60,10 +60,10 @@ def text(
     runs: Sequence[str] = (),
     note: str = "",
 ) -> str:
-    """The same for a terminal."""
-    lines = [f"{title}: {number(points)} of {number(most)} points", *textwrap.wrap(note, WIDTH)]
+    """The table for a terminal."""
+    lines = [f"{title}: {format_points(points)} of {format_points(most)} points", *textwrap.wrap(note, WIDTH)]
     for verdict in verdicts:
-        symbol, word, _ = MARKS[mark(verdict)]
+        symbol, word, _ = STATUS_STYLES[status_key(verdict)]
         lines.append(f"  {symbol} {word:<11} {_points(verdict):>9}  {verdict.sentence}")
         for label, content in details(verdict, runs):
             lines += textwrap.wrap(
@@ -72,13 +72,13 @@ def text(
     return "\n".join(lines)
 
 
-def mark(verdict: Verdict) -> str:
-    """The key into MARKS: the status, or "partly" for a miss that earned something."""
+def status_key(verdict: Verdict) -> str:
+    """The key in STATUS_STYLES: the status, or "partly" for a missed check with partial credit."""
     return "partly" if verdict.status == "failed" and verdict.credit > 0 else verdict.status
 
 
 def details(verdict: Verdict, runs: Sequence[str] = ()) -> Iterator[tuple[str, str]]:
-    """What is worth saying beyond the sentence, as label and content."""
+    """The details of a verdict besides its sentence, as label and content."""
     run = runs[verdict.run] if runs and verdict.status == "failed" else ""
     content = {"Run": run, "Expected": verdict.expected, "Saw": verdict.saw}
     yield from ((label, words) for label, words in content.items() if words)
@@ -88,17 +88,17 @@ def details(verdict: Verdict, runs: Sequence[str] = ()) -> Iterator[tuple[str, s
         yield "For the instructor", verdict.alarm.strip().splitlines()[-1]
 
 
-def number(points: float) -> str:
-    """Points without needless zeros."""
+def format_points(points: float) -> str:
+    """Points without trailing zeros."""
     return f"{points:.2f}".rstrip("0").rstrip(".")
 
 
 def _points(verdict: Verdict) -> str:
-    return f"{number(verdict.earned)} / {number(verdict.points)}" if verdict.points else ""
+    return f"{format_points(verdict.earned)} / {format_points(verdict.points)}" if verdict.points else ""
 
 
 def _row(verdict: Verdict, runs: Sequence[str], below: str) -> str:
-    symbol, word, colour = MARKS[mark(verdict)]
+    symbol, word, colour = STATUS_STYLES[status_key(verdict)]
     more = "".join(
         f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict, runs)
     )
@@ -112,10 +112,10 @@ def _row(verdict: Verdict, runs: Sequence[str], below: str) -> str:
 
 
 def _heading(word: str, width: str = "auto") -> str:
-    # Jupyter gives all columns of a table one width, unless the table says better.
+    # Jupyter gives all columns of a table the same width unless widths are specified.
     return f'<th scope="col" style="text-align: left; font-weight: bold; width: {width}">{word}</th>'
 
 
 def _escape(words: str) -> str:
-    """Safe HTML, with what stands between backticks as code."""
+    """Escaped HTML, with text between backticks as code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", escaping.escape(words))

@@ -1,4 +1,4 @@
-"""What goes with a score: one picture of each kind, for the first miss that asks for it."""
+"""The pictures of a score: one of each kind, for the first missed check that requests it."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from sim.evidence.connections import missing
 CHARACTERS = 4_000  # of a graph's description
 
 
-def draw(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> list[tuple[str, Any]]:
-    """Pairs of a caption and what Jupyter displays: the replay of a drive, a figure of what was published."""
+def score_pictures(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> list[tuple[str, Any]]:
+    """Pairs of a caption and an object for Jupyter: the replay of a run, or a plot of its topics."""
     wanted: dict[str, Verdict] = {}
     for verdict in verdicts:
         if verdict.picture and verdict.run < len(recordings):
@@ -32,11 +32,12 @@ def _picture(kind: str, recording: Recording) -> tuple[str, Any]:
     return "What was published, and when", plot_topics(recording)
 
 
-def graph_of_a_miss(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> tuple[int, str]:
-    """Where a missing connection cost points: the index of that verdict, and the graph of its run as HTML.
+def graph_of_missed_check(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> tuple[int, str]:
+    """The index of a verdict that a missing connection explains, and the graph of its run as HTML.
 
-    It is the first miss whose words name a topic, service or action where an end of the student's doesn't
-    connect in its run; between programs of ours that is what the exercise is about. Else there is no HTML.
+    It is the first missed check that mentions a topic, service or action with an unconnected end of the
+    student's in its run; unconnected ends of the course are part of the exercise. The HTML is "" if there is
+    none.
     """
     names: dict[int, set[str]] = {}  # by run
     for index, verdict in enumerate(verdicts):

@@ -6,8 +6,8 @@ import functools
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn, Protocol
 
-from grader.admission import not_run, refusal, unusable
 from grader.diagnosis.fault import Fault
+from grader.grade_arguments import outdated_code, refusal, unusable_argument
 from grader.workspace import building, place
 from grader.workspace.building import Build
 from grader.workspace.package import Package, make_package
@@ -50,7 +50,7 @@ class LocalPrograms:
 
     def refusal(self) -> Fault | None:
         """See ProgramSource."""
-        return not_run(self._nodes) or refusal(self._nodes)
+        return outdated_code(self._nodes) or refusal(self._nodes)
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """See ProgramSource."""
@@ -85,7 +85,7 @@ class RemotePrograms:
             return None
         if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
             raise RemoteLost("The process with the nodes did not say whether they can be run.", lives=True)
-        return unusable(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
+        return unusable_argument(*(part[:MOST_TEXT].encode("utf-8", "replace").decode() for part in answer))
 
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """See ProgramSource."""

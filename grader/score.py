@@ -10,7 +10,7 @@ from typing import Any
 
 from grader import page
 from grader.checks.judge import Verdict, halves
-from grader.quiet import quiet_stderr
+from grader.stderr_redirect import redirect_stderr
 from sim.evidence import Recording
 
 UNSAFE = 0.4  # of all points: the most that is earned with a robot that is unsafe
@@ -70,18 +70,18 @@ class Score(float):
         Of a drive it is the replay, so that one sees when it went wrong; it holds a PNG for pages without
         scripts.
         """
-        from grader.pictures import draw
+        from grader.pictures import score_pictures
 
-        return draw(self.verdicts, self.recordings)
+        return score_pictures(self.verdicts, self.recordings)
 
     @cached_property
     def _graph(self) -> tuple[int, str]:
         """Which verdict the graph of its run explains, and that as HTML."""
-        from grader.pictures import graph_of_a_miss
+        from grader.pictures import graph_of_missed_check
 
-        with quiet_stderr():
+        with redirect_stderr():
             try:
-                return graph_of_a_miss(self.verdicts, self.recordings)
+                return graph_of_missed_check(self.verdicts, self.recordings)
             except Exception:  # a picture is an extra: without it the points still have to be told
                 return 0, ""
 
@@ -122,7 +122,7 @@ class Score(float):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.
-        with quiet_stderr():
+        with redirect_stderr():
             try:
                 _show(self.pictures)
             except Exception as error:  # a picture is an extra: without it the points still have to be told

@@ -1,4 +1,4 @@
-"""How a run ended, in a line or two for the student who is still writing the node."""
+"""`tell`: prints the most important finding of the diagnosis of a run."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ BEGIN = (
 
 
 def tell(recording: Recording) -> None:
-    """Print the most important thing that is wrong with a run, and what to do about it. Gives no points.
+    """Print the most important fault of a run and what to do about it. It gives no points.
 
-    An error, or a run that got stuck, goes before all else; then come causes why something does not work,
-    such as names or QoS that don't match. A run without any of them is told that there is no error.
+    Errors and hanging runs have priority, then causes why something does not work, such as names or QoS that
+    don't match. Without a fault it prints that there is no error.
     """
     fault = find_fault(recording)
     if fault is None:
-        _say(find_flaw(recording) or f"No error. {recording.ended.detail}")
+        _print(find_flaw(recording) or f"No error. {recording.ended.detail}")
     elif fault.sentence == NOT_STARTED:
-        _say(BEGIN)
+        _print(BEGIN)
     else:
-        _say(fault.saw)
-        _say(f"Hint: {fault.hint}")
+        _print(fault.saw)
+        _print(f"Hint: {fault.hint}")
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     print(textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False))

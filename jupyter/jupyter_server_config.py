@@ -3,15 +3,15 @@ import os
 import sys
 from pathlib import Path
 
-from grader import workplace
+from grader import work_folder
 
 c = get_config()  # noqa: F821  (Jupyter provides it)
 
 HERE = Path(__file__).parent
 COURSE = HERE.parent
-for sentence in workplace.lay_out(COURSE):
+for sentence in work_folder.update_work_folder(COURSE):
     print(sentence)
-c.ServerApp.root_dir = str(COURSE / workplace.FOLDER)
+c.ServerApp.root_dir = str(COURSE / work_folder.FOLDER)
 c.LabApp.default_url = "/lab/tree/course/start.ipynb"
 # In a container root is the default user; elsewhere Jupyter is not started as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0

@@ -13,7 +13,7 @@ import pytest
 from grader import Score
 from grader.checks import Verdict
 from grader.marking.gradebook.safe_html import clean
-from grader.page import MARKS, number
+from grader.page import STATUS_STYLES, format_points
 from sim import Recording, World, run
 from sim.evidence import Endpoint
 from sim.view import plot_topics
@@ -144,7 +144,7 @@ def test_the_html_says_everything_and_escapes_it():
     ):
         assert told in words
     assert "<code>self.count</code> &amp; go on." in page
-    for symbol, word, _ in MARKS.values():
+    for symbol, word, _ in STATUS_STYLES.values():
         assert f"{symbol} {word}" in words
 
 
@@ -179,7 +179,7 @@ def test_marks_can_be_read_in_light_and_dark_themes():
         linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
         return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
 
-    for _, _, colour in MARKS.values():
+    for _, _, colour in STATUS_STYLES.values():
         assert 1.05 / (luminance(colour) + 0.05) >= 4
         assert (luminance(colour) + 0.05) / (luminance("#111111") + 0.05) >= 3.9
 
@@ -244,7 +244,7 @@ def test_a_picture_holds_neither_the_seed_nor_a_path_of_the_machine():
     "points, shown", [(7.0, "7"), (7.5, "7.5"), (2 / 3, "0.67"), (0.0, "0"), (10.0, "10")]
 )
 def test_numbers_have_no_needless_zeros(points, shown):
-    assert number(points) == shown
+    assert format_points(points) == shown
 
 
 def typo(from_course=False):

@@ -16,8 +16,8 @@ from pathlib import Path
 
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences
-from grader.notebooks import normalised
-from grader.workplace import given_files
+from grader.notebook_format import normalised
+from grader.work_folder import student_files
 
 NAME = "ros2-course"
 # What students get besides lessons and exercises, and what of that they don't.
@@ -42,7 +42,7 @@ RULE = re.compile(r"^([a-z]+):", re.M)
 
 def contents(course: Path) -> dict[str, bytes]:
     """Every file of the handout by its path in it, sorted."""
-    files = [*given_files(course), *_files(course)]
+    files = [*student_files(course), *_files(course)]
     found = {path.relative_to(course).as_posix(): path for path in files}
     texts = {name: _content(path) for name, path in found.items() if not _is_kept_back(name)}
     texts["README.md"] = (course / "course" / "README.md").read_bytes()

@@ -17,7 +17,7 @@ from nbgrader.utils import capture_log
 from grader.marking.errors import MarkingError
 from grader.marking.gradebook.course import Course
 from grader.marking.release.nbgrader_command import assignments, failure
-from grader.notebooks import normalise
+from grader.notebook_format import normalise
 
 
 def tidy(assignment: str, **_: object) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from grader.marking.release.run_notebooks import Marks, NotebookRun, run_notebooks
-from grader.notebooks import FOLDERS, BadNotebook, notebooks
+from grader.notebook_format import FOLDERS, InvalidNotebook, find_notebooks
 
 LESSON = "runs to its end"  # the one test of a notebook without points
 
@@ -97,8 +97,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the result as JUnit's XML, too")
     chosen = parser.parse_args(arguments)
     try:
-        paths = notebooks(chosen.paths or FOLDERS)
-    except BadNotebook as error:
+        paths = find_notebooks(chosen.paths or FOLDERS)
+    except InvalidNotebook as error:
         print(error, file=sys.stderr)
         return 2
     runs = report(paths)

@@ -21,7 +21,7 @@ from grader.marking.submission.quoting import list_names
 from grader.marking.submission.repair_notes import FLAGS, REPAIRS, Notes
 from grader.marking.submission.submitted_files import SubmittedFiles
 from grader.marking.submission.submitted_notebooks import read_notebooks
-from grader.notebooks import cell_ids
+from grader.notebook_format import cell_ids
 
 ANSWERED, UNTOUCHED, MISSING = "answered", "untouched", "missing"
 MAX_POINTS = 1e6

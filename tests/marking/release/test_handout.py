@@ -11,7 +11,7 @@ import pytest
 from traitlets.config import PyFileConfigLoader
 
 from grader.marking.release.handout import NAME, PARTS, contents, main, makefile, write_folder, write_zip
-from grader.workplace import given_files
+from grader.work_folder import student_files
 from tests.marking.tiny import ROOT
 
 GRADE = """
@@ -141,7 +141,7 @@ def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
     opened = PyFileConfigLoader("jupyter_server_config.py", path=str(folder / "jupyter")).load_config()
     work = folder / "work"
     assert opened.ServerApp.root_dir == str(work)
-    here = {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in given_files(ROOT)}
+    here = {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in student_files(ROOT)}
     there = {path.relative_to(work).as_posix(): path.read_bytes() for path in work.rglob("[!.]*.*")}
     assert there == {name: content for name, content in here.items() if name != "course/README.md"}
     assert opened.LabApp.default_url.removeprefix("/lab/tree/") in there

@@ -7,7 +7,7 @@ import pytest
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences, main, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
-from grader.notebooks import normalise
+from grader.notebook_format import normalise
 from tests.marking.tiny import ROOT
 
 HIDDEN = re.compile(r"^\s*### BEGIN (SOLUTION|HIDDEN TESTS)$(.*?)^\s*### END \1$", re.M | re.S)

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from datetime import date
 from typing import Any
 
-from grader.page import number
+from grader.page import format_points
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Certificate:
             "issuer": self.issuer,
             "date": format_day(self.issued),
             "course version": self.version,
-            "share that passes": f"{number(self.least)} %",
+            "share that passes": f"{format_points(self.least)} %",
             "number of assignments": f"{len(self.marks)} of {self.assignments}",
         }
         for mark in self.marks:
@@ -69,7 +69,7 @@ class Certificate:
 
 def format_score(mark: Mark) -> str:
     """The points, as "8 of 10"."""
-    return f"{number(mark.points)} of {number(mark.most)}"
+    return f"{format_points(mark.points)} of {format_points(mark.most)}"
 
 
 def format_day(iso: str) -> str:

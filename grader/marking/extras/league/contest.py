@@ -10,8 +10,8 @@ from typing import Any
 from grader.checks.shift import Shift, shift
 from grader.diagnosis import find_fault, find_flaw
 from grader.exercise import Scenario
+from grader.namespaced_programs import in_namespaces
 from grader.seeds import private_seed
-from grader.team import team
 from sim import World
 from sim.evidence import Recording, Seconds
 
@@ -35,7 +35,7 @@ class Contest:
         scenario = Scenario(
             lambda seed: World.generate("warehouse", seed=seed, robots=self.robots),
             self.seconds,
-            prepare=functools.partial(team, *names) if self.robots > 1 else None,
+            prepare=functools.partial(in_namespaces, *names) if self.robots > 1 else None,
         )
         for index in range(self.worlds):
             yield scenario, private_seed(self.seed, "league", index) if self.seed else index

@@ -16,8 +16,8 @@ from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.student_session import StudentSession
 from grader.programs import ProgramSource
-from grader.quiet import quiet_stderr
 from grader.score import Score
+from grader.stderr_redirect import redirect_stderr
 
 
 class ContestJudge:
@@ -34,7 +34,7 @@ class ContestJudge:
 
     def judge(self, source: ProgramSource, secret: str = "") -> Score:
         """Play. The score has no points. Raises what the cast raises."""
-        with quiet_stderr():
+        with redirect_stderr():
             found = source.refusal()
             if isinstance(found, Fault):
                 self.problem = f"Expected {found.expected}, saw {found.saw}. {found.hint}"

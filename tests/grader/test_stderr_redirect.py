@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-from grader.quiet import LIMIT, quiet_stderr
+from grader.stderr_redirect import LIMIT, redirect_stderr
 
 
 def test_what_python_c_and_old_handlers_write_goes_to_stdout(capfd):
     handler = logging.StreamHandler(sys.stderr)
-    with quiet_stderr():
+    with redirect_stderr():
         print("python", file=sys.stderr)
         os.write(2, b"descriptor\n")
         handler.emit(logging.makeLogRecord({"msg": "handler"}))
@@ -20,14 +20,14 @@ def test_what_python_c_and_old_handlers_write_goes_to_stdout(capfd):
 
 
 def test_silence_prints_nothing(capfd):
-    with quiet_stderr():
+    with redirect_stderr():
         pass
     assert capfd.readouterr() == ("", "")
 
 
 def test_afterwards_all_is_as_before(capfd):
     before = sys.stderr
-    with quiet_stderr(), quiet_stderr():
+    with redirect_stderr(), redirect_stderr():
         pass
     assert sys.stderr is before
     assert "write" not in vars(before)
@@ -41,7 +41,7 @@ def test_a_stream_that_was_changed_already_stays_so(monkeypatch):
     stream = io.StringIO()
     stream.write = caught.append
     monkeypatch.setattr(sys, "stderr", stream)
-    with quiet_stderr():
+    with redirect_stderr():
         stream.write("within")
     stream.write("after")
     assert caught == ["after"]
@@ -49,19 +49,19 @@ def test_a_stream_that_was_changed_already_stays_so(monkeypatch):
 
 def test_it_works_where_there_is_no_stderr(monkeypatch, capfd):
     monkeypatch.setattr(sys, "stderr", None)
-    with quiet_stderr():
+    with redirect_stderr():
         os.write(2, b"descriptor\n")
     assert capfd.readouterr() == ("descriptor\n\n", "")
 
 
 def test_what_was_caught_is_told_even_when_the_block_raises(capfd):
-    with pytest.raises(KeyboardInterrupt), quiet_stderr():
+    with pytest.raises(KeyboardInterrupt), redirect_stderr():
         print("last words", file=sys.stderr)
         raise KeyboardInterrupt
     assert capfd.readouterr().out == "last words\n\n"
 
 
 def test_a_flood_is_cut(capfd):
-    with quiet_stderr():
+    with redirect_stderr():
         os.write(2, b"x" * (LIMIT + 1))
     assert capfd.readouterr().out == "x" * LIMIT + "\n... and so on\n"

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.notebooks import BadNotebook, cell_ids, main, normalised
+from grader.notebook_format import InvalidNotebook, cell_ids, main, normalised
 
 ROOT = Path(__file__).parents[2]
 
@@ -107,7 +107,7 @@ def test_a_missing_newline_is_named(tmp_path, capsys):
     ],
 )
 def test_a_file_that_is_no_notebook_is_refused_with_a_reason(text, words):
-    with pytest.raises(BadNotebook) as refused:
+    with pytest.raises(InvalidNotebook) as refused:
         normalised(text, "x.ipynb")
     assert str(refused.value) == words
 

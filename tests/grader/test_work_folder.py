@@ -4,7 +4,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from grader.workplace import given_files, lay_out
+from grader.work_folder import student_files, update_work_folder
 
 ROOT = Path(__file__).parents[2]
 LESSON = "course/01_nodes/lesson.ipynb"
@@ -40,7 +40,7 @@ def files(course: Path) -> set[str]:
 
 
 def test_a_student_gets_copies_of_lessons_and_exercises_and_of_nothing_else(course):
-    assert lay_out(course) == []
+    assert update_work_folder(course) == []
     assert files(course) == {
         ".given.json",
         LESSON,
@@ -51,61 +51,61 @@ def test_a_student_gets_copies_of_lessons_and_exercises_and_of_nothing_else(cour
 
 
 def test_what_is_unchanged_is_brought_up_to_date_even_if_it_was_run(course):
-    lay_out(course)
+    update_work_folder(course)
     (course / "work" / LESSON).write_text(notebook("1", output="1"))
     (course / LESSON).write_text(notebook("2"))
     (course / "course/01_nodes/goal.py").write_text("GOAL = 2\n")
-    assert lay_out(course) == []
+    assert update_work_folder(course) == []
     assert (course / "work" / LESSON).read_text() == notebook("2")
     assert (course / "work/course/01_nodes/goal.py").read_text() == "GOAL = 2\n"
 
 
 def test_outputs_stay_as_long_as_there_is_nothing_new(course):
-    lay_out(course)
+    update_work_folder(course)
     (course / "work" / LESSON).write_text(notebook("1", output="1"))
-    assert lay_out(course) == []
+    assert update_work_folder(course) == []
     assert (course / "work" / LESSON).read_text() == notebook("1", output="1")
 
 
 def test_what_a_student_changed_stays_and_the_new_version_lies_beside_it(course):
-    lay_out(course)
+    update_work_folder(course)
     own, beside = course / "work" / LESSON, course / "work/course/01_nodes/lesson-new.ipynb"
     own.write_text(notebook("my own"))
-    assert lay_out(course) == []
+    assert update_work_folder(course) == []
     (course / LESSON).write_text(notebook("2"))
-    assert lay_out(course) == [
+    assert update_work_folder(course) == [
         "There is a new version of course/01_nodes/lesson.ipynb. Yours stays as it is; "
         "the new one is course/01_nodes/lesson-new.ipynb."
     ]
     assert (own.read_text(), beside.read_text()) == (notebook("my own"), notebook("2"))
-    assert lay_out(course) == []  # told once
+    assert update_work_folder(course) == []  # told once
     (course / LESSON).write_text(notebook("my own"))
-    assert lay_out(course) == []  # the course has it now
+    assert update_work_folder(course) == []  # the course has it now
     assert own.read_text() == notebook("my own")
 
 
 def test_a_file_that_was_deleted_is_given_again(course):
-    lay_out(course)
+    update_work_folder(course)
     (course / "work" / LESSON).unlink()
-    assert lay_out(course) == []
+    assert update_work_folder(course) == []
     assert (course / "work" / LESSON).read_text() == notebook("1")
 
 
 def test_a_notebook_that_was_broken_by_hand_counts_as_changed(course):
-    lay_out(course)
+    update_work_folder(course)
     (course / "work" / LESSON).write_text("{")
     (course / LESSON).write_text(notebook("2"))
-    assert len(lay_out(course)) == 1
+    assert len(update_work_folder(course)) == 1
     assert (course / "work" / LESSON).read_text() == "{"
 
 
 def test_the_record_names_every_file(course):
-    lay_out(course)
+    update_work_folder(course)
     assert set(json.loads((course / "work/.given.json").read_text())) == files(course) - {".given.json"}
 
 
 def test_the_courses_own_lessons_and_starters_are_given_and_git_ignores_the_copies():
-    given = {path.relative_to(ROOT).as_posix() for path in given_files(ROOT)}
+    given = {path.relative_to(ROOT).as_posix() for path in student_files(ROOT)}
     assert {LESSON, "course/01_nodes/goal.py", "exercises/06_navigator/navigator.ipynb"} <= given
     assert not any(name.startswith("solutions") for name in given)
     assert "\n/work/\n" in (ROOT / ".gitignore").read_text()

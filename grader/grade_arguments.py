@@ -1,4 +1,4 @@
-"""Is there anything to run? What a test cell may hand over by mistake, before a node is started."""
+"""Validates the arguments of `grade` before a node is started."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from sim.notebook import find_outdated
 
 
 def refusal(nodes: Sequence[Any]) -> Fault | None:
-    """Why the first unusable one of these can't be run; None when all can."""
+    """Why the first invalid argument can't be run; None if all are valid."""
     if not nodes:
-        return unusable("nothing", "Put the name of your class between the brackets: grade(MyNode).")
+        return unusable_argument("nothing", "Put the name of your class between the brackets: grade(MyNode).")
     try:
         return next((fault for node in nodes if (fault := _refuse(node) or _refuse_remappings(node))), None)
-    except Exception as error:  # the student's own class may answer any question with an exception
+    except Exception as error:  # a student's metaclass may raise in any operation
         saw = f"something that raises {type(error).__name__} when it is looked at"
-        return unusable(saw, "Give an ordinary class that is based on Node.")
+        return unusable_argument(saw, "Give an ordinary class that is based on Node.")
 
 
-def not_run(nodes: Sequence[Any]) -> Fault | None:
-    """That the notebook shows a newer version of these than would be judged; None if it doesn't."""
+def outdated_code(nodes: Sequence[Any]) -> Fault | None:
+    """The fault for code that is older than the code in the notebook; None if it is current."""
     found = find_outdated(nodes)
     if found is None:
         return None
@@ -39,21 +39,22 @@ def not_run(nodes: Sequence[Any]) -> Fault | None:
 def _refuse(node: Any) -> Fault | None:
     target = node.target if isinstance(node, Process) else node
     if target is None:
-        return unusable("None", "This exercise is not started yet: write your class in the cell above.")
+        hint = "This exercise is not started yet: write your class in the cell above."
+        return unusable_argument("None", hint)
     if isinstance(target, type):
         name = target.__name__
         if _is_node_class(target):
             return None
-        return unusable(
+        return unusable_argument(
             f"the class {name}, which is not a Node", f"Begin the class with `class {name}(Node):`."
         )
     if _is_node_class(type(target)):
         name = type(target).__name__
         hint = f"Leave out the brackets after the name: {name}, not {name}()."
-        return unusable(f"an object of {name}", hint)
+        return unusable_argument(f"an object of {name}", hint)
     if not callable(target):
         hint = "Give the class itself, by its name and without quotes."
-        return unusable(f"{reprlib.repr(target)}, which is not a node", hint)
+        return unusable_argument(f"{reprlib.repr(target)}, which is not a node", hint)
     return None
 
 
@@ -62,19 +63,19 @@ def _refuse_remappings(node: Any) -> Fault | None:
     pairs = list(remappings) if isinstance(remappings, Iterable) else [remappings]
     if all(isinstance(pair, (tuple, list)) and [type(name) for name in pair] == [str, str] for pair in pairs):
         return None
-    return unusable(
+    return unusable_argument(
         f"remappings={reprlib.repr(remappings)}",
         'Remappings are a list of pairs of names: remappings=[("from", "to")].',
     )
 
 
 def _is_node_class(cls: type) -> bool:
-    """By name, because nothing here may need rclpy."""
+    """By name, because this module must not import rclpy."""
     return any(base.__module__ == "rclpy.node" and base.__name__ == "Node" for base in cls.__mro__)
 
 
-def unusable(saw: str, hint: str) -> Fault:
-    """A fault for what is handed over in place of a program."""
+def unusable_argument(saw: str, hint: str) -> Fault:
+    """The fault for an argument that is not a program."""
     return Fault(
         "your node's class, or your main function", saw, hint, before_start=True, sentence=NOT_STARTED
     )

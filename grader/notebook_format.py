@@ -1,9 +1,9 @@
-"""Keeps notebooks in one form, so that a change in git shows what somebody changed and nothing else.
+"""Normalises notebooks, so that git diffs show only the author's changes.
 
-    python -m grader.notebooks [--check] [notebook or folder ...]      default: course solutions
+    python -m grader.notebook_format [--check] [notebook or folder ...]      default: course solutions
 
-In that form a notebook has no outputs, counts or widget state, only metadata that somebody meant, and an
-id on every cell. Ids that exist are kept, so inserting or moving a cell changes no other cell.
+A normalised notebook has no outputs, execution counts or widget state, only relevant metadata, and an id on
+every cell. Existing ids are kept, so inserting or moving a cell changes no other cell.
 """
 
 import argparse
@@ -26,21 +26,21 @@ CELL_ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")  # as the notebook format 4.5 allow
 LINES_SHOWN = 12
 
 
-class BadNotebook(ValueError):
-    """A file that cannot be read as a notebook of format 4; the text says which and why."""
+class InvalidNotebook(ValueError):
+    """A file that is not a valid notebook of format 4; the message has its name and the reason."""
 
 
 def normalised(text: str, name: str) -> str:
-    """Return the notebook `text` in the one form; `name` stands in the errors. Raises BadNotebook."""
+    """Return the notebook `text` normalised; `name` is for errors. Raises InvalidNotebook."""
     try:
         notebook = json.loads(text)
     except json.JSONDecodeError as error:
         problem = f"{name} is not a notebook: expected JSON, saw {error}."
-        raise BadNotebook(f"{problem} Was it cut off, or does it hold merge marks?") from None
+        raise InvalidNotebook(f"{problem} Was it cut off, or does it hold merge marks?") from None
     version = notebook.get("nbformat") if isinstance(notebook, dict) else None
     if version != 4:
         problem = f"{name}: expected notebook format 4, saw {version}."
-        raise BadNotebook(f"{problem} Open and save it in JupyterLab.")
+        raise InvalidNotebook(f"{problem} Open and save it in JupyterLab.")
     notebook |= {"metadata": NOTEBOOK_METADATA, "nbformat_minor": 5}
     cells = notebook.setdefault("cells", [])
     for cell, cell_id in zip(cells, cell_ids(cells), strict=True):
@@ -54,12 +54,12 @@ def normalised(text: str, name: str) -> str:
         nbformat.validate(node)
     except nbformat.ValidationError as error:
         problem = f"{name} is not a valid notebook: {str(error).splitlines()[0]}."
-        raise BadNotebook(f"{problem} Repair it, or take it from git.") from None
+        raise InvalidNotebook(f"{problem} Repair it, or take it from git.") from None
     return nbformat.writes(node) + "\n"
 
 
 def cell_ids(cells: list[dict]) -> list[str]:
-    """Return one id per cell: its own if it is valid and new, else one from its grade_id or a number."""
+    """Return one id per cell: its own if it is valid and unique, else one from its grade_id or a number."""
     ids: list[str] = []
     reserved = {cell.get("id") for cell in cells}
     for cell in cells:
@@ -80,24 +80,25 @@ def _new_ids(cell: dict) -> Iterator[str]:
         yield f"{stem or 'cell'}-{number}"
 
 
-def notebooks(paths: Iterable[Path]) -> list[Path]:
-    """Return the notebooks named by or below `paths`, sorted. Raises BadNotebook where there is nothing."""
+def find_notebooks(paths: Iterable[Path]) -> list[Path]:
+    """Return the notebooks at or below `paths`, sorted. Raises InvalidNotebook for a missing path."""
     found: list[Path] = []
     for path in paths:
         if not path.exists():
-            raise BadNotebook(f"Expected a notebook or a folder of notebooks at {path}, saw nothing there.")
+            problem = f"Expected a notebook or a folder of notebooks at {path}, saw nothing there."
+            raise InvalidNotebook(problem)
         found += path.rglob("*.ipynb") if path.is_dir() else [path]
     return sorted(path for path in found if ".ipynb_checkpoints" not in path.parts)
 
 
 def normalise(paths: Iterable[Path], check: bool = False) -> list[str]:
-    """Bring the notebooks in `paths` into the one form, or with `check` only look.
+    """Normalise the notebooks in `paths`, or with `check` only compare them.
 
-    Returns one text per notebook that was not in that form: its name and the first lines that differ (- as it
-    was, + as it should be). Raises BadNotebook.
+    Returns one text per notebook that was not normalised: its name and the first lines that differ (- actual,
+    + normalised). Raises InvalidNotebook.
     """
     reports = []
-    for path in notebooks(paths):
+    for path in find_notebooks(paths):
         before = path.read_text(encoding="utf-8")
         after = normalised(before, str(path))
         if before == after:
@@ -118,13 +119,14 @@ def _difference(before: str, after: str) -> list[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser("python -m grader.notebooks", description="Keep notebooks in one form.")
+    command = "python -m grader.notebook_format"
+    parser = argparse.ArgumentParser(command, description="Keep notebooks in one form.")
     parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders")
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 if it should")
     chosen = parser.parse_args(arguments)
     try:
         reports = normalise(chosen.paths or [folder for folder in FOLDERS if folder.exists()], chosen.check)
-    except BadNotebook as error:
+    except InvalidNotebook as error:
         print(error, file=sys.stderr)
         return 1
     for report in reports:
