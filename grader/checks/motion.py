@@ -92,7 +92,7 @@ def follows(recording: Recording, line: Sequence[Point], *, tolerance: float = 0
 
 def distances_to_line(points: np.ndarray, line: Sequence[Point]) -> np.ndarray:
     """Distances in metres of points, shape (n, 2), from a line through two points or more; shape (n,)."""
-    corners = np.asarray(line, dtype=float)
+    corners = np.asarray(line)
     starts, spans = corners[:-1], np.diff(corners, axis=0)
     lengths = np.maximum((spans**2).sum(axis=1), 1e-12)
     offsets = points[:, None, :] - starts[None]

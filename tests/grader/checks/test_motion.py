@@ -6,8 +6,9 @@ from geometry_msgs.msg import Twist
 
 from grader import Missed
 from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, travelled
-from grader.checks.motion import distances_to_line
+from grader.checks.motion import distances_to_line, until_a_touch
 from sim import run
+from sim.evidence import Pose
 from tests.grader.recordings import driven, published, recording
 from tests.students import flaws
 
@@ -31,10 +32,17 @@ def test_keeps_clear_tells_the_first_contact():
     assert miss.expected == "no contact with walls or boxes"
     assert miss.saw == "1 contact; the first at 3.25 s: a wall at (1.00, 2.00) m, on the robot's front side"
     assert miss.hint == "Slow down or turn away earlier: /scan says how far it is to the next wall."
+    assert miss.unsafe
     assert missed(keeps_clear, driven(SQUARE, contacts=[touch]), "Look ahead.").hint == "Look ahead."
-    assert missed(keeps_clear, driven(SQUARE, contacts=[touch, touch])).saw.startswith(
-        "2 contacts; the first"
-    )
+    twice = driven(SQUARE, contacts=[touch, (3.75, 4.0, 0.0, 2.0, "left", "box")])
+    assert missed(keeps_clear, twice).saw.startswith("2 contacts; the first at 3.25 s: a wall")
+
+
+def test_until_a_touch_is_the_run_before_the_first_one():
+    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall"), (3.5, 4.0, 1.0, 2.0, "front", "wall")])
+    assert [pose.stamp for pose in until_a_touch(touched).path] == [0.0, 1.0]
+    whole = driven(SQUARE)
+    assert until_a_touch(whole) is whole
 
 
 def test_arrives_measures_the_distance_to_the_goal():
@@ -46,6 +54,18 @@ def test_arrives_takes_the_worlds_goal():
     assert miss.expected == "the robot within 0.1 m of (2.3, 2.3) m at the end"
     assert miss.saw == "(1.00, 0.00) m, which is 2.64 m away"
     assert miss.hint == ""
+
+
+def test_arrives_names_the_goal_that_it_was_given_and_allows_its_tolerance():
+    end = driven([(0, 0), (1.25, 0.0)])
+    assert arrives(end, (1.0, 0.0), tolerance=0.25) == 0.25
+    assert missed(arrives, end, (1.0, 0.5)).expected == "the robot within 0.1 m of (1, 0.5) m at the end"
+
+
+@pytest.mark.parametrize(("distance", "moved"), [(0.009, False), (0.011, True)])
+def test_a_robot_that_moves_less_than_a_centimetre_did_not_move(distance, moved):
+    hint = missed(arrives, driven([(0, 0), (distance, 0)]), (1.0, 0.0)).hint
+    assert (hint == "") == moved
 
 
 def test_arrives_says_when_nothing_was_commanded():
@@ -70,6 +90,7 @@ def test_passes_wants_the_points_in_order():
     assert miss.expected == "the robot within 0.1 m of 3 points, one after the other"
     assert miss.saw == "2 of them; it never came to (1, 1) m after that"
     assert miss.credit == pytest.approx(2 / 3)
+    passes(driven([(0, 0), (1.25, 0)]), [(1.0, 0.0)], tolerance=0.25)
 
 
 def test_follows_measures_the_largest_distance_to_the_line():
@@ -77,11 +98,24 @@ def test_follows_measures_the_largest_distance_to_the_line():
     miss = missed(follows, driven([(0, 0), (0.5, 0.3), (1, 0)]), [(0, 0), (1, 0)])
     assert miss.expected == "a path within 0.1 m of the line"
     assert miss.saw == "0.30 m away from it at 1 s, at (0.50, 0.30) m"
+    assert follows(driven([(0, 0), (0.5, 0.25), (1, 0)]), [(0, 0), (1, 0)], tolerance=0.25) == 0.25
 
 
 def test_distances_are_to_segments_and_not_to_endless_lines():
     points = np.array([(0.5, 0.5), (2.0, 0.0), (-3.0, 4.0), (0.0, 0.0)])
     assert distances_to_line(points, [(0, 0), (1, 0), (1, 0)]) == pytest.approx([0.5, 1.0, 5.0, 0.0])
+
+
+def test_the_nearest_of_several_segments_of_different_lengths_counts():
+    line = [(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (0.0, 3.0)]
+    points = np.array([(3.0, -0.5), (3.5, 0.5), (4.5, 0.75), (-1.0, 3.0), (0.0, 0.75), (2.0, 1.0)])
+    expected = [0.5, 0.5, 0.5, 1.0, 0.75, math.sqrt(0.8)]
+    assert distances_to_line(points, line) == pytest.approx(expected)
+
+
+def test_a_very_short_segment_is_a_point():
+    point = np.array([(1.0, 0.0)])
+    assert distances_to_line(point, [(0, 0), (1e-5, 0)]) == pytest.approx([1.0 - 1e-5], abs=1e-9)
 
 
 def test_travelled_is_the_length_of_the_path():
@@ -97,12 +131,37 @@ def test_stands_still_looks_at_the_last_moments_only():
     assert miss.hint == "Publish a Twist() with all zeros when the robot has arrived."
 
 
+def ending(*poses):
+    """A run that ends with these poses, given as seconds before the end, x and yaw, and began elsewhere."""
+    path = [Pose(0.0, 9.0, 0.0, 0.0), *(Pose(10.0 - before, x, 0.0, yaw) for before, x, yaw in poses)]
+    return recording(path=path)
+
+
+def test_stands_still_allows_half_a_second_and_half_a_centimetre():
+    stands_still(ending((0.51, 1.0, 0.0), (0.49, 0.0045, 0.0), (0.0, 0.0, 0.0)))
+    assert missed(stands_still, ending((0.49, 0.0055, 0.0), (0.0, 0.0, 0.0))).saw == "it moved 0.005 m in that time"
+    assert missed(stands_still, ending((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), last=11.0).expected == (
+        "the robot standing still for the last 11 s"
+    )
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_stands_still_looks_at_the_angle_too(side):
+    full = math.tau * side
+    stands_still(ending((0.4, 0.0, side * 3.0), (0.2, 0.0, side * 3.004 - full), (0.0, 0.0, side * 3.0)))
+    miss = missed(stands_still, ending((0.4, 0.0, side * 3.006), (0.0, 0.0, side * 3.0)))
+    assert miss.saw == "it turned by 0.006 rad"
+
+
 def test_a_robot_that_stands_was_told_to():
     ends_with_a_stop(run(flaws.Driver, world="yard", seconds=5, quiet=True))
     with pytest.raises(Missed) as caught:
         ends_with_a_stop(run(flaws.FallsSilent, world="yard", seconds=5, quiet=True))
     miss = caught.value
     assert (miss.expected, miss.credit) == ("zeros as the last command", 0.0)
+    with pytest.raises(Missed) as caught:
+        ends_with_a_stop(run(flaws.FallsSilent, world="yard", seconds=5, quiet=True), credit=0.5)
+    assert caught.value.credit == 0.5
     assert miss.saw == "the last command on /cmd_vel, at 1.9 s, was 0.2 m/s and 0 rad/s"
     assert miss.hint == (
         "This robot stops by itself when no command comes; others drive on. Publish a Twist() with all zeros at the "
@@ -110,7 +169,7 @@ def test_a_robot_that_stands_was_told_to():
     )
 
 
-@pytest.mark.parametrize("measure", [keeps_clear, stands_still, lambda run: follows(run, SQUARE)])
+@pytest.mark.parametrize("measure", [keeps_clear, stands_still, lambda run: follows(run, SQUARE), lambda run: passes(run, [])])
 def test_a_run_without_a_robot_is_the_authors_mistake(measure):
     with pytest.raises(ValueError, match=r"^this run has no robot: give the exercise a world$"):
         measure(recording())
