@@ -34,7 +34,10 @@ def main(arguments: list[str]) -> int:
 
 def _is_installed(command: str) -> bool:
     package = COMMANDS[command][0].rpartition(".")[0]
-    return importlib.util.find_spec(package) is not None
+    try:
+        return importlib.util.find_spec(package) is not None
+    except ModuleNotFoundError:  # the package in which it would be
+        return False
 
 
 if __name__ == "__main__":

@@ -6,9 +6,11 @@ import os
 import pickle
 import socket
 import tempfile
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
-from grader.marking.extras.league.contest import Contest
+from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import SubmittedFiles
 
@@ -29,24 +31,38 @@ class TimeLimits:
     notebook: float = 600.0
 
 
+class Procedure(Protocol):
+    """What a judge does with a submission in place of marking it; it crosses processes with the task."""
+
+    def run(self, marking: Any) -> None:
+        """Take all steps. marking: the `Marking` of the task, which gets the results."""
+
+
 @dataclass(frozen=True)
 class MarkingTask:
     """One submission to mark, with the contents of all its files.
 
     release: the instructor's, without answers. key: hexadecimal digest of everything that is marked; the
-    Result has the same. contest: it plays in this one instead of being marked.
+    Result has the same. procedure: None to mark it.
     """
 
     student: str
     release: Release
     submitted: SubmittedFiles
     key: str
-    contest: Contest | None = None
+    procedure: Procedure | None = None
 
     @property
     def assignment(self) -> str:
         """Its name."""
         return self.release.assignment
+
+
+class TaskPool(Protocol):
+    """Carries out tasks in processes of their own, such as `Pool`."""
+
+    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
+        """Yield the results as they are ready."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 import contextlib
 from collections.abc import Callable, Iterable, Iterator
 
-from grader.marking.command.mark_class import OpenMarker, Settings
+from grader.marking.command.mark_class import OpenPool, Settings
 from grader.marking.gradebook.course import Course
 from grader.marking.result import Result
 from grader.marking.task import MarkingTask
@@ -36,5 +36,5 @@ class ReadyPool:
         return marked
 
 
-def opening(course: Course) -> OpenMarker:
+def opening(course: Course) -> OpenPool:
     return ReadyPool(course).open

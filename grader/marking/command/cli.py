@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grader.marking.atomic_file import write_atomically
-from grader.marking.command.mark_class import Marker, OpenMarker, Outcome, Settings, mark_class
+from grader.marking.command.mark_class import OpenPool, Outcome, Settings, mark_class
 from grader.marking.command.summary import summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
@@ -16,6 +16,7 @@ from grader.marking.gradebook.course import Course
 from grader.marking.journal import Journal
 from grader.marking.pool import Pool
 from grader.marking.progress_line import printable
+from grader.marking.task import TaskPool
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
@@ -45,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None) -> int:
+def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) -> int:
     """Run the command in the course's folder; returns the exit status. open_pool: opens another pool."""
     options = parser().parse_args(arguments)
     try:
@@ -89,7 +90,7 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
     return replace(Settings(**stored), **changed)
 
 
-def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[Marker]:
+def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[TaskPool]:
     if settings.dask:
         from grader.marking.extras.dask_cluster import DaskPool  # this import takes half a second
 

@@ -4,11 +4,10 @@ The order for each submission is journal, gradebook, notebooks. Each step can be
 have the id of the marking that they show; so when a run is killed, the next one does what is left.
 """
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Protocol
 
 from grader.marking import secret
 from grader.marking.command.check_release import check_release
@@ -28,14 +27,7 @@ from grader.marking.journal import Journal, JournalEntry
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import load_release
-from grader.marking.task import MarkingTask
-
-
-class Marker(Protocol):
-    """Marks submissions in processes of their own."""
-
-    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
-        """Yield the results as they are ready."""
+from grader.marking.task import MarkingTask, TaskPool
 
 
 @dataclass(frozen=True)
@@ -57,7 +49,7 @@ class Settings:
     dask: str = ""
 
 
-OpenMarker = Callable[[Settings, str], AbstractContextManager[Marker]]  # from settings and secret
+OpenPool = Callable[[Settings, str], AbstractContextManager[TaskPool]]  # from settings and secret
 
 
 @dataclass
@@ -78,7 +70,7 @@ class Outcome:
     interrupted: bool = False
 
 
-def mark_class(course: Course, assignment: str, settings: Settings, open_pool: OpenMarker) -> Outcome:
+def mark_class(course: Course, assignment: str, settings: Settings, open_pool: OpenPool) -> Outcome:
     """Mark what is not marked yet, and update gradebook and pages. Raises CourseError, OSError."""
     begin = time.monotonic()
     key = secret.read(course.root)
@@ -132,7 +124,7 @@ class _ClassRun:
             else:
                 self.file(entry)
 
-    def mark(self, pool: Marker) -> None:
+    def mark(self, pool: TaskPool) -> None:
         """Let the pool mark what waits, and file each result as it comes."""
         progress = ProgressLine(len(self.waiting))
         keys: dict[str, str] = {}  # of what the pool has

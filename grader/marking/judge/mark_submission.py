@@ -10,7 +10,6 @@ from time import monotonic
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.extras.league.contest_run import ContestRun
 from grader.marking.judge.marking import Marking, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
@@ -66,29 +65,11 @@ def fill_in_missed_tests(marking: Marking) -> None:
         results += [no_points(cell, marking.exercises[name][cell_name(cell)]) for cell in missed]
 
 
-def choose_last_exercise(marking: Marking) -> None:
-    """A league is played with what the last test cell hands over."""
-    marking.exercises = {
-        name: dict(list(exercises.items())[-1:]) for name, exercises in list(marking.exercises.items())[-1:]
-    }
-
-
-def run_and_play(marking: Marking) -> None:
-    """Run the notebook of the last exercise, and let its programs play."""
-    for name in marking.exercises:
-        marking.cells[name] = []
-        if name in marking.rebuilt.notebooks:
-            ContestRun(marking, name, marking.task.contest).run_all()
-        else:
-            marking.stops.append(marking.rebuilt.missing[name])
-
-
 STEPS = (rebuild_notebooks, find_exercises, flag_suspicious_code, run_and_judge, fill_in_missed_tests)
-LEAGUE = (rebuild_notebooks, find_exercises, flag_suspicious_code, choose_last_exercise, run_and_play)
 
 
 def mark_submission(task: MarkingTask, secret: str, start_session: StartSession) -> Result:
-    """Mark a submission with worlds and seeds from the secret and the student's name.
+    """Mark a submission with worlds and seeds from the secret and the student's name, or run its procedure.
 
     With the secret "", they are the public ones. Raises UnknownTest for a release that can't be marked here,
     and nothing else, whatever the submission does.
@@ -96,8 +77,11 @@ def mark_submission(task: MarkingTask, secret: str, start_session: StartSession)
     began = monotonic()
     marking = Marking(task, secret_of_student(secret, task.student), start_session)
     try:
-        for step in LEAGUE if task.contest else STEPS:
-            step(marking)
+        if task.procedure is None:
+            for step in STEPS:
+                step(marking)
+        else:
+            task.procedure.run(marking)
     except Unusable as reason:
         return Result(task.student, task.assignment, task.key, "refused", str(reason))
     marking.timings["total"] = monotonic() - began

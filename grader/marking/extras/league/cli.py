@@ -15,7 +15,6 @@ from grader.marking.extras.league.league_pages import write_pages
 from grader.marking.extras.league.play_league import (
     DrawnLeague,
     LeagueOutcome,
-    Marker,
     draw_league,
     play,
     time_limits,
@@ -25,6 +24,7 @@ from grader.marking.journal import Journal
 from grader.marking.pool import Pool
 from grader.marking.progress_line import printable
 from grader.marking.sandbox import ResourceLimits
+from grader.marking.task import TaskPool
 
 DESCRIPTION = """Let delivery robots work in the same warehouses, and compare them.
 
@@ -37,7 +37,7 @@ INTERRUPTED = 130  # the exit status of shells
 MAX_SECONDS = 2400.0  # s of simulated time in all warehouses together
 MAX_NOTE_CHARS = 100  # of a row's note
 
-OpenMarker = Callable[[argparse.Namespace, Contest], AbstractContextManager[Marker]]
+OpenPool = Callable[[argparse.Namespace, Contest], AbstractContextManager[TaskPool]]
 
 
 def parser() -> argparse.ArgumentParser:
@@ -58,7 +58,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def main(arguments: list[str] | None = None, open_pool: OpenMarker | None = None) -> int:
+def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) -> int:
     """Run the command in the course's folder; returns the exit status. open_pool: opens another pool."""
     options = parser().parse_args(arguments)
     own = bool(options.notebooks)

@@ -12,12 +12,27 @@ from grader.diagnosis.fault import Fault
 from grader.exercise import Exercise
 from grader.marking.extras.league.contest import Contest, Game, game_of
 from grader.marking.judge.cell_outputs import CellOutputs
+from grader.marking.judge.mark_submission import find_exercises, flag_suspicious_code, rebuild_notebooks
 from grader.marking.judge.marking import Marking, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.student_session import StudentSession
 from grader.programs import ProgramSource
 from grader.score import Score
 from grader.stderr_redirect import redirect_stderr
+
+
+def run_contest(marking: Marking, contest: Contest) -> None:
+    """Run the contest with the programs of the release's last test cell. Raises Unusable, UnknownTest."""
+    rebuild_notebooks(marking)
+    find_exercises(marking)
+    flag_suspicious_code(marking)
+    name, exercises = list(marking.exercises.items())[-1]
+    marking.exercises = {name: dict(list(exercises.items())[-1:])}
+    marking.cells[name] = []
+    if name in marking.rebuilt.notebooks:
+        ContestRun(marking, name, contest).run_all()
+    else:
+        marking.stops.append(marking.rebuilt.missing[name])
 
 
 class ContestJudge:
@@ -55,23 +70,23 @@ class ContestRun(NotebookRun):
         self._contest = contest
 
     def _test(
-        self, process: StudentSession, cell: NotebookNode, number: int, shown: CellOutputs
+        self, session: StudentSession, cell: NotebookNode, number: int, shown: CellOutputs
     ) -> list[dict[str, Any]]:
         if cell_name(cell) not in self._exercises:
             return []
-        rounds = ContestJudge(self._exercises[cell_name(cell)], self._contest)
+        judge = ContestJudge(self._exercises[cell_name(cell)], self._contest)
         problem = "Its test cell ended before the programs could be run."
         try:
-            tested = process.test(cell.source, rounds, shown, self._contest.seed)
+            tested = session.test(cell.source, judge, shown, self._contest.seed)
             self._flag(cell, tested.flags)
             if tested.error is not None:
                 self._flag(cell, [f"could not be played, by a mistake of the course: {tested.error}"])
             problem = "" if tested.score is not None else tested.problem or problem
         finally:  # the games before its process ended count
             result = no_points(cell, self._exercises[cell_name(cell)])
-            games = [game.as_dict() for game in rounds.games]
+            games = [game.as_dict() for game in judge.games]
             self._results.append(replace(result, max=0.0, games=games))
             self._marking.timings["judged"] += len(games) * self._contest.seconds
-        if problem or rounds.problem:
-            self._marking.stops.append(rounds.problem or problem)
+        if problem or judge.problem:
+            self._marking.stops.append(judge.problem or problem)
         return shown.list

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from grader.marking.errors import CourseError, Unusable
 from grader.marking.extras.league.contest import Contest
+from grader.marking.extras.league.contest_procedure import ContestProcedure
 from grader.marking.extras.league.standings import REFERENCE
 from grader.marking.submission.assignment_release import SUFFIX, Release, load_release
 from grader.marking.submission.submitted_files import (
@@ -36,12 +37,12 @@ class Entries:
         for student in chosen:
             submitted = self.read[student]()
             key = submission_key(submitted, self.release, repr(contest), version)
-            yield MarkingTask(student, self.release, submitted, key, contest)
+            yield MarkingTask(student, self.release, submitted, key, ContestProcedure(contest))
 
 
 def of_class(folder: Path, assignment: str) -> Entries:
     """All submissions of the course in this folder, and the reference. Raises CourseError."""
-    if importlib.util.find_spec("grader.marking.command") is None:  # this is the handout
+    if importlib.util.find_spec("grader.marking.gradebook") is None:  # this is the handout
         raise CourseError("only instructors have what a class handed in: name your notebooks")
     from grader.marking.gradebook.course import Course
     from grader.marking.gradebook.find_submissions import find_submissions

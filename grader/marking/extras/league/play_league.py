@@ -3,24 +3,17 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 from grader.marking.extras.league.contest import Contest
 from grader.marking.extras.league.entries import Entries
 from grader.marking.journal import Journal
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
-from grader.marking.task import MarkingTask, TimeLimits
-
-
-class Marker(Protocol):
-    """Runs tasks in processes of their own."""
-
-    def mark(self, tasks: Iterable[MarkingTask]) -> Iterator[Result]:
-        """Yield the results as they are ready."""
+from grader.marking.task import TaskPool, TimeLimits
 
 
 @dataclass
@@ -37,7 +30,7 @@ def play(
     entries: Entries,
     contest: Contest,
     journal: Journal,
-    open_pool: Callable[[], AbstractContextManager[Marker]],
+    open_pool: Callable[[], AbstractContextManager[TaskPool]],
 ) -> LeagueOutcome:
     """Run the contest with all entries. The caller holds the journal's lock. Raises OSError."""
     played = LeagueOutcome(total=len(entries.read))

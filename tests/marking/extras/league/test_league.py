@@ -15,11 +15,11 @@ import pytest
 from grader.marking.extras.league.cli import main
 from grader.marking.extras.league.contest import Contest
 from grader.marking.extras.league.league_pages import INDEX
-from grader.marking.extras.league.play_league import Marker, time_limits
+from grader.marking.extras.league.play_league import time_limits
 from grader.marking.journal import Journal
 from grader.marking.pool import Pool
 from grader.marking.result import Result
-from grader.marking.task import MarkingTask
+from grader.marking.task import MarkingTask, TaskPool
 from tests.marking.extras.league.capstones import (
     ASSIGNMENT,
     CRASHES,
@@ -51,7 +51,7 @@ def pool() -> Iterator[Pool]:
 def league(pool) -> Callable[..., int]:
     """Runs the command in a folder."""
 
-    def run(folder: Path, *more: str, pool: Marker = pool) -> int:
+    def run(folder: Path, *more: str, pool: TaskPool = pool) -> int:
         with contextlib.chdir(folder):
             return main([*SHORT, *more], lambda *_: contextlib.nullcontext(pool))
 
