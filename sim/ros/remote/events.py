@@ -226,7 +226,7 @@ def _from_wire(received: Any) -> Any:
     name = received[0] if isinstance(received, list) and received else None
     type_ = _TYPES.get(name) if isinstance(name, str) else None
     if type_ is None:
-        raise ProtocolError("an event of no known kind")
+        raise ProtocolError("an event of unknown kind")
     if len(received) - 1 != len(type_._fields):
         raise ProtocolError(f"the event {name!r} with {len(received) - 1} parts, not {len(type_._fields)}")
     return type_(*received[1:])

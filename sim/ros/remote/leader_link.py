@@ -55,7 +55,7 @@ class LeaderLink(ProcessLink):
     def check_deadline(self) -> None:
         """Raises ProtocolError after the deadline: a single event may wake thousands of subscriptions."""
         if monotonic() > self.deadline:
-            raise ProtocolError("more than can be looked at in the time that is left")
+            raise ProtocolError("more than can be processed in the remaining time")
 
     # -- endpoints, messages and requests ----------------------------------------------------------
 
@@ -111,7 +111,7 @@ class LeaderLink(ProcessLink):
     def _call_answered(self, event: events.CallAnswered) -> None:
         call = self._known(event.key, self._calls, "a call")
         if event.key in self._answering:
-            raise ProtocolError("a response that came to nobody")
+            raise ProtocolError("a response without a receiver")
         _, bytes_ = valid_message(event.raw, message_class(f"{call.type}_Response"), "a response")
         self.engine.recorder.calls.answered(call, bytes_)
 
@@ -131,12 +131,12 @@ class LeaderLink(ProcessLink):
         try:
             goal_id = UUID(uuid=list(bytes.fromhex(valid_text(event.id, "an id", 32))))
         except (ValueError, AssertionError):
-            raise ProtocolError("a goal's id that is none") from None
+            raise ProtocolError("an invalid goal id") from None
         _, bytes_ = valid_message(event.raw, cls.Goal, "a goal")
         if not event.client:  # a goal of the leader, taken by a server of the follower
             waiting = [goal for goal in goals.known(action, goal_id) if not goal.server and not goal.lost]
             if not waiting:
-                raise ProtocolError("a goal that nobody has sent")
+                raise ProtocolError("a goal that no client has sent")
             self._goals[key] = waiting[0]
             return
         client = self._node(event.client)
@@ -156,7 +156,7 @@ class LeaderLink(ProcessLink):
     def _goal_event(self, event: events.GoalEvent) -> None:
         goal, word = self._known(event.key, self._goals, "a goal"), event.event
         if word != CANCEL_REQUESTED and (word not in GOAL_EVENTS or event.key not in self._started):
-            raise ProtocolError("a goal's event that can't be")
+            raise ProtocolError("an invalid event of a goal")
         goal.events.append((self._now, word))
 
     def _goal_feedback(self, event: events.GoalFeedback) -> None:
@@ -172,7 +172,7 @@ class LeaderLink(ProcessLink):
     def _served(self, event: events.GoalFeedback | events.GoalResult, part: str) -> tuple[Goal, bytes]:
         goal = self._known(event.key, self._goals, "a goal")
         if event.key not in self._started:
-            raise ProtocolError("news of a goal that its server did not take")
+            raise ProtocolError("a report on a goal that its server has not taken")
         return goal, valid_message(event.raw, message_class(f"{goal.type}_{part}"), f"a {part.lower()}")[1]
 
     def _goal_answered(self, event: events.GoalAnswered) -> None:
@@ -188,7 +188,7 @@ class LeaderLink(ProcessLink):
         """The name of a node of the follower, which can't report on nodes of the leader."""
         name = self._node(name)
         if name not in self.proxies.names:
-            raise ProtocolError(f"news of the node {name!r}, which it does not have")
+            raise ProtocolError(f"a report on the node {name!r}, which it does not have")
         return name
 
     def _caller(self, name: Any, service: str, type_: str, raw: bytes) -> tuple[str, float | None, bool]:
@@ -213,7 +213,7 @@ class LeaderLink(ProcessLink):
     def _known(self, key: Any, known: dict[int, Any], what: str) -> Any:
         found = known.get(valid_int(key, "a key"))
         if found is None:
-            raise ProtocolError(f"news of {what} that there is not")
+            raise ProtocolError(f"a report on {what} that does not exist")
         return found
 
     HANDLERS: ClassVar[dict[type, Callable[..., None]]] = ProcessLink.HANDLERS | {

@@ -156,7 +156,7 @@ class ProcessLink:
         for event in self._incoming.read(received):
             self.check_deadline()
             if type(event) not in self.HANDLERS:
-                raise ProtocolError("an event of no known kind")
+                raise ProtocolError("an event of unknown kind")
             self.HANDLERS[type(event)](self, event)
         if received:
             self.engine.activity += 1
@@ -173,7 +173,7 @@ class ProcessLink:
     def _endpoints_destroyed(self, event: EndpointsDestroyed) -> None:
         for number in valid_list(event.numbers, "numbers", MAX_ENDPOINTS):
             if number not in self.proxies:
-                raise ProtocolError("the end of something that there is not")
+                raise ProtocolError("the destruction of an endpoint that does not exist")
             self.proxies.remove(number)
 
     def _message_published(self, event: MessagePublished) -> None:
@@ -185,7 +185,7 @@ class ProcessLink:
             self.publish(publisher, bytes_)
 
     def _liveliness_asserted(self, event: LivelinessAsserted) -> None:
-        self._publisher(event, "a sign of life").writer.sign()
+        self._publisher(event, "a liveliness assertion").writer.sign()
 
     def _publisher(
         self, event: MessagePublished | LivelinessAsserted, what: str, *, newest: bool = False
@@ -227,7 +227,7 @@ class ProcessLink:
     def _response_sent(self, event: ResponseSent) -> None:
         service = self._answering.pop(valid_int(event.key, "a key"), None)
         if service is None:
-            raise ProtocolError("a response to a request that nobody has made")
+            raise ProtocolError("a response to a request that no client has sent")
         response, bytes_ = valid_message(event.raw, service.type.Response, f"a response of {service.name}")
         self.answered(event.key, service, response, bytes_)
 

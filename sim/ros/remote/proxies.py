@@ -94,14 +94,14 @@ class Proxies:
         of = valid_text(of, "a node's name", MAX_NAME_LENGTH)
         name = valid_text(name, "a name", MAX_NAME_LENGTH)
         if kind not in (*INTERFACES, *ACTIONS):
-            raise ProtocolError("an end of no known kind")
+            raise ProtocolError("an endpoint of unknown kind")
         if number in self or not of.startswith("/") or not name.startswith("/"):
-            raise ProtocolError(f"the end {name!r} of {of!r}, which can't be")
+            raise ProtocolError(f"the endpoint {name!r} of {of!r}, which is invalid")
         if len(self) >= MAX_ENDPOINTS:
-            raise ProtocolError(f"more than {MAX_ENDPOINTS} ends of topics, services and actions")
+            raise ProtocolError(f"more than {MAX_ENDPOINTS} endpoints of topics, services and actions")
         self._created += 1
         if self._created > MAX_ENDPOINTS_PER_RUN:
-            many = f"more than {MAX_ENDPOINTS_PER_RUN} ends of topics, services and actions"
+            many = f"more than {MAX_ENDPOINTS_PER_RUN} endpoints of topics, services and actions"
             raise ProtocolError(f"{many}, one after the other")
         cls = valid_interface(valid_text(type_, "a type", MAX_NAME_LENGTH), INTERFACES.get(kind, "action"))
         settings = None if kind in ACTIONS else valid_qos(profile)

@@ -132,7 +132,7 @@ class Remote:
         elif isinstance(error, WireTimeout):
             reason = f"The process with the nodes gave no answer for {self.patience:g} s."
         else:
-            reason = f"The process with the nodes sent what is no answer: {error}."
+            reason = f"The process with the nodes sent an invalid answer: {error}."
         raise RemoteLost(reason) from None
 
 
@@ -177,7 +177,9 @@ class _RunExchange:
         except ProtocolError as error:
             raise _remote_lost(error) from None
         except Exception as error:
-            raise RemoteLost("Its nodes did what this side can't follow.", True, error) from error
+            raise RemoteLost(
+                "Its nodes did something that the leading process can't reproduce.", True, error
+            ) from error
 
     def _update(self, answer: dict[str, Any]) -> None:
         run = self._run
@@ -189,7 +191,7 @@ class _RunExchange:
         if fault is None:
             return
         if not isinstance(fault, list) or len(fault) != 2 or fault[0] not in FAULTS:
-            raise ProtocolError("a fault of no known kind")
+            raise ProtocolError("a fault of unknown kind")
         run.stop(Ended(fault[0], run.recorder.now, valid_text(fault[1], "a reason", MAX_DETAIL_LENGTH)))
 
     def finish(self) -> None:

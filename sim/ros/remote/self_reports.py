@@ -60,7 +60,7 @@ class SelfReports:
         valid = valid_list(reports, kind, MAX_REPORTS_PER_MESSAGE, width)
         self._count += len(valid)
         if self._count > MAX_REPORTS_PER_RUN:
-            raise ProtocolError(f"more than {MAX_REPORTS_PER_RUN} log lines, callbacks and the like")
+            raise ProtocolError(f"more than {MAX_REPORTS_PER_RUN} log lines, callbacks and other reports")
         return valid if width else [(report,) for report in valid]
 
     @property
@@ -85,7 +85,7 @@ class SelfReports:
 
     def _log(self, level: Any, logger: Any, line: Any) -> None:
         if level not in LEVELS.values():
-            raise ProtocolError("a log line of no known level")
+            raise ProtocolError("a log line of unknown level")
         logger, line = self._name(logger), self._texts.take(line, "a log line")
         if len(self._recording.logs) < MAX_LOG_LINES:
             self._recording.logs.append(LogLine(self._now, level, logger, line))
@@ -110,7 +110,7 @@ class SelfReports:
 
     def _callback(self, began: Any, lasted: Any, node: Any, callback: Any, kind: Any) -> None:
         if kind not in KINDS:
-            raise ProtocolError("a callback of no known kind")
+            raise ProtocolError("a callback of unknown kind")
         now = self._now
         begin = valid_float(began, "the beginning of a callback", 0, now)
         length = valid_float(lasted, "a callback's duration", 0, now - begin + 1 / SECOND)

@@ -40,7 +40,7 @@ class ProtocolError(Exception):
 def valid_text(value: Any, what: str, max_length: int = MAX_TEXT_LENGTH) -> str:
     """A text, cut to a length and encodable as UTF-8. Raises ProtocolError if `value` is no text."""
     if not isinstance(value, str):
-        raise ProtocolError(f"{what} that is no text")
+        raise ProtocolError(f"{what} that is not a text")
     short = value[:max_length]
     return short if short.isascii() else short.encode("utf-8", "replace").decode()
 
@@ -57,7 +57,7 @@ class TextBudget:
         taken = valid_text(value, what, max_length)
         self._characters += len(taken)
         if self._characters > MAX_TOTAL_TEXT:
-            raise ProtocolError(f"more than {MAX_TOTAL_TEXT} characters of log lines, names and the like")
+            raise ProtocolError(f"more than {MAX_TOTAL_TEXT} characters of log lines, names and other texts")
         return taken
 
     def name(self, value: Any, what: str) -> str:
@@ -78,7 +78,7 @@ def printable(text: str, max_length: int) -> str:
 def valid_int(value: Any, what: str, low: int = 0, high: int = 2**63 - 1) -> int:
     """An integer from `low` to `high`."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        raise ProtocolError(f"{what} that is no whole number from {low} to {high}")
+        raise ProtocolError(f"{what} that is not an integer from {low} to {high}")
     return value
 
 
@@ -92,7 +92,7 @@ def valid_float(value: Any, what: str, low: float, high: float) -> float:
 def valid_list(value: Any, what: str, max_items: int, width: int = 0) -> list[Any]:
     """A list of at most `max_items` items. With a width, each item is a list of this length."""
     if not isinstance(value, list):
-        raise ProtocolError(f"{what} that are no list")
+        raise ProtocolError(f"{what} that are not a list")
     if len(value) > max_items:
         raise ProtocolError(f"{len(value)} {what} at once; {max_items} are allowed")
     if width and any(not isinstance(row, list) or len(row) != width for row in value):
@@ -111,7 +111,7 @@ def valid_message(value: Any, cls: type, what: str) -> tuple[Any, bytes]:
         decoded = decode_message(cls, value)
         return decoded, encode(decoded)
     except (TypeError, ValueError, _rclpy.RMWError):
-        raise ProtocolError(f"{what} that is no {type_name(cls)}") from None
+        raise ProtocolError(f"{what} that is not of type {type_name(cls)}") from None
 
 
 def valid_message_bytes(value: Any, cls: type, what: str) -> bytes:
@@ -126,7 +126,7 @@ def valid_interface(name: str, kind: str) -> type:
     """The class of an installed message, service or action: `kind` is "msg", "srv" or "action"."""
     match = _INTERFACE.fullmatch(name)
     if match is None or match[2] != kind:
-        raise ProtocolError(f"the type {name[:100]!r}, which is no name of a {kind} type")
+        raise ProtocolError(f"the type {name[:100]!r}, which is not the name of a {kind} type")
     try:
         if not _is_installed(match[1]):
             raise ImportError
@@ -157,13 +157,13 @@ def valid_qos(value: Any) -> QoSProfile:
     """The QoS profile that `qos_to_list` made this list from. Raises ProtocolError."""
     depth, *numbers = valid_list(value, "a QoS profile", 1 + len(_POLICIES) + len(_DURATIONS))
     if len(numbers) != len(_POLICIES) + len(_DURATIONS):
-        raise ProtocolError("a QoS profile with parts missing")
+        raise ProtocolError("an incomplete QoS profile")
     settings: dict[str, Any] = {"depth": valid_int(depth, "a depth", 0, MAX_QOS_DEPTH)}
     for (name, policy), chosen in zip(_POLICIES.items(), numbers, strict=False):
         try:
             settings[name] = policy(valid_int(chosen, f"a {name}"))
         except ValueError:
-            raise ProtocolError(f"the {name} {chosen}, which there is none of") from None
+            raise ProtocolError(f"the unknown {name} {chosen}") from None
     for name, length in zip(_DURATIONS, numbers[len(_POLICIES) :], strict=True):
         settings[name] = Duration(nanoseconds=valid_int(length, f"a {name}"))
     return QoSProfile(**settings)

@@ -53,14 +53,14 @@ class Wire:
         try:
             body = self._packer.pack(message)
         except (TypeError, ValueError, OverflowError) as error:
-            raise WireBroken(f"this can't be sent: {error}") from None
+            raise WireBroken(f"the message can't be sent: {error}") from None
         if len(body) > self._limit:
             raise WireBroken(f"a message of {len(body)} bytes is too long: {self._limit} are allowed")
         try:
             self._socket.settimeout(self._patience)
             self._socket.sendall(_LENGTH.pack(len(body)) + body)
         except TimeoutError:
-            raise WireTimeout(f"the other side took no message for {self._patience:g} s") from None
+            raise WireTimeout(f"the other process accepted no message for {self._patience:g} s") from None
         except OSError:
             self._raise_closed()
 
@@ -80,9 +80,9 @@ class Wire:
         try:
             message = msgpack.unpackb(body, unicode_errors=HALVES)
         except ValueError:
-            raise WireBroken("what came is no message") from None
+            raise WireBroken("the received bytes are no message") from None
         if not isinstance(message, dict):
-            raise WireBroken(f"what came is no message but a {type(message).__name__}")
+            raise WireBroken(f"the received message is not a dictionary but a {type(message).__name__}")
         return message
 
     def close(self) -> None:
@@ -99,7 +99,7 @@ class Wire:
                 self._socket.settimeout(left)
                 chunk = self._socket.recv(_CHUNK)
             except TimeoutError:
-                raise WireTimeout(f"nothing whole came for {timeout:g} s") from None
+                raise WireTimeout(f"no complete message came for {timeout:g} s") from None
             except OSError:
                 self._raise_closed()
             if not chunk:
@@ -107,4 +107,4 @@ class Wire:
             self._received += chunk
 
     def _raise_closed(self) -> NoReturn:
-        raise WireClosed("the other side has hung up") from None
+        raise WireClosed("the other process has closed the connection") from None

@@ -374,7 +374,7 @@ FollowerLink.take_outgoing = lambda self: [["dance"]]
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.flags[-1] == (
         "The test cell `greeting-points`: not judged, and worth a look. "
-        "The process with the nodes sent an event of no known kind."
+        "The process with the nodes sent an event of unknown kind."
     )
 
 

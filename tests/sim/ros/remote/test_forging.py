@@ -60,7 +60,7 @@ def test_the_secret_changes_what_the_nodes_draw(apart):
         (
             "Garbage",
             120.0,
-            "The process with the nodes sent a message on /chat that is no std_msgs/msg/String.",
+            "The process with the nodes sent a message on /chat that is not of type std_msgs/msg/String.",
         ),
         (
             "Heavy",

@@ -95,37 +95,37 @@ def test_who_says_nothing_new_is_fine():
 @pytest.mark.parametrize(
     ("events", "words"),
     [
-        ([["dance"]], "an event of no known kind"),
-        ([[]], "an event of no known kind"),
-        ([5], "an event of no known kind"),
-        ([[["endpoint"]]], "an event of no known kind"),
+        ([["dance"]], "an event of unknown kind"),
+        ([[]], "an event of unknown kind"),
+        ([5], "an event of unknown kind"),
+        ([[["endpoint"]]], "an event of unknown kind"),
         ([["endpoint", 1]], "the event 'endpoint' with 1 parts, not 7"),
-        ([TALKS, TALKS], "the end '/chat' of '/talker', which can't be"),
-        ([[*TALKS[:3], "talker", *TALKS[4:]]], "the end '/chat' of 'talker', which can't be"),
+        ([TALKS, TALKS], "the endpoint '/chat' of '/talker', which is invalid"),
+        ([[*TALKS[:3], "talker", *TALKS[4:]]], "the endpoint '/chat' of 'talker', which is invalid"),
         ([[*TALKS[:3], "/tal ker", *TALKS[4:]]], "the name '/chat' or '/tal ker', which ROS does not allow"),
         ([[*TALKS[:5], "/ch at", *TALKS[6:]]], "the name '/ch at' or '/talker', which ROS does not allow"),
         (
             [[*SERVES[:5], "/ad d", *SERVES[6:]]],
             "the name '/ad d' or '/talker', which ROS does not allow",
         ),
-        ([["endpoint", "1", *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
-        ([["endpoint", True, *TALKS[2:]]], "a number that is no whole number from 0 to 9223372036854775807"),
-        ([[*TALKS[:4], "robot", *TALKS[5:]]], "an end of no known kind"),
-        ([[*TALKS[:4], ["client"], *TALKS[5:]]], "an end of no known kind"),
+        ([["endpoint", "1", *TALKS[2:]]], "a number that is not an integer from 0 to 9223372036854775807"),
+        ([["endpoint", True, *TALKS[2:]]], "a number that is not an integer from 0 to 9223372036854775807"),
+        ([[*TALKS[:4], "robot", *TALKS[5:]]], "an endpoint of unknown kind"),
+        ([[*TALKS[:4], ["client"], *TALKS[5:]]], "an endpoint of unknown kind"),
         ([[*TALKS[:6], "os/msg/Path", QOS]], "the type os/msg/Path, which is not installed here"),
         ([[*TALKS[:6], "std_msgs/msg/Nope", QOS]], "the type std_msgs/msg/Nope, which is not installed here"),
         ([[*TALKS[:6], "tests/msg/String", QOS]], "the type tests/msg/String, which is not installed here"),
-        ([[*TALKS[:6], "../x", QOS]], "the type '../x', which is no name of a msg type"),
+        ([[*TALKS[:6], "../x", QOS]], "the type '../x', which is not the name of a msg type"),
         (
             [[*TALKS[:6], "std_srvs/srv/SetBool", QOS]],
-            "the type 'std_srvs/srv/SetBool', which is no name of a msg type",
+            "the type 'std_srvs/srv/SetBool', which is not the name of a msg type",
         ),
-        ([[*TALKS[:7], None]], "a QoS profile that are no list"),
-        ([[*TALKS[:7], [10]]], "a QoS profile with parts missing"),
-        ([[*TALKS[:7], [10, 99, *QOS[2:]]]], "the reliability 99, which there is none of"),
-        ([[*TALKS[:7], [-1, *QOS[1:]]]], "a depth that is no whole number from 0 to 100000"),
-        ([["destroyed", [77]]], "the end of something that there is not"),
-        ([["destroyed", 77]], "numbers that are no list"),
+        ([[*TALKS[:7], None]], "a QoS profile that are not a list"),
+        ([[*TALKS[:7], [10]]], "an incomplete QoS profile"),
+        ([[*TALKS[:7], [10, 99, *QOS[2:]]]], "the unknown reliability 99"),
+        ([[*TALKS[:7], [-1, *QOS[1:]]]], "a depth that is not an integer from 0 to 100000"),
+        ([["destroyed", [77]]], "the destruction of an endpoint that does not exist"),
+        ([["destroyed", 77]], "numbers that are not a list"),
         (
             [["message", "/talker", "/chat", TWIST, False]],
             "a message on '/chat', where '/talker' has no publisher",
@@ -136,25 +136,25 @@ def test_who_says_nothing_new_is_fine():
         ),
         (
             [TALKS, ["liveliness", "/robot", "/chat"]],
-            "a sign of life on '/chat', where '/robot' has no publisher",
+            "a liveliness assertion on '/chat', where '/robot' has no publisher",
         ),
-        ([TALKS, ["delivered", 1, "AA", 0, 1, 0, 0]], "an event of no known kind"),
-        ([TALKS, ["liveliness delivered", 1, "/talker"]], "an event of no known kind"),
+        ([TALKS, ["delivered", 1, "AA", 0, 1, 0, 0]], "an event of unknown kind"),
+        ([TALKS, ["liveliness delivered", 1, "/talker"]], "an event of unknown kind"),
         (
             [TALKS, ["message", "/talker", "/chat", "AA", False]],
-            "a message on /chat that is no std_msgs/msg/String",
+            "a message on /chat that is not of type std_msgs/msg/String",
         ),
         (
             [TALKS, ["message", "/talker", "/chat", 5, False]],
-            "a message on /chat that is no std_msgs/msg/String",
+            "a message on /chat that is not of type std_msgs/msg/String",
         ),
         (
             [TALKS, ["message", "/talker", "/chat", "é", False]],
-            "a message on /chat that is no std_msgs/msg/String",
+            "a message on /chat that is not of type std_msgs/msg/String",
         ),
         (
             [TALKS, ["message", "/talker", "/chat", TOO_SHORT, True]],
-            "a message on /chat that is no std_msgs/msg/String",
+            "a message on /chat that is not of type std_msgs/msg/String",
         ),
         (
             [["request", 11, "/add", "/talker", TWIST]],
@@ -162,34 +162,37 @@ def test_who_says_nothing_new_is_fine():
         ),
         (
             [ASKS, ["request", 11, "/add", "/talker", "AAEAAA=="]],
-            "a request to /add that is no example_interfaces/srv/AddTwoInts_Request",
+            "a request to /add that is not of type example_interfaces/srv/AddTwoInts_Request",
         ),
-        ([["response", 2, TWIST]], "a response to a request that nobody has made"),
-        ([[*CALL[:6], "", False]], "a request that is no example_interfaces/srv/AddTwoInts_Request"),
+        ([["response", 2, TWIST]], "a response to a request that no client has sent"),
+        ([[*CALL[:6], "", False]], "a request that is not of type example_interfaces/srv/AddTwoInts_Request"),
         ([ASKS, ["call", 8, *CALL[2:]]], "a key that it may not choose"),
-        ([CALL], "news of the node '/talker', which it does not have"),
+        ([CALL], "a report on the node '/talker', which it does not have"),
         ([ASKS, CALL, CALL], "a key that it may not choose"),
-        ([["call started", 9, "/adder"]], "news of a call that there is not"),
-        ([ASKS, CALL, ["call started", 9, "/adder"]], "news of the node '/adder', which it does not have"),
+        ([["call started", 9, "/adder"]], "a report on a call that does not exist"),
+        (
+            [ASKS, CALL, ["call started", 9, "/adder"]],
+            "a report on the node '/adder', which it does not have",
+        ),
         (
             [ASKS, CALL, ["call answered", 9, "AAEAAA=="]],
-            "a response that is no example_interfaces/srv/AddTwoInts_Response",
+            "a response that is not of type example_interfaces/srv/AddTwoInts_Response",
         ),
-        ([["call received", 9]], "news of a call that there is not"),
+        ([["call received", 9]], "a report on a call that does not exist"),
         (
             [["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False]],
             "a goal of '/fib', of which '/talker' has no client",
         ),
-        ([["goal", 9, "/fib", ACTS[6], "", ID, TWIST, False]], "a goal that nobody has sent"),
-        ([["goal", 9, "/fib", ACTS[6], "", "xyz", TWIST, False]], "a goal's id that is none"),
-        ([["goal", 9, "/fib", ACTS[6], "", "00", TWIST, False]], "a goal's id that is none"),
+        ([["goal", 9, "/fib", ACTS[6], "", ID, TWIST, False]], "a goal that no client has sent"),
+        ([["goal", 9, "/fib", ACTS[6], "", "xyz", TWIST, False]], "an invalid goal id"),
+        ([["goal", 9, "/fib", ACTS[6], "", "00", TWIST, False]], "an invalid goal id"),
         (
             [ACTS, ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False], ["goal event", 9, "succeeded"]],
-            "a goal's event that can't be",
+            "an invalid event of a goal",
         ),
         (
             [ACTS, ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False], ["goal result", 9, TWIST]],
-            "news of a goal that its server did not take",
+            "a report on a goal that its server has not taken",
         ),
         (
             [
@@ -206,9 +209,9 @@ def test_who_says_nothing_new_is_fine():
                 ["goal", 9, "/fib", ACTS[6], "/talker", ID, TWIST, False],
                 ["goal started", 9, "/fibber"],
             ],
-            "news of the node '/fibber', which it does not have",
+            "a report on the node '/fibber', which it does not have",
         ),
-        ([["goal answered", 9]], "news of a goal that there is not"),
+        ([["goal answered", 9]], "a report on a goal that does not exist"),
     ],
 )  # fmt: skip
 def test_an_event_that_can_t_be_ends_the_run(events, words):
@@ -218,19 +221,19 @@ def test_an_event_that_can_t_be_ends_the_run(events, words):
 @pytest.mark.parametrize(
     ("reports", "words"),
     [
-        ({"logs": 5}, "logs that are no list"),
+        ({"logs": 5}, "logs that are not a list"),
         ({"logs": [["INFO", "talker"]]}, "logs that are not lists of 3"),
-        ({"logs": [["LOUD", "talker", "hi"]]}, "a log line of no known level"),
-        ({"logs": [["INFO", "talker", 5]]}, "a log line that is no text"),
-        ({"prints": [5]}, "a print that is no text"),
-        ({"nodes": [5]}, "a node's name that is no text"),
-        ({"errors": [["/a", "b", "c", "d", None]]}, "an error that is no text"),
-        ({"busy_loops": [["/a", 3]]}, "a busy loop that is no text"),
-        ({"unheard": [["/a", 3]]}, "a node's name that is no text"),
-        ({"parameters": [["/a", 3, True]]}, "a name that is no text"),
+        ({"logs": [["LOUD", "talker", "hi"]]}, "a log line of unknown level"),
+        ({"logs": [["INFO", "talker", 5]]}, "a log line that is not a text"),
+        ({"prints": [5]}, "a print that is not a text"),
+        ({"nodes": [5]}, "a node's name that is not a text"),
+        ({"errors": [["/a", "b", "c", "d", None]]}, "an error that is not a text"),
+        ({"busy_loops": [["/a", 3]]}, "a busy loop that is not a text"),
+        ({"unheard": [["/a", 3]]}, "a node's name that is not a text"),
+        ({"parameters": [["/a", 3, True]]}, "a name that is not a text"),
         ({"timers": [["/a", -1, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
         ({"timers": [["/a", True, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
-        ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of no known kind"),
+        ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of unknown kind"),
         (
             {"callbacks": [[0.5, 0, "/a", "b", "timer"]]},
             "the beginning of a callback that is not a number from 0 to 0",
@@ -249,14 +252,14 @@ def test_an_invalid_self_report_ends_the_run(reports, words):
 @pytest.mark.parametrize(
     ("answer", "words"),
     [
-        (QUIET | {"events": None}, "events that are no list"),
-        (QUIET | {"next": 0}, "a next moment that is no whole number from 1 to 1000000000"),
-        (QUIET | {"next": END + 1}, "a next moment that is no whole number from 1 to 1000000000"),
-        (QUIET | {"next": None}, "a next moment that is no whole number from 1 to 1000000000"),
-        (QUIET | {"blocked": 5}, "a reason that is no text"),
-        (QUIET | {"fault": ["goal", "well done"]}, "a fault of no known kind"),
-        (QUIET | {"fault": "hang"}, "a fault of no known kind"),
-        (QUIET | {"fault": ["hang", 5]}, "a reason that is no text"),
+        (QUIET | {"events": None}, "events that are not a list"),
+        (QUIET | {"next": 0}, "a next moment that is not an integer from 1 to 1000000000"),
+        (QUIET | {"next": END + 1}, "a next moment that is not an integer from 1 to 1000000000"),
+        (QUIET | {"next": None}, "a next moment that is not an integer from 1 to 1000000000"),
+        (QUIET | {"blocked": 5}, "a reason that is not a text"),
+        (QUIET | {"fault": ["goal", "well done"]}, "a fault of unknown kind"),
+        (QUIET | {"fault": "hang"}, "a fault of unknown kind"),
+        (QUIET | {"fault": ["hang", 5]}, "a reason that is not a text"),
     ],
 )
 def test_an_answer_that_can_t_be_ends_the_run(answer, words):
@@ -272,7 +275,7 @@ def test_a_run_that_is_left_over_there_is_named_as_that():
 
 def test_a_moment_that_has_passed_can_t_come_again():
     assert loses(QUIET | {"next": END // 2}, QUIET | {"next": END // 4}) == sent(
-        "a next moment that is no whole number from 500000001 to 1000000000"
+        "a next moment that is not an integer from 500000001 to 1000000000"
     )
 
 
@@ -307,14 +310,14 @@ def test_what_it_says_of_a_failure_is_one_line_that_a_terminal_can_show():
 
 
 def test_a_stderr_that_is_no_text_ends_the_run():
-    assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is no text")
+    assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is not a text")
 
 
 def test_who_makes_and_destroys_without_end_is_given_up(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.proxies.MAX_ENDPOINTS_PER_RUN", 50)
     again = [TALKS, ["destroyed", [1]]] * 50 + [TALKS]
     assert loses(answer_with(*again)) == sent(
-        "more than 50 ends of topics, services and actions, one after the other"
+        "more than 50 endpoints of topics, services and actions, one after the other"
     )
 
 
@@ -326,7 +329,7 @@ def test_all_events_of_a_run_have_a_limit(monkeypatch):
 
 def test_all_texts_of_a_run_have_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.validation.MAX_TOTAL_TEXT", 20)
-    words = "more than 20 characters of log lines, names and the like"
+    words = "more than 20 characters of log lines, names and other texts"
     assert loses(self_reports(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
     assert loses(self_reports(prints=["x" * 21])) == sent(words)
     assert loses(self_reports(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
@@ -335,7 +338,7 @@ def test_all_texts_of_a_run_have_a_limit(monkeypatch):
 def test_what_takes_too_long_to_enter_ends_the_run():
     with answering(answer_with(TALKS), deadline=lambda: 0.0) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
-    assert lost.value.reason == sent("more than can be looked at in the time that is left")
+    assert lost.value.reason == sent("more than can be processed in the remaining time")
 
 
 @pytest.mark.parametrize("period", [2**64 - 1, math.inf, math.nan])
@@ -372,7 +375,10 @@ def test_what_is_no_message_ends_the_run():
     with near, far, pytest.raises(RemoteLost) as lost:
         far.sendall(b"\0\0\0\1\xc1")
         run(Remote(Wire(near)), seconds=1, quiet=True)
-    assert lost.value.reason == "The process with the nodes sent what is no answer: what came is no message."
+    assert (
+        lost.value.reason
+        == "The process with the nodes sent an invalid answer: the received bytes are no message."
+    )
 
 
 def test_who_hung_up_before_the_run_is_gone():

@@ -49,7 +49,7 @@ def test_a_message_comes_as_it_was(original):
 
 @pytest.mark.parametrize("sent", [encode(Twist())[:-1], encode(Twist())[:20], "a text", 7, None])
 def test_what_is_no_twist_is_refused(sent):
-    with pytest.raises(ProtocolError, match=r"^a command that is no geometry_msgs/msg/Twist$"):
+    with pytest.raises(ProtocolError, match=r"^a command that is not of type geometry_msgs/msg/Twist$"):
         valid_message_bytes(sent, Twist, "a command")
 
 
@@ -60,9 +60,9 @@ def test_names_count_once_and_other_texts_each_time(monkeypatch):
         assert texts.name(name, "a name") == name
     assert texts.name("/lidar\ud83d", "a name") == "/lidar?"
     texts.take("t" * 10, "a text", 10)
-    with pytest.raises(ProtocolError, match=r"^a name that is no text$"):
+    with pytest.raises(ProtocolError, match=r"^a name that is not a text$"):
         texts.name(["a", "list"], "a name")
-    words = f"more than {MAX_TOTAL_TEXT} characters of log lines, names and the like"
+    words = f"more than {MAX_TOTAL_TEXT} characters of log lines, names and other texts"
     with pytest.raises(ProtocolError, match=f"^{words}$"):
         for _ in range(MAX_TOTAL_TEXT // len(name) + 1):  # one too many to be known
             texts.name("m" * len(name), "a name")

@@ -59,52 +59,52 @@ def test_who_hung_up_is_gone(wires):
     near.send(last=1)
     near.close()
     assert far.receive() == {"last": 1}
-    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+    with pytest.raises(WireClosed, match=r"^the other process has closed the connection$"):
         far.receive()
-    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+    with pytest.raises(WireClosed, match=r"^the other process has closed the connection$"):
         far.send(anyone=1)
-    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+    with pytest.raises(WireClosed, match=r"^the other process has closed the connection$"):
         near.receive()
 
 
 def test_half_a_message_is_none(ends):
     ends[0].sendall(framed(b"\x81\xa1a\x01")[:-1])
     ends[0].close()
-    with pytest.raises(WireClosed, match=r"^the other side has hung up$"):
+    with pytest.raises(WireClosed, match=r"^the other process has closed the connection$"):
         Wire(ends[1]).receive()
 
 
 def test_silence_has_its_limit_and_the_rest_may_still_come(ends):
     far = Wire(ends[1])
-    with pytest.raises(WireTimeout, match=r"^nothing whole came for 0\.05 s$"):
+    with pytest.raises(WireTimeout, match=r"^no complete message came for 0\.05 s$"):
         far.receive(0.05)
     ends[0].sendall(framed(b"\x81\xa1a\x01")[:6])
-    with pytest.raises(WireTimeout, match=r"^nothing whole came for 0\.05 s$"):
+    with pytest.raises(WireTimeout, match=r"^no complete message came for 0\.05 s$"):
         far.receive(0.05)
     ends[0].sendall(framed(b"\x81\xa1a\x01")[6:])
     assert far.receive(0.05) == {"a": 1}
 
 
 def test_who_takes_no_message_is_not_waited_for_for_ever(ends):
-    with pytest.raises(WireTimeout, match=r"^the other side took no message for 0\.05 s$"):
+    with pytest.raises(WireTimeout, match=r"^the other process accepted no message for 0\.05 s$"):
         Wire(ends[0], patience=0.05).send(text="x" * 5_000_000)
 
 
 @pytest.mark.parametrize(
     ("body", "words"),
     [
-        (b"", "what came is no message"),
-        (b"\x81", "what came is no message"),
-        (b"\x81\xa1a\x01\x02", "what came is no message"),
-        (b"\xa1\xff", "what came is no message"),
-        (b"\xc1", "what came is no message"),
-        (b"\x91" * 100_000, "what came is no message"),
-        (b"\xdd\xff\xff\xff\xff", "what came is no message"),
-        (b"\xdf\xff\xff\xff\xff", "what came is no message"),
-        (b"\xc6\xff\xff\xff\xff", "what came is no message"),
-        (b"\x81\x90\x01", "what came is no message"),
-        (b"\x91\x01", "what came is no message but a list"),
-        (b"\xc0", "what came is no message but a NoneType"),
+        (b"", "the received bytes are no message"),
+        (b"\x81", "the received bytes are no message"),
+        (b"\x81\xa1a\x01\x02", "the received bytes are no message"),
+        (b"\xa1\xff", "the received bytes are no message"),
+        (b"\xc1", "the received bytes are no message"),
+        (b"\x91" * 100_000, "the received bytes are no message"),
+        (b"\xdd\xff\xff\xff\xff", "the received bytes are no message"),
+        (b"\xdf\xff\xff\xff\xff", "the received bytes are no message"),
+        (b"\xc6\xff\xff\xff\xff", "the received bytes are no message"),
+        (b"\x81\x90\x01", "the received bytes are no message"),
+        (b"\x91\x01", "the received message is not a dictionary but a list"),
+        (b"\xc0", "the received message is not a dictionary but a NoneType"),
     ],
 )
 def test_what_is_no_message_is_refused(ends, body, words):
@@ -129,9 +129,9 @@ def test_a_message_that_is_too_long_is_not_sent(wires, ends):
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        (object, "this can't be sent: can not serialize 'type' object"),
-        (2**64, "this can't be sent: Integer value out of range"),
-        (_endless(), "this can't be sent: recursion limit exceeded."),
+        (object, "the message can't be sent: can not serialize 'type' object"),
+        (2**64, "the message can't be sent: Integer value out of range"),
+        (_endless(), "the message can't be sent: recursion limit exceeded."),
     ],
 )
 def test_what_is_no_plain_data_is_not_sent(wires, value, words):
