@@ -23,7 +23,7 @@ import sim.ros
 import sim.view
 from grader.catalogue import exercises
 from sim.ros.robots.sensor_messages import SensorMessages
-from sim.view.figure import plot
+from sim.view.plot import plot
 from sim.world import World, WorldError
 
 LATER = "service_msgs.msg", "type_description_interfaces.msg"  # rclpy imports them for the first node

@@ -1,12 +1,12 @@
 """Plots, replays and the live view of runs. The only package of sim that imports matplotlib and Jupyter."""
 
 from sim.view.animation import animate
-from sim.view.figure import png, small_png
 from sim.view.frames_plot import plot_frames
 from sim.view.graph_plot import plot_graph
 from sim.view.jitter_plot import plot_jitter
 from sim.view.map_plot import plot_map
 from sim.view.path_plot import plot_path
+from sim.view.plot import png, small_png
 from sim.view.replay import replay
 from sim.view.timeline_plots import plot_logs, plot_signal, plot_topics
 

@@ -11,8 +11,8 @@ from PIL import Image, ImageDraw
 
 from sim.evidence import Pose, Recording
 from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, index_at
-from sim.view.figure import KINDS, PATH, TURTLES
 from sim.view.path_plot import moving_tracks, world_figure
+from sim.view.plot import KINDS, PATH, TURTLES
 from sim.view.strokes import hexadecimal
 from sim.world import Body
 from sim.world.obstacles import placed

@@ -9,9 +9,9 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 
 from sim.evidence import Recording
-from sim.view.figure import MUTED, PATH, SOLID, WARNING, Plot, plot
 from sim.view.graph_diagram import GraphDiagram, graph_diagram
 from sim.view.graph_layout import FONT, LINE, PlacedArrow, PlacedBox, lay_out
+from sim.view.plot import MUTED, PATH, SOLID, WARNING, Plot, plot
 
 MARGIN = 0.12  # inches
 MIN_WIDTH, MAX_WIDTH = 3.6, 8.0  # inches

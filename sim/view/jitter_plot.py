@@ -6,7 +6,7 @@ import itertools
 import statistics
 
 from sim.evidence import Recording, Seconds, rate, stamps
-from sim.view.figure import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, plot
+from sim.view.plot import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, plot
 
 
 def plot_jitter(

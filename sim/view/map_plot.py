@@ -12,7 +12,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 
 from sim.evidence import Recording
-from sim.view.figure import CAUTION, PATH, WARNING, Plot, legend_beside, plot
+from sim.view.plot import CAUTION, PATH, WARNING, Plot, legend_beside, plot
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
 RADIUS = 0.1  # of the robot's marker, m

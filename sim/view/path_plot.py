@@ -11,7 +11,7 @@ from matplotlib.patches import Circle, Polygon
 
 from sim.evidence import Pose, Recording
 from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, extent_radius
-from sim.view.figure import (
+from sim.view.plot import (
     CAUTION,
     GRID,
     KINDS,

@@ -12,9 +12,9 @@ import math
 from typing import Any
 
 from sim.evidence import Recording
-from sim.view.figure import Plot, small_png
 from sim.view.javascript import script
 from sim.view.path_plot import plot_path
+from sim.view.plot import Plot, small_png
 from sim.view.replay_data import pack, run_end
 from sim.view.timeline_plots import plot_topics
 

@@ -13,7 +13,7 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from sim.evidence import Recording, rate, stamps
-from sim.view.figure import (
+from sim.view.plot import (
     CAUTION,
     GRID,
     MARKERS,

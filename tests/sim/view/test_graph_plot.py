@@ -10,9 +10,9 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sim import Recording, run
 from sim.evidence import Endpoint
 from sim.view import plot_graph, png
-from sim.view.figure import WARNING
 from sim.view.graph_data import graph_data
 from sim.view.graph_diagram import graph_diagram
+from sim.view.plot import WARNING
 from tests.bench.avoider import Avoider
 from tests.sim.graphs import DELIVERY, node
 from tests.sim.ros2.nodes import Lamp

@@ -7,7 +7,7 @@ from nav_msgs.msg import OccupancyGrid, Path
 
 from sim import run
 from sim.view import plot_map
-from sim.view.figure import png
+from sim.view.plot import png
 
 
 def grid(width=4, height=3, data=None):

@@ -7,7 +7,7 @@ from PIL import Image
 
 from sim import World, run
 from sim.view import animate, plot_path
-from sim.view.figure import KINDS
+from sim.view.plot import KINDS
 from sim.view.world_data import world_data
 
 
