@@ -17,7 +17,7 @@ from rclpy.utilities import remove_ros_args
 from sim import ros_environment
 from sim.evidence import INFRASTRUCTURE_TOPICS
 from sim.ros.messages.codec import type_name
-from sim.ros.robots.programs import programs_of
+from sim.ros.robots.world_programs import programs_of
 from sim.world import Scene, World, simulate
 
 MAX_GAP = 0.5  # s; a process that was stopped for longer goes on from there instead of catching up

@@ -25,7 +25,7 @@ from sim.ros.ground_truth import GroundTruth
 from sim.ros.hooks.install import rebind
 from sim.ros.latest import latest
 from sim.ros.launching.launch_program import as_launch_program
-from sim.ros.robots.programs import programs_of
+from sim.ros.robots.world_programs import programs_of
 from sim.world import World
 
 FOREVER: Nanoseconds = 2**63

@@ -13,7 +13,7 @@ from sim.world.robot import DT, CommandError, Odometry, OtherRobot, RobotModel, 
 from sim.world.route import Route
 from sim.world.scene import Scene, simulate
 from sim.world.simulation import Simulation
-from sim.world.validation import ModelError, WorldError
+from sim.world.validated_model import ModelError, WorldError
 from sim.world.warehouse import WarehouseModel
 from sim.world.world import World
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from sim.world.obstacles import Point
 from sim.world.robot import Odometry
-from sim.world.validation import Model, positive, within
+from sim.world.validated_model import Model, positive, within
 
 NEAR = 0.15
 """A robot is at a location if its centre is within this distance (m)."""

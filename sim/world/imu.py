@@ -9,7 +9,7 @@ import pymunk
 
 from sim.world.obstacles import GRAVITY
 from sim.world.robot import DT, wrap
-from sim.world.validation import Model, at_least, within
+from sim.world.validated_model import Model, at_least, within
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from lidar_rays import ffi, lib
 
-from sim.world.validation import Angle, Constraint, Length, Model, at_least, within
+from sim.world.validated_model import Angle, Constraint, Length, Model, at_least, within
 
 LidarPose = tuple[float, float, float]  # x, y (m), yaw (rad)
 Interval = tuple[float, float]  # s; begin included, end excluded

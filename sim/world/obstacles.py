@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from sim.world.validation import Angle, Coordinate, Length, Model, positive, within
+from sim.world.validated_model import Angle, Coordinate, Length, Model, positive, within
 
 Point = tuple[Coordinate, Coordinate]
 Segment = tuple[Point, Point]

@@ -12,7 +12,7 @@ import pymunk
 from sim.world.obstacles import Point
 from sim.world.robot import DT, ROUTE, Pose, is_loop
 from sim.world.route import Route
-from sim.world.validation import Constraint, Length, Model, positive
+from sim.world.validated_model import Constraint, Length, Model, positive
 
 _LOOK_AHEAD = 0.6  # m from the centre; a standing obstacle within it blocks the person
 _SIDE_GAP = 0.05  # m; an obstacle with less clearance at the side blocks, too

@@ -7,7 +7,7 @@ import pymunk
 from sim.world.obstacles import MovableBox, placed, ring
 from sim.world.people import WalkingPerson
 from sim.world.robot import Pose, wrap
-from sim.world.validation import WorldError
+from sim.world.validated_model import WorldError
 from sim.world.world import World
 
 _FRICTION = 0.5

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from sim.world.obstacles import Point, ring
-from sim.world.validation import Angle, Constraint, Coordinate, Length, Model, positive, within
+from sim.world.validated_model import Angle, Constraint, Coordinate, Length, Model, positive, within
 
 Pose = tuple[Coordinate, Coordinate, Angle]
 

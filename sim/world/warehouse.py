@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from sim.world.robot import Pose
-from sim.world.validation import Constraint, Model, positive, within
+from sim.world.validated_model import Constraint, Model, positive, within
 
 _POSE = "[x, y, yaw] (metres and radians)"
 _POSES = f"a list of one or more poses {_POSE}"

@@ -21,7 +21,7 @@ from sim.world.lidar import LidarModel
 from sim.world.obstacles import Box, Circle, MovableBox, Point, Segment
 from sim.world.people import Person
 from sim.world.robot import OtherRobot, Pose, RobotModel
-from sim.world.validation import Constraint, Coordinate, Model, WorldError
+from sim.world.validated_model import Constraint, Coordinate, Model, WorldError
 from sim.world.warehouse import WarehouseModel
 
 _FOLDER = Path(__file__).parent / "worlds"

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from sim.suggestions import closest_match
 from sim.world.machines import KINDS, kind_of
 from sim.world.obstacles import Point, Segment
-from sim.world.validation import (
+from sim.world.validated_model import (
     InvalidValueError,
     Model,
     ModelError,

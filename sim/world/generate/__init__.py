@@ -19,7 +19,7 @@ from sim.suggestions import closest_match
 from sim.world.generate.maze import Maze
 from sim.world.generate.room import Clutter, NoSpaceError, Room
 from sim.world.generate.warehouse_layout import Warehouse
-from sim.world.validation import ModelError, WorldError, format_value
+from sim.world.validated_model import ModelError, WorldError, format_value
 
 KINDS: dict[str, type[Maze | Room | Clutter | Warehouse]] = {
     "room": Room,

@@ -10,7 +10,7 @@ from random import Random
 from typing import Annotated, Any, NamedTuple
 
 from sim.world.generate.card import card, goal_at
-from sim.world.validation import Model, within
+from sim.world.validated_model import Model, within
 
 Cell = tuple[int, int]
 """(column, row), from the lower left."""

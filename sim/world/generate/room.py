@@ -10,7 +10,7 @@ from typing import Annotated, Any, NamedTuple
 from sim.world.generate.card import card, contents, goal_at
 from sim.world.obstacles import Box, Circle, MovableBox, Point, ring
 from sim.world.robot import RobotModel
-from sim.world.validation import Model, within
+from sim.world.validated_model import Model, within
 
 CLEARANCE = RobotModel().radius + 0.05
 """Clearance of the free path, m: the robot's radius and a margin."""

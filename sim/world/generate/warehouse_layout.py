@@ -14,7 +14,7 @@ from sim.world.generate.room import uniform
 from sim.world.obstacles import Box, MovableBox, Point, ring
 from sim.world.people import Person
 from sim.world.robot import OtherRobot, Pose
-from sim.world.validation import Model, within
+from sim.world.validated_model import Model, within
 from sim.world.warehouse import WarehouseModel
 
 _DEPTH, _LENGTH = 0.6, 2.4  # of a shelf, m

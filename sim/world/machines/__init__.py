@@ -11,7 +11,7 @@ from sim.world.machines.servo import JointModel
 from sim.world.machines.trajectory import Trajectory, Waypoint
 from sim.world.machines.turtle import Pen, Rotation, Turtle
 from sim.world.machines.urdf import urdf
-from sim.world.validation import Model
+from sim.world.validated_model import Model
 
 
 class MachineKind(NamedTuple):

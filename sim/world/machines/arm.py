@@ -11,7 +11,7 @@ from sim.world.machines.machine import Machine, MachineWorld, Pose, bar
 from sim.world.machines.servo import THICKNESS, JointModel, Servo
 from sim.world.machines.trajectory import Trajectory, Values, Waypoint
 from sim.world.robot import RATE, CommandError, wrap
-from sim.world.validation import Model
+from sim.world.validated_model import Model
 
 
 class ReachError(ValueError):

@@ -11,7 +11,7 @@ import numpy as np
 from sim.world.bodies import Body
 from sim.world.machines.machine import Machine, MachineWorld, Pose, bar
 from sim.world.robot import DT, RATE, CommandError
-from sim.world.validation import Angle, Constraint, Length, Model, at_least, positive, within
+from sim.world.validated_model import Angle, Constraint, Length, Model, at_least, positive, within
 
 GRAVITY = 9.81
 """m/s^2, downwards in the picture."""

@@ -10,7 +10,7 @@ from sim.world.machines.machine import Machine, MachineWorld, Pose
 from sim.world.machines.pond_image import SIDE, PondImage
 from sim.world.machines.turtle import STEP, Turtle, as_float32
 from sim.world.pen_drawing import Colour, PenDrawing
-from sim.world.validation import Constraint, Model
+from sim.world.validated_model import Constraint, Model
 
 _HALF = (
     (0.5, 0.0), (0.44, 0.08), (0.31, 0.09), (0.36, 0.3), (0.25, 0.37), (0.13, 0.27), (-0.1, 0.29),

@@ -9,7 +9,7 @@ from typing import Annotated
 from sim.world.bodies import Body
 from sim.world.machines.machine import bar
 from sim.world.robot import DT
-from sim.world.validation import Angle, Length, Model, positive
+from sim.world.validated_model import Angle, Length, Model, positive
 
 # Tolerance for a reference that changes velocity with exactly the greatest acceleration.
 _ROUNDING = 1 + 1e-9
