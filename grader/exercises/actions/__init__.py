@@ -1,18 +1,20 @@
 """The exercises of 04_actions, from a first action server to a square out of actions."""
 
-from grader.exercises.actions.asking import courier, customer
-from grader.exercises.actions.partners import Captain, Examiner, Impatient, Mathematician
-from grader.exercises.actions.servers import (
+from grader.companions.action_servers import (
     BusyFibonacci,
     CarpetServer,
     DriveServer,
     LateFibonacci,
     SpinServer,
 )
-from grader.exercises.actions.serving import fibonacci, steps
+from grader.companions.goal_senders import Captain, Examiner, Impatient, Mathematician
+from grader.exercises.actions.courier import courier
+from grader.exercises.actions.customer import customer
+from grader.exercises.actions.fibonacci import fibonacci
 from grader.exercises.actions.square import square
-from grader.exercises.actions.stopping import stoppable
-from grader.exercises.actions.turning import turn
+from grader.exercises.actions.steps import steps
+from grader.exercises.actions.stoppable import stoppable
+from grader.exercises.actions.turn import turn
 
 __all__ = [
     "BusyFibonacci",

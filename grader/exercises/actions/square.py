@@ -1,4 +1,4 @@
-"""An exercise with two actions: a square out of four drives and four turns."""
+"""A square out of two actions: four drives and four turns."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import itertools
 import math
 
 from grader.checks import Missed, arrives, hinting, passes
+from grader.checks.course_goals import DRIVE, SPIN
+from grader.companions.action_servers import DriveServer, SpinServer
 from grader.exercise import Exercise
-from grader.exercises.actions.asking import DRIVE
-from grader.exercises.actions.servers import DriveServer, SpinServer
-from grader.exercises.actions.turning import SPIN
+from grader.responses import EDGE
 from sim.evidence import Goal, Recording
 
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -38,7 +38,7 @@ def sends_both_kinds(run: Recording) -> None:
 def waits_for_the_end(run: Recording) -> None:
     """A goal is sent only when the one before has ended."""
     for before, after in itertools.pairwise(_goals(run)):
-        if before.ended is None or before.ended > after.requested + 1e-9:
+        if before.ended is None or before.ended > after.requested + EDGE:
             hint = "Accepted isn't done: finish awaits handle.get_result_async(), too, and go awaits finish."
             how = "never ended" if before.ended is None else f"ended at {before.ended:.3g} s"
             expected = f"{after.action} sent after the end of {before.action}, not at {after.requested:.3g} s"
@@ -87,8 +87,7 @@ def _hint(run: Recording) -> str:
         return f"A drive was aborted: {refused.result.error_msg}."
     if any(abs(goal.request.target.x - 1.0) > 0.01 for goal in drives):
         return "A side is 1 m: target.x = 1.0."
-    words = "Four times: drive 1 m ahead, then turn left by pi / 2 rad. The picture shows your way."
-    return _no_quarter(run) or words
+    return _no_quarter(run)
 
 
 def _no_quarter(run: Recording) -> str:

@@ -235,3 +235,8 @@ class WaitsInTheCallback(Customer):
         future = self.client.send_goal_async(Fibonacci.Goal(order=7), feedback_callback=self.hear_feedback)
         rclpy.spin_until_future_complete(self, future)
         self.hear_response(future)
+
+
+class LogsTheLastNumberOnly(Customer):
+    def hear_result(self, future):
+        self.get_logger().info(f"result: {future.result().result.sequence[-1]}")

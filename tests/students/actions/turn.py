@@ -290,3 +290,19 @@ class ForgetsToSucceed(SpinServer):
 class KeepsTheLastStepOnly(SpinServer):
     def add(self, yaw):
         self.turned = math.remainder(yaw - self.yaw, math.tau)
+
+
+class PublishesZeros(SpinServer):
+    def turn(self, speed):
+        self.publisher.publish(Twist())
+
+
+class SucceedsWithoutTurning(PublishesZeros):
+    """It waits for as long as the turn would take."""
+
+    def turn(self, speed):
+        super().turn(speed)
+        self.turned += speed * self.step
+
+    def add(self, yaw):
+        pass

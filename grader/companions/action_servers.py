@@ -1,4 +1,4 @@
-"""Servers of ours for 04_actions. They drive by the clock alone: simple, and less exact than odometry."""
+"""Action servers for students' clients; they drive by the clock alone, less exactly than by odometry."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from rclpy.task import Future
 TICK = 0.1  # seconds between two commands
 
 
-class Patient(Node):
+class PausableNode(Node):
     """A node whose async callbacks can pause."""
 
     async def pause(self, seconds: float) -> None:
-        """Let other callbacks run for so long."""
+        """Let other callbacks run for some seconds."""
         done = Future()
         timer = self.create_timer(seconds, lambda: done.set_result(None))
         await done
         self.destroy_timer(timer)
 
 
-class LateFibonacci(Patient):
+class LateFibonacci(PausableNode):
     """Offers /fibonacci, but only after a while. When and how fast comes from the seed of the run."""
 
     answer = GoalResponse.ACCEPT
@@ -39,7 +39,7 @@ class LateFibonacci(Patient):
         self.timer = self.create_timer(random.uniform(0.8, 1.6), self.open)
 
     def open(self) -> None:
-        """Begin to offer the action."""
+        """Offer the action."""
         self.timer.cancel()
         try:
             self.server = ActionServer(
@@ -49,7 +49,7 @@ class LateFibonacci(Patient):
             self.get_logger().error("Another node uses /fibonacci with another type.")
 
     async def execute(self, handle: ServerGoalHandle) -> Fibonacci.Result:
-        """Tell the sequence bit by bit."""
+        """Publish the sequence number by number."""
         numbers = [0, 1]
         while len(numbers) <= handle.request.order:
             await self.pause(self.seconds)
@@ -65,8 +65,8 @@ class BusyFibonacci(LateFibonacci):
     answer = GoalResponse.REJECT
 
 
-class _Mover(Patient):
-    """Sends one velocity for a while."""
+class TimedMover(PausableNode):
+    """Publishes one velocity for some time."""
 
     def __init__(self, name: str, action: type, topic: str) -> None:
         super().__init__(name)
@@ -76,20 +76,20 @@ class _Mover(Patient):
         )
 
     async def move(
-        self, handle: ServerGoalHandle, velocity: Twist, seconds: float, tell: Callable[[float], str]
+        self, handle: ServerGoalHandle, velocity: Twist, seconds: float, report: Callable[[float], str]
     ) -> str:
-        """Bring a goal to its end; tell: is told the seconds of driving now and then, gives it in words."""
+        """Bring a goal to its end. report: publishes feedback after some seconds, and returns it as text."""
         for tick in range(round(seconds / TICK)):
             if handle.is_cancel_requested:
                 self.publisher.publish(Twist())
                 handle.canceled()
-                return f"stopped after {tell(tick * TICK)}"
+                return f"stopped after {report(tick * TICK)}"
             self.publisher.publish(velocity)
-            tell(tick * TICK)
+            report(tick * TICK)
             await self.pause(TICK)
         self.publisher.publish(Twist())
         await self.pause(0.5)  # until the robot stands
-        tell(seconds)
+        report(seconds)
         handle.succeed()
         return ""
 
@@ -98,7 +98,7 @@ class _Mover(Patient):
         raise NotImplementedError
 
 
-class DriveServer(_Mover):
+class DriveServer(TimedMover):
     """Offers /drive_on_heading: drives target.x metres ahead at a speed."""
 
     slower = 1.0
@@ -115,12 +115,12 @@ class DriveServer(_Mover):
             return DriveOnHeading.Result(error_code=code, error_msg="target.x and speed have to be above 0")
         velocity.linear.x = min(goal.speed, 0.6) / self.slower
 
-        def tell(seconds: float) -> str:
+        def report(seconds: float) -> str:
             metres = velocity.linear.x * seconds
             handle.publish_feedback(DriveOnHeading.Feedback(distance_traveled=metres))
             return f"{metres:.2f} m"
 
-        message = await self.move(handle, velocity, goal.target.x / velocity.linear.x, tell)
+        message = await self.move(handle, velocity, goal.target.x / velocity.linear.x, report)
         return DriveOnHeading.Result(error_msg=message)
 
 
@@ -130,7 +130,7 @@ class CarpetServer(DriveServer):
     slower = 10.0
 
 
-class SpinServer(_Mover):
+class SpinServer(TimedMover):
     """Offers /spin: turns by target_yaw radians, to the left where it's positive."""
 
     def __init__(self) -> None:
@@ -142,9 +142,9 @@ class SpinServer(_Mover):
         seconds = max(TICK, round(abs(angle) / TICK) * TICK)  # at about 1 rad/s
         velocity.angular.z = angle / seconds
 
-        def tell(so_far: float) -> str:
+        def report(so_far: float) -> str:
             radians = velocity.angular.z * so_far
             handle.publish_feedback(Spin.Feedback(angular_distance_traveled=radians))
             return f"{radians:.2f} rad"
 
-        return Spin.Result(error_msg=await self.move(handle, velocity, seconds, tell))
+        return Spin.Result(error_msg=await self.move(handle, velocity, seconds, report))

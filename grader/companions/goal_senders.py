@@ -1,4 +1,4 @@
-"""Clients of ours for 04_actions: they send goals to the student's server, one after the other."""
+"""Clients that send goals to a student's action server, one after the other."""
 
 from __future__ import annotations
 
@@ -15,66 +15,66 @@ STATUS = {4: "succeeded", 5: "canceled", 6: "aborted"}
 PAUSE = 1.0  # seconds between the end of a goal and the next one
 
 
-class Wish(NamedTuple):
-    """A goal to send; after so many seconds its client wants to cancel it."""
+class PlannedGoal(NamedTuple):
+    """A goal to send; after so many seconds its client requests to cancel it."""
 
     goal: Any
     patience: float | None = None
 
 
 class GoalSender(Node):
-    """Sends its wishes one after the other: the next one when the one before has ended."""
+    """Sends its goals one after the other: the next one when the one before has ended."""
 
     name, action, type = "goal_sender", "/fibonacci", Fibonacci
 
     def __init__(self) -> None:
         super().__init__(self.name)
         self.client = ActionClient(self, self.type, self.action)
-        self.wishes = self.plan()
+        self.planned_goals = self.plan()
         self.idle = PAUSE  # seconds since the last goal ended
         self.create_timer(0.1, self.tick)
 
-    def plan(self) -> list[Wish]:
-        """What to send; from the seed of the run."""
+    def plan(self) -> list[PlannedGoal]:
+        """Return what to send; from the seed of the run."""
         raise NotImplementedError
 
     def tick(self) -> None:
         """Send the next goal, if it is time."""
         self.idle += 0.1
-        if self.wishes and self.idle >= PAUSE and self.client.server_is_ready():
+        if self.planned_goals and self.idle >= PAUSE and self.client.server_is_ready():
             self.idle = float("-inf")
-            wish = self.wishes.pop(0)
-            future = self.client.send_goal_async(wish.goal)
-            future.add_done_callback(lambda future: self.hear_response(future, wish))
+            planned = self.planned_goals.pop(0)
+            future = self.client.send_goal_async(planned.goal)
+            future.add_done_callback(lambda future: self.on_response(future, planned))
 
-    def hear_response(self, future: Future, wish: Wish) -> None:
-        """The server has accepted or rejected the goal."""
+    def on_response(self, future: Future, planned: PlannedGoal) -> None:
+        """Handle the server's decision on the goal."""
         handle = future.result()
         if not handle.accepted:
-            self.finish(wish, "rejected")
+            self.finish(planned, "rejected")
             return
-        handle.get_result_async().add_done_callback(lambda future: self.hear_result(future, wish))
-        if wish.patience is not None:
-            self.cancel_later(handle, wish)
+        handle.get_result_async().add_done_callback(lambda future: self.on_result(future, planned))
+        if planned.patience is not None:
+            self.cancel_later(handle, planned)
 
-    def cancel_later(self, handle: Any, wish: Wish) -> None:
-        """Ask once for the end of a goal."""
+    def cancel_later(self, handle: Any, planned: PlannedGoal) -> None:
+        """Request once to cancel a goal."""
 
         def cancel() -> None:
             timer.cancel()
-            self.get_logger().info(f"{words(wish.goal)}: please cancel it")
+            self.get_logger().info(f"{words(planned.goal)}: please cancel it")
             handle.cancel_goal_async()
 
-        timer = self.create_timer(wish.patience, cancel)
+        timer = self.create_timer(planned.patience, cancel)
 
-    def hear_result(self, future: Future, wish: Wish) -> None:
-        """The goal has ended."""
+    def on_result(self, future: Future, planned: PlannedGoal) -> None:
+        """Handle the end of the goal."""
         answer = future.result()
-        self.finish(wish, f"{STATUS.get(answer.status, 'unknown')} {words(answer.result)}")
+        self.finish(planned, f"{STATUS.get(answer.status, 'unknown')} {words(answer.result)}")
 
-    def finish(self, wish: Wish, how: str) -> None:
+    def finish(self, planned: PlannedGoal, how: str) -> None:
         """Log how a goal ended, and be ready for the next one."""
-        self.get_logger().info(f"{words(wish.goal)}: {how}")
+        self.get_logger().info(f"{words(planned.goal)}: {how}")
         self.idle = 0.0
 
 
@@ -95,9 +95,9 @@ class Mathematician(GoalSender):
 
     name = "mathematician"
 
-    def plan(self) -> list[Wish]:
+    def plan(self) -> list[PlannedGoal]:
         """Two different orders."""
-        return [Wish(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 21), 2)]
+        return [PlannedGoal(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 21), 2)]
 
 
 class Examiner(GoalSender):
@@ -105,10 +105,10 @@ class Examiner(GoalSender):
 
     name = "examiner"
 
-    def plan(self) -> list[Wish]:
+    def plan(self) -> list[PlannedGoal]:
         """The last one takes the longest."""
         orders = [random.randint(4, 6), 0, 21, 1, -random.randint(1, 9), random.randint(50, 99), 20]
-        return [Wish(Fibonacci.Goal(order=order)) for order in orders]
+        return [PlannedGoal(Fibonacci.Goal(order=order)) for order in orders]
 
 
 class Impatient(GoalSender):
@@ -116,11 +116,11 @@ class Impatient(GoalSender):
 
     name = "impatient"
 
-    def plan(self) -> list[Wish]:
+    def plan(self) -> list[PlannedGoal]:
         """The moment of the cancel comes from the seed of the run."""
         return [
-            Wish(Fibonacci.Goal(order=20), patience=random.uniform(1.6, 3.4)),
-            Wish(Fibonacci.Goal(order=random.randint(3, 6))),
+            PlannedGoal(Fibonacci.Goal(order=20), patience=random.uniform(1.6, 3.4)),
+            PlannedGoal(Fibonacci.Goal(order=random.randint(3, 6))),
         ]
 
 
@@ -132,11 +132,11 @@ class Captain(GoalSender):
 
     name, action, type = "captain", "/spin", Spin
 
-    def plan(self) -> list[Wish]:
+    def plan(self) -> list[PlannedGoal]:
         """Angles in radians."""
         return [
-            Wish(Spin.Goal(target_yaw=random.uniform(0.8, 1.5))),
-            Wish(Spin.Goal(target_yaw=-random.uniform(1.0, 2.0))),
-            Wish(Spin.Goal(target_yaw=random.uniform(3.6, 4.6))),
-            Wish(Spin.Goal(target_yaw=9.0), patience=random.uniform(1.5, 2.5)),
+            PlannedGoal(Spin.Goal(target_yaw=random.uniform(0.8, 1.5))),
+            PlannedGoal(Spin.Goal(target_yaw=-random.uniform(1.0, 2.0))),
+            PlannedGoal(Spin.Goal(target_yaw=random.uniform(3.6, 4.6))),
+            PlannedGoal(Spin.Goal(target_yaw=9.0), patience=random.uniform(1.5, 2.5)),
         ]

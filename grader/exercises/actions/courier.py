@@ -1,0 +1,92 @@
+"""A client that gives up in time."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, hinting, sends_goals
+from grader.checks.course_goals import DRIVE, lines, quoted
+from grader.companions.action_servers import CarpetServer, DriveServer
+from grader.exercise import Exercise, Scenario
+from grader.responses import same
+from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
+
+PATIENCE = 8.0  # seconds
+
+courier = Exercise(
+    "courier",
+    "A client that gives up in time",
+    scenarios=[
+        Scenario("yard", seconds=16, seed=1, companions=[DriveServer], name="floor"),
+        Scenario("yard", seconds=16, seed=2, companions=[CarpetServer], name="carpet"),
+    ],
+    may_end=True,
+)
+
+
+@courier.check(3)
+def sends_a_goal_to_drive(run: Recording) -> Goal:
+    """The node sends a goal to /drive_on_heading: 2 m at 0.4 m/s."""
+    with hinting("self.client.send_goal_async(goal), with goal.target.x and goal.speed set."):
+        goal = sends_goals(run, DRIVE, "nav2_msgs/action/DriveOnHeading")[0]
+    target, speed = goal.request.target.x, goal.request.speed
+    if not (same(target, 2.0, 0.01) and same(speed, 0.4, 0.01)):
+        saw = f"target.x={target:g}, speed={speed:g}"
+        raise Missed("target.x=2.0 and speed=0.4 in the goal", saw, "goal.target.x = 2.0; goal.speed = 0.4.")
+    return goal
+
+
+@courier.check(4, after=sends_a_goal_to_drive, only="carpet")
+def gives_up(run: Recording, goal: Goal) -> None:
+    """If the robot isn't there 8 s after the goal was accepted, the node cancels the goal."""
+    due, cancels = (goal.at("accepted") or 0.0) + PATIENCE, _cancel_requests(goal)
+    expected = f"a cancel request at {due:.3g} s, 8 s after the goal was accepted"
+    if not cancels:
+        hint = (
+            "self.timer = self.create_timer(8.0, self.give_up) in hear_response; there cancel_goal_async()."
+        )
+        raise Missed(expected, "none", hint)
+    if abs(cancels[0] - due) > 0.6:
+        hint = "The 8 s begin in hear_response: self.create_timer(8.0, self.give_up), without more brackets."
+        raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
+
+
+@courier.check(3, after=sends_a_goal_to_drive, only="floor")
+def leaves_it_alone(run: Recording, goal: Goal) -> None:
+    """If the robot arrives in time, nothing is canceled."""
+    cancels = _cancel_requests(goal)
+    if goal.status == "succeeded" and cancels:
+        expected = f"no cancel: the goal succeeded at {goal.ended:.3g} s"
+        hint = "The timer goes on after the goal has ended: in hear_result call self.timer.cancel()."
+        raise Missed(expected, f"one at {cancels[0]:.3g} s", hint)
+    if goal.status != "succeeded":
+        hint = "It would have arrived in time: the 8 s begin when the goal is accepted."
+        raise Missed("a goal that succeeds", f"it was {goal.status or 'never taken'}", hint)
+    if run.all_exited_at is not None and run.all_exited_at < goal.ended:
+        saw, hint = f"your program had ended at {run.all_exited_at:.3g} s", "Spin until the result is there."
+        raise Missed(f"a node that is there when the robot arrives, at {goal.ended:.3g} s", saw, hint)
+
+
+@courier.check(4, after=sends_a_goal_to_drive)
+def logs_how_it_ended(run: Recording, goal: Goal) -> None:
+    """The end is logged: `arrived` as info, or a warning with the server's error_msg."""
+    if goal.ended is None:
+        raise Missed("a goal that ends", f"still {goal.status} at the end", "Cancel it after 8 s.")
+    arrived = goal.status == "succeeded"
+    since = goal.received or goal.ended
+    afterwards = run.during(since)
+    kind, text, level = (
+        ("an info line", "arrived", "INFO") if arrived else ("a warning", goal.result.error_msg, "WARN")
+    )
+    if not any(text.lower() in line.lower() for line in lines(afterwards, level)):
+        hint = (
+            "In hear_result: future.result() has status and result. Compare status with "
+            "GoalStatus.STATUS_SUCCEEDED; the words are in result.error_msg."
+        )
+        raise Missed(f"{kind} with “{text}” after {since:.3g} s", quoted(lines(afterwards)), hint)
+    if not arrived and any("arrived" in text.lower() for text in lines(afterwards)):
+        hint = "A result alone doesn't mean success: look at future.result().status."
+        raise Missed("no “arrived”, for the robot was stopped on the way", "“arrived”", hint)
+
+
+def _cancel_requests(goal: Goal) -> list[Seconds]:
+    """The stamps at which the client requested to cancel a goal."""
+    return [stamp for stamp, event in goal.events if event == CANCEL_REQUESTED]

@@ -1,0 +1,89 @@
+"""A client that logs how its goal goes, and that it was rejected."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, hinting, sends_goals
+from grader.checks.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, numbers_in, quoted
+from grader.companions.action_servers import BusyFibonacci, LateFibonacci
+from grader.exercise import Exercise, Scenario
+from grader.responses import Window
+from sim.evidence import Goal, Recording
+
+SOON = 0.3  # seconds from what a client receives to its log line
+
+customer = Exercise(
+    "customer",
+    "A client that hears how it goes",
+    scenarios=[
+        Scenario(seconds=10, seed=1, companions=[LateFibonacci], name="late"),
+        Scenario(seconds=10, seed=2, companions=[BusyFibonacci], name="busy"),
+    ],
+    may_end=True,
+)
+
+
+@customer.check(4)
+def sends_a_goal_of_seven(run: Recording) -> Goal:
+    """The node sends a goal of order 7 to /fibonacci, once there is a server."""
+    with hinting("In ask: self.client.send_goal_async(Fibonacci.Goal(order=7), ...)."):
+        goal = sends_goals(run, FIBONACCI, FIBONACCI_TYPE)[-1]
+    if not goal.server:
+        hint = "A goal to nobody is lost: ask only when self.client.server_is_ready() is True."
+        saw = f"sent at {goal.requested:.3g} s, before there was a server"
+        raise Missed("a goal that the server takes", saw, hint)
+    if goal.request.order != 7:
+        raise Missed("order=7 in the goal", f"order={goal.request.order}", "goal = Fibonacci.Goal(order=7).")
+    return goal
+
+
+@customer.check(4, after=sends_a_goal_of_seven, only="late")
+def logs_the_progress(run: Recording, goal: Goal) -> None:
+    """Each feedback is logged at info level, with its newest number."""
+    for row in goal.feedback:
+        newest, soon = row.message.sequence[-1], Window.after(row.stamp, SOON)
+        texts = lines(run.during(soon.begin, soon.end), "INFO")
+        if not any(newest in numbers_in(text) for text in texts):
+            hint = (
+                "send_goal_async(goal, feedback_callback=self.hear_feedback); there the numbers are in "
+                "msg.feedback.sequence, and [-1] is the newest."
+            )
+            raise Missed(f"an info line with {newest} at {row.stamp:.3g} s", quoted(texts), hint)
+
+
+@customer.check(4, after=sends_a_goal_of_seven, only="late")
+def logs_the_result(run: Recording, goal: Goal) -> None:
+    """The result is logged at info level: the word `result`, and the whole sequence."""
+    if goal.ended is None:
+        return
+    texts = lines(run.during(goal.ended), "INFO")
+    wanted = list(goal.result.sequence)
+    if not any("result" in text.lower() and _holds(text, wanted) for text in texts):
+        hint = (
+            "In hear_result the numbers are in future.result().result.sequence, and list(...) of them prints "
+            "well."
+        )
+        if goal.received is None:
+            hint = (
+                "Nobody asked for the result. In ask: future.add_done_callback(self.hear_response); there: "
+                "goal_handle.get_result_async().add_done_callback(self.hear_result)."
+            )
+        raise Missed(f"an info line with “result” and {wanted} after {goal.ended:.3g} s", quoted(texts), hint)
+
+
+@customer.check(3, after=sends_a_goal_of_seven)
+def warns_of_a_rejection(run: Recording, goal: Goal) -> None:
+    """A goal that is rejected is logged as a warning with the word `rejected`, and nothing else follows."""
+    since = run.during(goal.requested)
+    rejected = [text for text in lines(since, "WARN") if "rejected" in text.lower()]
+    if goal.status == "rejected" and not rejected:
+        hint = "In hear_response: if not goal_handle.accepted, self.get_logger().warning(...), and return."
+        raise Missed(f"a warning with “rejected” after {goal.requested:.3g} s", quoted(lines(since)), hint)
+    if goal.status != "rejected" and rejected:
+        hint = "Warn only if goal_handle.accepted is False: if not goal_handle.accepted: ..."
+        raise Missed("no such warning, for the goal was accepted", f"“{rejected[0]}”", hint)
+
+
+def _holds(text: str, numbers: list[int]) -> bool:
+    """Whether a text has these numbers one after the other."""
+    found = numbers_in(text)
+    return any(found[begin : begin + len(numbers)] == numbers for begin in range(len(found)))

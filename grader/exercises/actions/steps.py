@@ -1,0 +1,101 @@
+"""An action server that publishes feedback, and rejects what it cannot do."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, rejects
+from grader.checks.actions import state
+from grader.checks.course_goals import (
+    FIBONACCI,
+    FIBONACCI_TYPE,
+    OFFER,
+    goal_text,
+    has_the_result,
+    is_succeeded,
+    offered,
+    picked,
+    sequence,
+)
+from grader.checks.topics import longest_pause
+from grader.companions.goal_senders import Examiner
+from grader.exercise import Exercise
+from sim.evidence import Goal, Recording, stamps
+
+LIMITS = (1, 20)
+
+steps = Exercise("steps", "A server that tells and refuses", seconds=24, companions=[Examiner], seeds=(1, 2))
+
+
+def _is_good(goal: Goal) -> bool:
+    return LIMITS[0] <= goal.request.order <= LIMITS[1]
+
+
+def _is_bad(goal: Goal) -> bool:
+    return not _is_good(goal)
+
+
+def _is_short(goal: Goal) -> bool:
+    """A good goal that is over in time."""
+    return LIMITS[0] <= goal.request.order < LIMITS[1]
+
+
+def _has_numbers(goal: Goal) -> bool:
+    """A short goal with numbers for feedback."""
+    return LIMITS[0] < goal.request.order < LIMITS[1]
+
+
+@steps.check(4)
+def accepts_good_orders(run: Recording) -> None:
+    """Orders from 1 to 20 are accepted, the limits too."""
+    offered(run, FIBONACCI, FIBONACCI_TYPE, OFFER)
+    for goal in picked(run, FIBONACCI, _is_good):
+        if goal.at("accepted") is None:
+            guess = "judge gave REJECT: which way round is the `if`, and does `return` stand before ACCEPT?"
+            if goal.request.order in LIMITS:
+                guess = "1 and 20 are good orders: is it < or <=?"
+            raise Missed(f"{goal_text(goal)} accepted", state(goal), guess=guess)
+
+
+@steps.check(
+    4,
+    after=accepts_good_orders,
+    guess="In judge: if goal.order is below 1 or above 20, return GoalResponse.REJECT.",
+)
+def rejects_bad_orders(run: Recording) -> None:
+    """Other orders are rejected."""
+    picked(run, FIBONACCI, _is_bad)
+    rejects(run, FIBONACCI, where=_is_bad)
+
+
+@steps.check(
+    4,
+    after=accepts_good_orders,
+    guess="After each new number: goal_handle.publish_feedback(Fibonacci.Feedback(sequence=sequence)).",
+)
+def publishes_feedback(run: Recording) -> list[Goal]:
+    """Each new number is told as feedback: the whole sequence so far."""
+    goals = picked(run, FIBONACCI, _has_numbers)
+    for goal in goals:
+        sent = [list(row.message.sequence) for row in goal.feedback]
+        for wanted in map(sequence, range(2, goal.request.order + 1)):
+            if wanted not in sent:
+                saw = f"{len(sent)} times feedback; the last was {sent[-1]}" if sent else "no feedback"
+                raise Missed(f"{wanted} as feedback on {goal_text(goal)}", saw)
+    return goals
+
+
+@steps.check(2, after=publishes_feedback, guess="Wait once for each number: time.sleep(0.5).")
+def takes_its_time(run: Recording, goals: list[Goal]) -> None:
+    """The numbers come every 0.5 s."""
+    for goal in goals:
+        moments = stamps(goal.feedback)
+        mean = (moments[-1] - moments[0]) / max(1, len(moments) - 1)
+        if not 0.4 < mean < 0.6 or longest_pause(moments)[0] > 0.8:
+            raise Missed(f"feedback on {goal_text(goal)} every 0.5 s", f"every {mean:.2g} s")
+
+
+@steps.check(1, after=(accepts_good_orders, publishes_feedback))
+def still_right(run: Recording) -> None:
+    """The result is right as before."""
+    for goal in picked(run, FIBONACCI, _is_short):
+        is_succeeded(goal)
+        has_the_result(goal)
