@@ -60,7 +60,7 @@ def test_as_html_it_has_links_from_where_it_is_shown(course):
     assert 'href="exercises/01_nodes/nodes.ipynb"' in course_map(course)._repr_html_()
 
 
-def test_all_done_is_said(course):
+def test_all_done_is_reported(course):
     for path in course.rglob("*.ipynb"):
         path.unlink()
     write(course / "course/01_nodes/lesson.ipynb", "Lesson 1: nodes", code(run=1))
@@ -75,20 +75,20 @@ def test_no_output_gives_more_than_the_checks_points(course, result):
     assert course_map(course).notebooks[1].points == (8 if result == "99" else 0)
 
 
-def test_outside_the_course_it_says_what_it_looked_for(tmp_path):
+def test_outside_the_course_the_error_names_the_expected_folders(tmp_path):
     with pytest.raises(
         LookupError, match="is not in the course: expected a folder with course/ and exercises/"
     ):
         course_map(tmp_path)
 
 
-def test_every_notebook_of_the_course_says_how_long_it_takes_and_what_it_needs():
+def test_every_notebook_of_the_course_has_its_time_and_its_prerequisites():
     notebooks = course_map(ROOT / "course").notebooks
     assert [item.path.name for item in notebooks if not item.time] == []
     assert [item.path.parent.name for item in notebooks if not item.needs] == ["00_robot"]
 
 
-def test_the_start_page_leads_to_the_words_and_to_what_differs_on_a_real_robot():
+def test_the_start_page_links_to_the_glossary_and_to_the_differences_on_a_real_robot():
     (title, *_) = json.loads((ROOT / "course/start.ipynb").read_text("utf-8"))["cells"]
     pages = re.findall(r"\]\((\w+\.md)\)", "".join(title["source"]))
     assert pages == ["glossary.md", "real_robot.md"]

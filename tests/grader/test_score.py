@@ -63,7 +63,7 @@ def test_whatever_the_points_the_shown_number_is_between_0_and_the_maximum():
 UNSAFE_DRIVE = [verdict(6.0), verdict(4.0, "failed", 0.0, saw="a wall", unsafe=True)]
 
 
-def test_a_robot_that_is_unsafe_has_a_part_of_the_points_and_is_told_why():
+def test_an_unsafe_robot_has_a_part_of_the_points_and_a_note_says_why():
     score = Score("drive", UNSAFE_DRIVE, title="A drive")
     assert (float(score), score.max, score.capped) == (4.0, 10.0, True)
     assert score.text.splitlines()[:2] == [
@@ -73,7 +73,7 @@ def test_a_robot_that_is_unsafe_has_a_part_of_the_points_and_is_told_why():
     assert "Safety comes first: without “Check &lt;4.0&gt;” there" in score._repr_html_()
 
 
-def test_who_has_less_than_that_part_is_told_nothing_of_it():
+def test_a_score_below_the_cap_has_no_note():
     score = Score("drive", [verdict(6.0, "failed", 0.5), UNSAFE_DRIVE[1]])
     assert (float(score), score.capped) == (3.0, False)
     assert "Safety" not in score.text
@@ -125,7 +125,7 @@ def test_a_long_hint_is_wrapped_in_the_text():
     assert max(map(len, score.text.splitlines())) <= 88
 
 
-def test_several_runs_are_told_apart():
+def test_several_runs_have_labels():
     recordings = [Recording(), Recording(world=World.load("maze"))]
     in_maze = Verdict("turns", "It turns.", 1.0, "failed", 0.0, "a turn", "none", run=1)
     assert "Run: 2 of 2, world maze\n        Expected: a turn" in Score("drive", [in_maze], recordings).text
@@ -133,7 +133,7 @@ def test_several_runs_are_told_apart():
     assert "Run:" not in Score("drive", [in_maze], recordings[1:]).text
 
 
-def test_the_html_says_everything_and_escapes_it():
+def test_the_html_has_everything_escaped():
     page = Score("talk", MIXED, title="A <talker>")._repr_html_()
     words = re.sub(r"<[^>]+>", " ", page)
     for told in (
@@ -288,11 +288,11 @@ def test_where_a_missing_connection_cost_points_the_graph_of_that_run_is_folded_
         verdict(2.0, "failed", run=1, **NEWS),  # of which there is no recording
     ],
 )
-def test_a_miss_that_tells_of_something_else_has_no_graph(missed):
+def test_a_miss_on_something_else_has_no_graph(missed):
     assert "<details>" not in Score("talk", [missed], [typo()])._repr_html_()
 
 
-def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody_drives():
+def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_without_commands():
     recording = typo(from_course=True)
     recording.graph.endpoints.append(
         Endpoint("subscription", "/robot", "/cmd_vel", "Twist", {}, from_course=True)
@@ -301,7 +301,7 @@ def test_a_fault_that_the_exercise_is_about_is_not_shown_nor_a_robot_that_nobody
     assert "<details>" not in Score("talk", [missed], [recording])._repr_html_()
 
 
-def test_the_graph_passes_what_cleans_the_pages_and_hostile_names_stay_words():
+def test_the_graph_passes_the_sanitiser_of_the_pages_and_hostile_names_stay_text():
     recording = typo()
     recording.graph.nodes.append('/x"><script>steal()</script>')
     page = clean(Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])._repr_html_())

@@ -8,7 +8,7 @@ import pytest
 from grader.stderr_redirect import LIMIT, redirect_stderr
 
 
-def test_what_python_c_and_old_handlers_write_goes_to_stdout(capfd):
+def test_output_of_python_of_c_and_of_old_handlers_goes_to_stdout(capfd):
     handler = logging.StreamHandler(sys.stderr)
     with redirect_stderr():
         print("python", file=sys.stderr)
@@ -54,7 +54,7 @@ def test_it_works_where_there_is_no_stderr(monkeypatch, capfd):
     assert capfd.readouterr() == ("descriptor\n\n", "")
 
 
-def test_what_was_caught_is_told_even_when_the_block_raises(capfd):
+def test_captured_text_is_printed_even_if_the_block_raises(capfd):
     with pytest.raises(KeyboardInterrupt), redirect_stderr():
         print("last words", file=sys.stderr)
         raise KeyboardInterrupt

@@ -67,7 +67,7 @@ def test_outputs_stay_as_long_as_there_is_nothing_new(course):
     assert (course / "work" / LESSON).read_text() == notebook("1", output="1")
 
 
-def test_what_a_student_changed_stays_and_the_new_version_lies_beside_it(course):
+def test_a_modified_file_stays_and_the_new_version_is_saved_next_to_it(course):
     update_work_folder(course)
     own, beside = course / "work" / LESSON, course / "work/course/01_nodes/lesson-new.ipynb"
     own.write_text(notebook("my own"))

@@ -18,7 +18,7 @@ class Pad {
     this.held = new Set();
     this.root = make("div", { className: "pad", role: "group", "aria-label": "Drive" });
     const labels = { up: "Forwards", left: "Turn left", right: "Turn right", down: "Backwards" };
-    this.buttons = Object.fromEntries(Object.entries(labels).map(([way, label]) => [way, this.button(way, label)]));
+    this.buttons = Object.fromEntries(Object.entries(labels).map(([direction, label]) => [direction, this.button(direction, label)]));
     const halt = button("stop", "Stand still", () => this.release());
     halt.classList.add("halt");
     this.root.append(...Object.values(this.buttons), halt);
@@ -37,15 +37,15 @@ class Pad {
     document.removeEventListener("visibilitychange", this.hidden);
   }
 
-  button(way, label) {
-    const element = button(way, label);
-    element.classList.add(way);
-    element.addEventListener("pointerdown", (event) => { element.focus(); this.hold(way, event); });
+  button(direction, label) {
+    const element = button(direction, label);
+    element.classList.add(direction);
+    element.addEventListener("pointerdown", (event) => { element.focus(); this.hold(direction, event); });
     for (const end of ["pointerup", "pointercancel", "pointerleave", "lostpointercapture", "contextmenu"]) {
-      element.addEventListener(end, (event) => this.drop(way, event));
+      element.addEventListener(end, (event) => this.drop(direction, event));
     }
-    element.addEventListener("keydown", (event) => { if (event.key === "Enter") this.hold(way, event); });
-    element.addEventListener("keyup", (event) => { if (event.key === "Enter") this.drop(way, event); });
+    element.addEventListener("keydown", (event) => { if (event.key === "Enter") this.hold(direction, event); });
+    element.addEventListener("keyup", (event) => { if (event.key === "Enter") this.drop(direction, event); });
     return element;
   }
 
@@ -59,17 +59,17 @@ class Pad {
     }
   }
 
-  hold(way, event) {
+  hold(direction, event) {
     event.preventDefault();
-    if (this.held.has(way)) return;
-    this.held.add(way);
+    if (this.held.has(direction)) return;
+    this.held.add(direction);
     this.sendDrive();
     this.timer ??= setInterval(() => this.sendDrive(), REPEAT);
   }
 
-  drop(way, event) {
+  drop(direction, event) {
     event.preventDefault();
-    if (!this.held.delete(way)) return;
+    if (!this.held.delete(direction)) return;
     if (this.held.size) this.sendDrive();
     else this.release(true);
   }
@@ -84,8 +84,8 @@ class Pad {
   }
 
   sendDrive() {
-    const sum = (axis) => [...this.held].reduce((total, way) => total + DIRECTIONS[way][axis], 0);
-    for (const [way, element] of Object.entries(this.buttons)) element.classList.toggle("held", this.held.has(way));
+    const sum = (axis) => [...this.held].reduce((total, direction) => total + DIRECTIONS[direction][axis], 0);
+    for (const [direction, element] of Object.entries(this.buttons)) element.classList.toggle("held", this.held.has(direction));
     this.send({ drive: [sum(0), sum(1)] });
   }
 }

@@ -17,7 +17,7 @@ class Notebook:
 
     def run(self, cell: str, source: str) -> None:
         self.texts[cell] = source
-        self.tell()
+        self.send_page()
         self.cells.begin(cell, source)
         try:
             exec(source, self.namespace)
@@ -28,9 +28,9 @@ class Notebook:
 
     def edit(self, cell: str, source: str) -> None:
         self.texts[cell] = source
-        self.tell()
+        self.send_page()
 
-    def tell(self) -> None:
+    def send_page(self) -> None:
         self.cells.update(list(self.texts), self.texts)
 
     def outdated(self, name: str) -> OutdatedName | None:
@@ -45,7 +45,7 @@ def notebook():
     return notebook
 
 
-def test_what_ran_as_it_stands_is_not_outdated(notebook):
+def test_code_that_ran_as_shown_is_not_outdated(notebook):
     assert notebook.outdated("Robot") is None
 
 
@@ -90,11 +90,11 @@ def test_a_value_made_from_a_class_is_known_by_its_name(notebook):
     assert notebook.outdated("pair") == OutdatedName("pair")
 
 
-def test_a_cell_that_is_gone_and_other_cells_say_nothing(notebook):
+def test_deleted_cells_and_other_cells_are_not_outdated(notebook):
     notebook.run("other", "speed = 1")
     notebook.edit("other", "speed = 2")
     del notebook.texts["answer"]
-    notebook.tell()
+    notebook.send_page()
     assert notebook.outdated("Robot") is None
 
 

@@ -40,10 +40,10 @@ def environment(**more: str) -> dict[str, str]:
 class Robot:
     """python -m sim, in a domain of its own."""
 
-    def __init__(self, *words: str) -> None:
+    def __init__(self, *arguments: str) -> None:
         self.domain = free_domain()
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "sim", "--domain", str(self.domain), *words],
+            [sys.executable, "-m", "sim", "--domain", str(self.domain), *arguments],
             cwd=REPOSITORY, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
         self.offer = "".join(itertools.takewhile(lambda line: "Ctrl-C" not in line, self.process.stdout))
@@ -61,11 +61,11 @@ class Robot:
         """What a listener hears in that time."""
         return json.loads(finish(self.client("listen", seconds)))
 
-    def hear_until(self, condition: Callable[[dict], bool]) -> None:
+    def receive_until(self, condition: Callable[[dict], bool]) -> None:
         """Listen again and again, until what is heard is as it should be."""
         end = time.monotonic() + LIMIT
-        while not condition(heard := self.listen(0.2)):
-            assert time.monotonic() < end, heard
+        while not condition(received := self.listen(0.2)):
+            assert time.monotonic() < end, received
 
     def memory(self) -> int:
         """Resident memory, kB."""
@@ -79,10 +79,10 @@ class Robot:
         return self.process.returncode, stderr
 
 
-def ended(*words: str) -> tuple[int, str, str]:
+def ended(*arguments: str) -> tuple[int, str, str]:
     """How python -m sim ended with these words: exit status, stdout and stderr."""
     done = subprocess.run(
-        [sys.executable, "-m", "sim", *words],
+        [sys.executable, "-m", "sim", *arguments],
         cwd=REPOSITORY, env=environment(), capture_output=True, text=True, timeout=LIMIT, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
@@ -96,9 +96,9 @@ def finish(client: subprocess.Popen) -> str:
 
 
 @contextlib.contextmanager
-def robot(*words: str) -> Iterator[Robot]:
+def robot(*arguments: str) -> Iterator[Robot]:
     """A robot that is there, and gone afterwards whatever happens."""
-    running = Robot(*words)
+    running = Robot(*arguments)
     try:
         yield running
     finally:

@@ -38,7 +38,7 @@ def page():
         yield running
 
 
-def ask(page, method, path, body=None, **headers):
+def request(page, method, path, body=None, **headers):
     """Status and body of one request; underscores in names of headers are dashes."""
     connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=120)
     names = {name.replace("_", "-"): value for name, value in headers.items()}
@@ -52,18 +52,18 @@ def own(page):
 
 
 def test_the_page_has_all_its_parts(page):
-    status, html = ask(page, "GET", "/")
+    status, html = request(page, "GET", "/")
     assert status == 200
     assert re.findall(rb'src="(.*?)"', html) == [b"/page.js"]
-    assert b'from "/live.js"' in ask(page, "GET", "/page.js")[1]
-    assert b"export default" in ask(page, "GET", "/live.js")[1]
-    assert json.loads(ask(page, "GET", "/world")[1]) == FACTS
-    assert json.loads(ask(page, "GET", "/graph")[1]) == GRAPH
-    assert ask(page, "GET", "/../server.py") == (404, b"Not Found\n")
+    assert b'from "/live.js"' in request(page, "GET", "/page.js")[1]
+    assert b"export default" in request(page, "GET", "/live.js")[1]
+    assert json.loads(request(page, "GET", "/world")[1]) == FACTS
+    assert json.loads(request(page, "GET", "/graph")[1]) == GRAPH
+    assert request(page, "GET", "/../server.py") == (404, b"Not Found\n")
 
 
 def test_only_its_own_page_drives(page):
-    assert ask(page, "POST", "/drive", DRIVE, Origin=own(page)) == (200, b"")
+    assert request(page, "POST", "/drive", DRIVE, Origin=own(page)) == (200, b"")
     assert page.driven == [(1.0, -0.5)]
     for headers in (
         {},
@@ -72,7 +72,7 @@ def test_only_its_own_page_drives(page):
         {"Origin": "http://evil.example", "Host": "evil.example"},  # a name that leads here
         {"Origin": f"http://localhost:{page.port + 1}"},
     ):
-        assert ask(page, "POST", "/drive", DRIVE, **headers) == FORBIDDEN
+        assert request(page, "POST", "/drive", DRIVE, **headers) == FORBIDDEN
     assert page.driven == [(1.0, -0.5)]
 
 
@@ -81,15 +81,15 @@ def test_only_its_own_page_drives(page):
     '{"drive": [true, 0]}', '{"drive": [1, 0]}' + " " * 200,
 ])  # fmt: skip
 def test_what_is_no_command_is_refused(page, body):
-    assert ask(page, "POST", "/drive", body, Origin=own(page)) == BAD
+    assert request(page, "POST", "/drive", body, Origin=own(page)) == BAD
     assert page.driven == []
 
 
 def test_other_sites_see_nothing(page):
     for path in ("/", "/world", "/frames"):
-        assert ask(page, "GET", path, Host="evil.example") == FORBIDDEN
+        assert request(page, "GET", path, Host="evil.example") == FORBIDDEN
     for path in ("/world", "/frames", "/live.js", "/graph"):
-        assert ask(page, "GET", path, Sec_Fetch_Site="cross-site") == FORBIDDEN
+        assert request(page, "GET", path, Sec_Fetch_Site="cross-site") == FORBIDDEN
 
 
 def stream(page):
@@ -106,7 +106,7 @@ def test_frames_come_as_they_are_shown_and_end_with_the_robot(page):
     assert frames.read() == b"\n"
 
 
-def test_facts_that_change_come_with_the_next_frame_and_to_who_looks_later_too(page):
+def test_a_changed_status_is_sent_with_the_next_frame_and_to_later_pages(page):
     for _ in range(2):
         page.send_status({"drawn": 3})
         with contextlib.closing(stream(page)) as frames:
@@ -122,7 +122,7 @@ def test_so_many_may_look_and_no_more(page):
     assert stream(page).status == 503
 
 
-def test_a_port_that_is_taken_is_told_in_a_sentence():
+def test_a_port_in_use_is_reported_in_a_sentence():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         sentence = f"Port {port} can't be used (Address already in use); choose another with --port.\n"
@@ -133,7 +133,7 @@ def test_of_some_ports_the_first_that_is_free_is_taken():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         ports = [taken.getsockname()[1], 0]
         with contextlib.closing(live_page.open_server(ports, FACTS, print, lambda: GRAPH)) as page:
-            assert json.loads(ask(page, "GET", "/graph")[1]) == GRAPH
+            assert json.loads(request(page, "GET", "/graph")[1]) == GRAPH
         with pytest.raises(OSError, match="Address already in use"):
             live_page.open_server(ports[:1], FACTS, print, lambda: GRAPH)
 
@@ -150,9 +150,9 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
         expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"), timeout=300_000)
         page.get_by_role("application").click()
         page.keyboard.down("ArrowUp")
-        running.hear_until(lambda heard: heard["x"] > 0.2 and heard["v"] > 0.0)
+        running.receive_until(lambda received: received["x"] > 0.2 and received["v"] > 0.0)
         page.keyboard.up("ArrowUp")
-        running.hear_until(lambda heard: heard["v"] == 0.0)
+        running.receive_until(lambda received: received["v"] == 0.0)
         page.locator(".graph summary").press("Enter")
         page.locator(".graph svg .ours text", has_text="/robot").wait_for()
         page.locator(".graph svg .ours text", has_text="/teleop").wait_for()
@@ -163,8 +163,8 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
         page.screenshot(path=ARTIFACTS / "standalone-graph.png", full_page=True)
         assert faults == []
         assert running.stop() == (0, "")
-        words = "The robot's program has ended. Start it again, then reload this page."
-        page.get_by_text(words).wait_for()
+        text = "The robot's program has ended. Start it again, then reload this page."
+        page.get_by_text(text).wait_for()
         page.close()
 
 

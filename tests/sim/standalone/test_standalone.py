@@ -35,16 +35,16 @@ def yard():
         yield running
 
 
-def alive(heard):
+def alive(received):
     """Whether a listener heard fresh scans, about 20 a second; on a busy machine they may be fewer."""
-    return 2 < heard["rate"] < 30 and heard["age"] < 2 and heard["frame"] == "base_scan"
+    return 2 < received["rate"] < 30 and received["age"] < 2 and received["frame"] == "base_scan"
 
 
-def test_it_says_what_it_offers_and_how_to_reach_it(yard):
+def test_it_prints_its_topics_and_how_to_connect(yard):
     assert yard.offer == OFFER.format(domain=yard.domain)
 
 
-def test_other_processes_hear_and_drive_it(yard):
+def test_other_processes_receive_its_messages_and_drive_it(yard):
     driver = yard.client("drive", 4)
     assert alive(yard.listen())
     finish(driver)
@@ -54,7 +54,7 @@ def test_other_processes_hear_and_drive_it(yard):
     assert after["v"] == 0.0  # nobody commands any more
 
 
-def test_its_parameters_can_be_asked_for(yard):
+def test_its_parameters_can_be_requested(yard):
     assert "use_sim_time" in json.loads(finish(yard.client("parameters", 1)))
 
 
@@ -64,7 +64,7 @@ AT_NIGHT = "huge", "wrong_type", "impostor", "crowd"
 @pytest.mark.parametrize("client", [
     *("flood", "broken_bytes"), *(pytest.param(client, marks=pytest.mark.soak) for client in AT_NIGHT),
 ])  # fmt: skip
-def test_it_goes_on_while_a_client_misbehaves(yard, client):
+def test_it_continues_while_a_client_misbehaves(yard, client):
     misbehaving = yard.client(client, 4)
     assert alive(yard.listen())
     finish(misbehaving)
@@ -72,7 +72,7 @@ def test_it_goes_on_while_a_client_misbehaves(yard, client):
 
 
 @pytest.mark.soak
-def test_it_goes_on_with_clients_that_are_killed_or_stand_still(yard):
+def test_it_continues_with_clients_that_are_killed_or_stopped(yard):
     clients = [yard.client(name, 60) for name in ("flood", "crowd", "listen", "crowd")]
     for crowd in clients[1::2]:
         crowd.stdout.readline()  # it is there
@@ -104,7 +104,7 @@ def test_a_signal_ends_it_cleanly(number):
         assert running.stop(number) == (0, "")
 
 
-def test_commands_that_are_no_numbers_are_told_and_ignored():
+def test_commands_with_nan_are_reported_and_ignored():
     with robot("--world", "yard", "--headless") as running:
         for name in ("no_numbers", "infinite"):
             finish(running.client(name, 2))
@@ -112,12 +112,12 @@ def test_commands_that_are_no_numbers_are_told_and_ignored():
         status, stderr = running.stop()
     lines = stderr.splitlines()
     assert status == 0
-    words = {NO_NUMBER.format("nan m/s and 0.0 rad/s"), NO_NUMBER.format("0.1 m/s and inf rad/s")}
-    assert set(lines) == words
+    expected = {NO_NUMBER.format("nan m/s and 0.0 rad/s"), NO_NUMBER.format("0.1 m/s and inf rad/s")}
+    assert set(lines) == expected
     assert len(lines) < 10  # once a second
 
 
-def test_other_robots_and_machines_stand_alone_too():
+def test_other_robots_and_machines_are_stand_alone_programs_too():
     with robot("--world", "convoy", "--headless") as running:
         assert "  takes /leader/cmd_vel  [geometry_msgs/msg/Twist]\n" in running.offer
         assert json.loads(finish(running.client("leader", 30)))["way"] > 0.1
@@ -128,7 +128,7 @@ def test_other_robots_and_machines_stand_alone_too():
         assert running.stop() == (0, "")
 
 
-def test_where_the_world_says_so_it_takes_stamped_commands(tmp_path):
+def test_it_receives_stamped_commands_if_the_world_requires_them(tmp_path):
     world = tmp_path / "stamped.toml"
     text = (REPOSITORY / "sim/world/worlds/yard.toml").read_text(encoding="utf-8")
     world.write_text(text.replace("[card]", "[robot]\nstamped = true\n[card]"), encoding="utf-8")
@@ -145,7 +145,7 @@ def test_a_world_may_be_made_from_a_seed():
         assert running.stop() == (0, "")
 
 
-@pytest.mark.parametrize("words, sentence", [
+@pytest.mark.parametrize("arguments, sentence", [
     (["--world", "moon"], "There is no world 'moon'. The worlds are "),
     (["--world", "/no/w.toml"], "Cannot read /no/w.toml (No such file or directory); check the path."),
     (["--world", "moon", "--world-seed", "7"],
@@ -159,8 +159,8 @@ def test_a_world_may_be_made_from_a_seed():
      "python -m sim: argument --port: a port is a whole number from 0 to 65535; this is '70000'."),
     (["--wrld", "yard"], "python -m sim: unrecognized arguments: --wrld yard"),
 ], ids=lambda value: value[1] if isinstance(value, list) else "")  # fmt: skip
-def test_what_can_not_be_run_is_told_in_a_sentence(words, sentence):
-    status, stdout, stderr = ended("--headless", *words)
+def test_invalid_arguments_are_reported_in_a_sentence(arguments, sentence):
+    status, stdout, stderr = ended("--headless", *arguments)
     assert (status, stdout) == (2, "")
     assert stderr.startswith(sentence)
     assert len(stderr.splitlines()) == 1

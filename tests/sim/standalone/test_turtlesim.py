@@ -28,12 +28,12 @@ def pond():
         yield running
 
 
-def program(pond, name, *words):
+def program(pond, name, *arguments):
     """Start a function of the tutorials' programs."""
     domain = {"ROS_DOMAIN_ID": str(pond.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     code = f"from tests.students.engine import turtles; turtles.{name}()"
     return subprocess.Popen(
-        [sys.executable, "-c", code, *words],
+        [sys.executable, "-c", code, *arguments],
         cwd=REPOSITORY, env=environment(**domain), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
 
@@ -100,8 +100,8 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
 
 @pytest.mark.soak
 def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
-    words = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", "sigterm_timeout:=300"]
-    process = start(words, free_domain(), ROS_LOG_DIR=str(tmp_path))
+    arguments = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", "sigterm_timeout:=300"]
+    process = start(arguments, free_domain(), ROS_LOG_DIR=str(tmp_path))
     lines = []
     while len([line for line in lines if "See and drive it at" in line]) < 2:
         lines.append(process.stdout.readline())
@@ -116,7 +116,7 @@ def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
     ]
 
 
-def test_what_ros_can_not_read_is_told():
+def test_arguments_that_ros_can_not_parse_are_reported():
     status, stdout, stderr = ended("--world", "turtlesim", "--headless", "--ros-args", "--nonsense")
     assert (status, stdout) == (2, "")
     assert stderr == "ROS can't read --ros-args --nonsense: ['--nonsense']\n"

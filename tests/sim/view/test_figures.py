@@ -96,7 +96,7 @@ def test_a_run_without_a_robot_is_refused(draw):
         draw(Recording())
 
 
-def test_a_moving_picture_shows_a_machine_too():
+def test_an_animation_shows_a_machine_too():
     turn = [Pose(stamp, 0.0, 0.0, stamp) for stamp in (0.0, 1.0)]
     recording = Recording(world=World.load("joint"), tracks={"link": turn})
     moving = Image.open(io.BytesIO(bytes(animate(recording))))
@@ -228,7 +228,7 @@ assert "matplotlib.pyplot" not in sys.modules
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
 
-def test_the_moving_picture_shows_the_robot_going_its_way():
+def test_the_animation_shows_the_robot_on_its_path():
     moving = Image.open(io.BytesIO(bytes(animate(driven(), speed=1.0, frames_per_second=2))))
     assert (moving.n_frames, moving.format) == (11, "PNG")
     moving.seek(0)
@@ -243,7 +243,7 @@ def test_the_moving_picture_shows_the_robot_going_its_way():
     assert np.ptp(below_clock[:, 0]) < 0.1 * height  # and not along y
 
 
-def test_twenty_seconds_are_a_small_picture_that_is_always_the_same():
+def test_an_animation_of_twenty_seconds_is_small_and_always_the_same():
     recording = run(misfits.Talker, world="room", seconds=20, quiet=True)
     recording.path = [
         pose._replace(x=2 * np.cos(pose.stamp), y=2 * np.sin(pose.stamp)) for pose in recording.path
@@ -255,6 +255,6 @@ def test_twenty_seconds_are_a_small_picture_that_is_always_the_same():
 
 
 @pytest.mark.parametrize("pace", [{"speed": 0}, {"frames_per_second": -1}])
-def test_a_picture_needs_a_pace(pace):
+def test_an_animation_needs_a_speed(pace):
     with pytest.raises(ValueError, match=r"^speed and frames_per_second must be above 0$"):
         animate(driven(), **pace)

@@ -36,7 +36,7 @@ def drawn(*nodes, **options):
     return plot_frames(run(*nodes, seconds=1, quiet=True, **options))
 
 
-def test_it_shows_each_frame_in_its_parent_and_who_says_so():
+def test_it_shows_each_frame_in_its_parent_with_the_publisher():
     figure = drawn(broadcaster(("base_link", "camera"), moving=[("map", "odom")]), world="yard")
     assert figure.description == (
         "base_scan in base_link: static, /robot\n"
@@ -49,7 +49,7 @@ def test_it_shows_each_frame_in_its_parent_and_who_says_so():
     assert figure._repr_png_() == (png(figure), {"alt": figure.description})
 
 
-def test_two_trees_are_told():
+def test_two_trees_are_reported():
     figure = drawn(broadcaster(("map", "dock"), ("sea", "island")))
     reason = "There are 2 trees, and no way leads between map and sea."
     assert figure.description.endswith(f"Missing:\n1. {reason}")

@@ -20,33 +20,33 @@ def circle() -> Recording:
     return run(Circler, world="room", seconds=1, quiet=True)
 
 
-def way(track: list[list[int]]) -> list[tuple[int, ...]]:
+def positions(track: list[list[int]]) -> list[tuple[int, ...]]:
     """Poses in whole mm and mrad."""
     return list(zip(*(list(accumulate(column)) for column in track), strict=True))
 
 
-def test_what_moved_is_there_and_no_word_of_the_programs(straight):
+def test_it_has_the_motion_and_nothing_of_the_programs(straight):
     run_ = inflated(pack_motion(straight))
     assert (run_["logs"], run_["topics"], run_["scans"], "graph" in run_) == ([], [], [], False)
     assert run_["marks"] == [[2000, "end", "t = 2 s: the run ended.", None]]
     assert "driver" not in str(run_)
     last = straight.path[-1]
-    assert way(run_["tracks"][0])[-1] == tuple(round(1000 * value) for value in last[1:])
+    assert positions(run_["tracks"][0])[-1] == tuple(round(1000 * value) for value in last[1:])
 
 
 def test_the_ghost_is_where_the_other_robot_was_at_the_same_moment_and_stays_when_that_ends(straight, circle):
     other = inflated(pack_motion(circle))
     both = inflated(with_ghost(pack_motion(straight), pack_motion(circle)))
     assert both["world"]["bodies"][-1]["kind"] == "ghost"
-    ghost = dict(zip(accumulate(both["stamps"]), way(both["tracks"][-1]), strict=True))
-    there = dict(zip(accumulate(other["stamps"]), way(other["tracks"][0]), strict=True))
+    ghost = dict(zip(accumulate(both["stamps"]), positions(both["tracks"][-1]), strict=True))
+    there = dict(zip(accumulate(other["stamps"]), positions(other["tracks"][0]), strict=True))
     common = ghost.keys() & there.keys()
     assert len(common) > 10
     assert {stamp: ghost[stamp] for stamp in common} == {stamp: there[stamp] for stamp in common}
     assert ghost[2000] == there[1000]
 
 
-def test_a_player_is_inert_and_escapes_its_words(straight):
+def test_a_player_is_inert_and_escapes_its_text(straight):
     packed = pack_motion(straight)
     assert player(packed, "<b>") == f'<div class="ros2-replay" data-replay="{packed}">&lt;b&gt;</div>'
     assert player(packed, "", packed) == (

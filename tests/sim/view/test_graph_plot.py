@@ -42,7 +42,7 @@ def red(figure):
     return [arrow for arrow in arrows if to_hex(arrow.get_edgecolor()) == WARNING]
 
 
-def test_it_shows_nodes_topics_and_rates_and_says_the_same_in_words():
+def test_it_shows_nodes_topics_and_rates_and_describes_them():
     figure = plot_graph(run(Avoider, world="room", seconds=3, quiet=True))
     assert figure.description == WORDS
     drawn = {"/avoider", "/robot", "/scan", "20 Hz", "/cmd_vel", "10 Hz", "/bumper  20 Hz"}
@@ -62,7 +62,7 @@ def test_what_does_not_connect_is_red_broken_and_numbered_with_its_reason_below(
     assert delivery.description.endswith("\n5. /mission waits in vain: nobody offers the action /drive_too.")
 
 
-def test_fifteen_nodes_fit_on_a_page_and_no_box_lies_on_another(delivery):
+def test_fifteen_nodes_fit_on_a_page_and_no_boxes_overlap(delivery):
     width, height = delivery.get_size_inches()
     assert width < 10.5
     assert height < 14

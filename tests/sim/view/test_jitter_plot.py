@@ -35,7 +35,7 @@ def test_missed_deadlines_are_red_and_counted():
     assert figure.description.startswith(f"Plot: {title}; ms over time (s)")
 
 
-def test_a_deadline_that_is_just_kept_is_not_missed():
+def test_a_deadline_that_is_just_met_is_not_missed():
     figure = plot_jitter(ticks(0.1, 0.2, 0.3), "/tick", period=0.1, deadline=0.1)
     assert list(drawn(figure)) == ["period", "time since the last", "deadline"]
     assert figure.axes[0].get_title().endswith("jitter 0 ms, 0 deadlines missed")

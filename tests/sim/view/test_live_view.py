@@ -71,7 +71,7 @@ def test_a_frame_with_360_rays_is_1_5_kib(view, monkeypatch):
     assert len(messages[0][1][0]) == 4 * (1 + 3 + 3 + 360)
 
 
-def test_the_world_goes_to_the_page_once_with_all_its_bodies(view):
+def test_the_world_is_sent_to_the_page_once_with_all_its_bodies(view):
     world = World.load("room")
     assert view.world["bounds"] == list(world.bounds)
     assert len(view.world["walls"]) == len(world.walls)
@@ -85,12 +85,12 @@ def test_a_run_without_a_world_has_a_view():
     view.close()
 
 
-def test_a_state_is_kept_for_pages_that_come_later_and_has_no_infinity(view):
+def test_a_state_is_stored_for_later_pages_and_has_no_infinity(view):
     view.state(STATE | {"speed": math.inf})
     assert view.status == STATE | {"speed": None}
 
 
-def test_a_graph_is_kept_for_pages_that_come_later(view):
+def test_a_graph_is_stored_for_later_pages(view):
     assert view.graph == {}
     recording = Recording()
     view.connections(recording)
@@ -113,10 +113,10 @@ def test_a_graph_is_kept_for_pages_that_come_later(view):
     ],
 )
 def test_a_command_of_the_page_is_passed_on(view, command):
-    heard = []
-    view.on_command = heard.append
+    received = []
+    view.on_command = received.append
     view._handle_custom_msg(command, [])
-    assert heard == [command]
+    assert received == [command]
 
 
 @pytest.mark.parametrize(
@@ -156,14 +156,14 @@ def test_a_command_of_the_page_is_passed_on(view, command):
     ],
 )
 def test_a_hostile_message_is_dropped(view, message):
-    heard = []
-    view.on_command = heard.append
+    received = []
+    view.on_command = received.append
     view._handle_custom_msg(message, [])
-    assert heard == []
+    assert received == []
     assert parse_command(message) is None
 
 
-def test_messages_that_come_when_nobody_listens_are_dropped(view):
+def test_messages_without_a_handler_are_dropped(view):
     view._on_message(view, {"stop": True}, [])  # ipywidgets would swallow what it raises
     assert view.on_command is None
 

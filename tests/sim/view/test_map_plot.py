@@ -23,7 +23,7 @@ def shades(figure):
     return np.asarray(figure.axes[0].images[0].get_array())
 
 
-def test_each_cell_lies_where_the_map_says():
+def test_each_cell_is_at_its_position_in_the_map():
     figure = plot_map(grid(data=[-1, 0, 50, 100] + [0] * 8))
     assert list(shades(figure)[0]) == [0, 1, 51, 101]
     assert shades(figure)[1:].max() == 1
@@ -43,7 +43,7 @@ def test_an_empty_path_draws_nothing():
     assert not plot_map(grid(), Path()).axes[0].lines
 
 
-def test_the_robot_stands_where_it_is_said_or_where_the_drive_ends():
+def test_the_robot_is_drawn_at_the_given_pose_or_at_the_end_of_the_drive():
     assert plot_map(grid(), robot=(0.5, 2.5, 0.0)).axes[0].patches[0].center == (0.5, 2.5)
     drive = run(world="room", seconds=1)
     figure = plot_map(grid(), drive=drive)

@@ -109,48 +109,49 @@ def test_poses_and_scans_are_where_they_were_to_the_millimetre(drive):
     scan = data["scans"][100]
     at = next(pose for pose in drive.path if abs(pose.stamp - scan["stamp"] / 1000) < 1e-6)
     assert scan["pose"] == pytest.approx(at[1:], abs=5.1e-4)
-    heard = next(h for h in drive.messages("/scan") if round(h.stamp * 1000) == scan["stamp"]).message
-    stride = round(scan["step"] / heard.angle_increment)
-    for told, true in zip(summed(scan["ranges"]), heard.ranges[::stride], strict=True):
+    received = next(h for h in drive.messages("/scan") if round(h.stamp * 1000) == scan["stamp"]).message
+    stride = round(scan["step"] / received.angle_increment)
+    for told, true in zip(summed(scan["ranges"]), received.ranges[::stride], strict=True):
         assert told * 0.02 == pytest.approx(true, abs=0.011) if math.isfinite(true) else told == -1
 
 
-def test_a_ray_that_measured_nothing_is_told_from_one_that_met_nothing():
+def test_a_ray_without_a_measurement_differs_from_one_out_of_range():
     ranges = [math.inf, -math.inf, math.nan, 0.5]
-    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=ranges)))
-    (scan,) = unpacked(driven([(0, 0), (1, 0)], published=[heard]))["scans"]
+    received = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=ranges)))
+    (scan,) = unpacked(driven([(0, 0), (1, 0)], published=[received]))["scans"]
     assert list(summed(scan["ranges"])) == [-1, -2, -2, 25]
 
 
 def test_rays_are_drawn_from_where_the_lidar_sits():
     room = World.load("room")
     world = dataclasses.replace(room, lidar=dataclasses.replace(room.lidar, x=0.05, yaw=math.pi / 2))
-    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=[1.0])))
-    (scan,) = unpacked(dataclasses.replace(driven([(0, 0), (1, 0)], published=[heard]), world=world))["scans"]
+    received = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(LaserScan(ranges=[1.0])))
+    recording = dataclasses.replace(driven([(0, 0), (1, 0)], published=[received]), world=world)
+    (scan,) = unpacked(recording)["scans"]
     assert scan["pose"] == [0.05, 0.0, 1.571]
 
 
 def test_scans_of_a_students_node_are_not_the_robots():
-    heard = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
-    assert unpacked(driven([(0, 0), (1, 0)], published=[heard]))["scans"] == []
+    received = Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/mapper", encode(LaserScan(ranges=[1.0])))
+    assert unpacked(driven([(0, 0), (1, 0)], published=[received]))["scans"] == []
 
 
 def test_a_scan_without_sense_is_left_out():
     odd = [LaserScan(), LaserScan(ranges=[1.0], angle_min=math.nan)]
     odd.append(LaserScan(ranges=[1.0], range_max=math.inf))
-    heard = [Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(scan)) for scan in odd]
-    assert unpacked(driven([(0, 0), (1, 0)], published=heard))["scans"] == []
+    received = [Message(0.0, "/scan", "sensor_msgs/msg/LaserScan", "/robot", encode(scan)) for scan in odd]
+    assert unpacked(driven([(0, 0), (1, 0)], published=received))["scans"] == []
 
 
 def test_scans_that_no_page_could_draw_are_left_out_or_cut():
     """A student's node may have the robot's name, and send anything."""
 
-    def heard(stamp, raw):
+    def received(stamp, raw):
         return Message(stamp, "/scan", "sensor_msgs/msg/LaserScan", "/robot", raw)
 
     far = LaserScan(ranges=[1e30, -1.0], range_max=3.5)
     lost = LaserScan(ranges=[1.0], angle_min=1e30, range_max=1.0)
-    scans = [heard(0.0, b"no scan"), heard(0.2, encode(lost)), heard(0.4, encode(far))]
+    scans = [received(0.0, b"no scan"), received(0.2, encode(lost)), received(0.4, encode(far))]
     (kept,) = unpacked(driven([(0, 0), (1, 0)], published=scans))["scans"]
     assert list(summed(kept["ranges"])) == [replay_data.FAR / replay_data.RANGE_UNIT, 0]
 
@@ -168,7 +169,7 @@ def test_other_robots_boxes_and_machines_have_tracks(drive):
     assert len(arm["tracks"]) == 2
 
 
-def test_marks_say_what_happened_when_in_words():
+def test_marks_describe_what_happened_when():
     touch = Contact(3.2, 3.4, 1.0, 2.0, "front", "wall")
     error = CallbackError(4.0, "/driver", "Driver.tick", "KeyError", "'x'", "")
     silent = CallbackError(4.5, "/driver", "Driver.tick", "NotImplementedError", "", "")
@@ -196,7 +197,7 @@ def test_log_lines_and_topics_are_there():
     assert (name, told, len(strip), strip.count("1")) == ("/chatter", "1 Hz", replay_data.COLUMNS, 4)
 
 
-def test_marks_lines_and_words_are_bounded():
+def test_marks_lines_and_text_are_bounded():
     errors = [CallbackError(n / 1000, "/a", "A.tick", "E", "x" * 999, "") for n in range(5000)]
     logs = [LogLine(n / 1000, "INFO", "a", "y" * 999) for n in range(5000)]
     data = unpacked(recording(errors=errors, logs=logs))
@@ -204,7 +205,7 @@ def test_marks_lines_and_words_are_bounded():
     assert max(len(event[2]) for event in data["marks"] + data["logs"]) < replay_data.CHARACTERS + 20
 
 
-def test_long_words_leave_room_for_few():
+def test_of_long_texts_there_are_few():
     """Signs that no packing makes smaller take no more than the picture of the world does."""
     logs = [
         LogLine(n / 10, "INFO", "a", "".join(chr(0x3400 + n * k % 9973) for k in range(190)))
@@ -217,7 +218,7 @@ def test_long_words_leave_room_for_few():
 
 
 @pytest.mark.parametrize("many, kept", [(3, [0, 1, 2]), (100, [0, 33, 66, 99])])
-def test_thinning_keeps_first_and_last(many, kept):
+def test_thinning_retains_first_and_last(many, kept):
     assert replay_data.thinned(range(many), 4) == kept
 
 
@@ -246,5 +247,5 @@ class Tricky(Node):
         self.get_logger().info("</script><script>alert(1)</script>")
 
 
-def test_words_of_a_run_never_stand_in_the_page_as_they_are():
+def test_text_of_a_run_is_never_in_the_page_unescaped():
     assert "alert" not in replay(run(Tricky, seconds=1, quiet=True)).html

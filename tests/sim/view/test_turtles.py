@@ -41,7 +41,7 @@ def unpacked(recording):
     return json.loads(zlib.decompress(base64.b64decode(replay_data.pack(recording, 1.0)), -15))
 
 
-def test_a_figure_has_the_pond_what_is_drawn_there_at_last_and_who_is_there(swim):
+def test_a_figure_has_the_pond_with_its_final_drawing_and_turtles(swim):
     figure = plot_path(swim)
     shown = colours(png(figure))
     assert {"4556ff", "ff0000", "7bc96f"} <= shown
@@ -50,7 +50,7 @@ def test_a_figure_has_the_pond_what_is_drawn_there_at_last_and_who_is_there(swim
     assert "turtle2" not in figure.description
 
 
-def test_a_replay_knows_who_is_there_when(swim):
+def test_a_replay_has_the_times_of_each_turtle(swim):
     data = unpacked(swim)
     assert [body["name"] for body in data["world"]["bodies"]] == ["turtle1", "turtle2"]
     assert data["there"] == [[[0, 2976]], [[528, 1488]]]
@@ -74,7 +74,7 @@ def test_the_live_picture_shows_what_is_there_now(swim):
     assert now["strokes"] == [[0xFF0000, pytest.approx(9 / 45), [[6.552, 5.544], [2.0, 9.0]]]]
 
 
-def test_a_moving_picture_draws_lines_and_leaves_out_who_has_gone(swim):
+def test_an_animation_draws_lines_and_omits_removed_turtles(swim):
     image = Image.open(io.BytesIO(bytes(animate(swim, speed=1.0, frames_per_second=2))))
 
     def near(frame, *colour):

@@ -25,12 +25,12 @@ def test_pages_get_the_places_of_a_warehouse_and_of_no_other_world():
     assert [body["kind"] for body in world_data(world)["bodies"]] == ["robot", "box", "box", "person"]
 
 
-def test_a_figure_names_the_places(recording):
+def test_a_figure_has_the_named_locations(recording):
     (axes,) = plot_path(recording).axes
     assert {"charger", "desk", "shelf_4"} <= {text.get_text() for text in axes.texts}
 
 
-def test_a_moving_picture_shows_whoever_walks(recording):
+def test_an_animation_shows_walking_people(recording):
     image = Image.open(io.BytesIO(bytes(animate(recording)))).convert("RGB")
     red, green, blue = (int(KINDS["person"][at : at + 2], 16) for at in (1, 3, 5))
     near = [

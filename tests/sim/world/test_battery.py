@@ -8,9 +8,9 @@ FAR = (9.0, 9.0)
 BOUNDS = (-10, -10, 10, 10)
 
 
-def world(**figures):
-    figures = {"charger": FAR} | figures
-    return World("test", "", BOUNDS, (0, 0, 0), battery=BatteryModel(**figures))
+def world(**parameters):
+    parameters = {"charger": FAR} | parameters
+    return World("test", "", BOUNDS, (0, 0, 0), battery=BatteryModel(**parameters))
 
 
 def drive(simulation, v, w, until):

@@ -106,7 +106,7 @@ def test_a_box_pushed_off_its_middle_turns():
     assert drive(pushed, 0.3, until=2)[-1][2] > 0.05
 
 
-def test_the_robot_feels_a_box_and_says_so():
+def test_the_robot_reports_contact_with_a_box():
     pushed = simulation(MovableBox(0.5, 0, 0, 0.3, 0.3))
     drive(pushed, 0.3, until=3)
     (contact,) = pushed.contacts
@@ -128,10 +128,10 @@ def test_the_lidar_sees_a_box_where_it_is_now():
     assert gap > 0.2 and pushed.robot.scan()[behind] == pytest.approx(gap, abs=1e-6)
 
 
-def test_a_movable_box_looks_to_the_lidar_like_one_that_stands_still():
-    figures = (1.0, 0.4, 0.5, 0.7, 0.3)
-    still = Simulation(World("test", "", (-5, -5, 5, 5), boxes=(Box(*figures),), lidar=QUIET))
-    assert simulation(MovableBox(*figures)).robot.scan() == pytest.approx(still.robot.scan(), abs=1e-6)
+def test_the_lidar_sees_a_movable_box_like_a_static_one():
+    parameters = (1.0, 0.4, 0.5, 0.7, 0.3)
+    still = Simulation(World("test", "", (-5, -5, 5, 5), boxes=(Box(*parameters),), lidar=QUIET))
+    assert simulation(MovableBox(*parameters)).robot.scan() == pytest.approx(still.robot.scan(), abs=1e-6)
 
 
 def test_boxes_are_bodies_with_an_outline_after_the_robot():

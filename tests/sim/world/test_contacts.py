@@ -120,7 +120,7 @@ def test_both_sides_are_pressed_in_a_corner():
         ("circle", {"circles": (Circle(1.5, 0, 0.5),)}),
     ],
 )
-def test_contact_says_when_where_and_what(what, obstacles):
+def test_a_contact_has_time_position_and_kind(what, obstacles):
     simulation = Simulation(world(**obstacles))
     drive(simulation, 0.5, 0, until=3)
     (contact,) = simulation.contacts

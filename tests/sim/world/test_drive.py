@@ -34,7 +34,7 @@ def test_nothing_moves_without_a_command():
     assert simulation.robot.wheels == (0, 0, 0, 0)
 
 
-def test_the_odometry_of_a_robot_that_has_driven_before_goes_on_where_it_was():
+def test_the_odometry_of_a_robot_that_has_driven_before_continues_from_there():
     start = (1.0, -2.0, 0.5)
     simulation = Simulation(replace(YARD, start=start, robot=RobotModel(odometry=start)))
     assert simulation.robot.odometry == (*start, 0, 0)

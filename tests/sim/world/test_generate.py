@@ -13,7 +13,7 @@ import pytest
 from sim.world import RobotModel, Simulation, World, WorldError
 from sim.world.generate.maze import generate_maze, longest_path, merged_walls
 from tests.sim.world.files import HEADINGS
-from tests.sim.world.ways import has_a_way
+from tests.sim.world.paths import has_a_path
 
 ROOT = Path(__file__).parents[3]
 RADIUS = RobotModel().radius
@@ -25,28 +25,28 @@ SMALL = {
 }
 
 
-def test_the_search_for_a_way_finds_none_through_a_gap_that_is_too_narrow():
+def test_the_search_for_a_path_finds_none_through_a_narrow_gap():
     def gap(width):
         walls = (((1.0, 0.0), (1.0, 1.0)), ((1.0, 1.0 + width), (1.0, 3.0)))
         return World("test", "", (0, 0, 2, 3), (0.4, 0.4, 0), (1.6, 0.4), walls)
 
-    assert has_a_way(gap(0.32), RADIUS)
-    assert not has_a_way(gap(0.2), RADIUS)
+    assert has_a_path(gap(0.32), RADIUS)
+    assert not has_a_path(gap(0.2), RADIUS)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("hundred", range(3))
-def test_every_seed_leaves_a_way(kind, hundred):
+def test_every_seed_leaves_a_path(kind, hundred):
     for seed in range(100 * hundred, 100 * hundred + 100):
         world = World.generate(kind, seed=seed, **SMALL[kind])
         Simulation(world)
-        assert has_a_way(world, RADIUS), seed
+        assert has_a_path(world, RADIUS), seed
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", range(5))
-def test_the_usual_sizes_leave_a_way(kind, seed):
-    assert has_a_way(World.generate(kind, seed=seed), RADIUS + 0.02, step=0.03)
+def test_the_default_sizes_leave_a_path(kind, seed):
+    assert has_a_path(World.generate(kind, seed=seed), RADIUS + 0.02, step=0.03)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -79,7 +79,7 @@ def test_a_generated_world_has_a_name_a_card_and_comes_back_from_plain_data(kind
     assert World.from_data(json.loads(json.dumps(world.to_data()))) == world
 
 
-def test_a_room_holds_what_it_was_asked_for():
+def test_a_room_has_the_requested_objects():
     world = World.generate("room", seed=1, width=8, height=6, boxes=3, circles=1, movable=2)
     assert world.bounds == (0, 0, 8, 6)
     assert (len(world.boxes), len(world.circles), len(world.movable)) == (3, 1, 2)
@@ -88,7 +88,7 @@ def test_a_room_holds_what_it_was_asked_for():
 
 
 @pytest.mark.parametrize("density", [0.02, 0.06])
-def test_clutter_covers_the_share_that_was_asked_for(density):
+def test_clutter_covers_the_requested_fraction(density):
     world = World.generate("clutter", seed=1, density=density)
     covered = sum(box.width * box.height for box in world.boxes)
     covered += sum(math.pi * circle.radius**2 for circle in world.circles)
@@ -129,7 +129,7 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
 
 
 @pytest.mark.parametrize(
-    ("kind", "figures", "sentence"),
+    ("kind", "parameters", "sentence"),
     [
         ("rom", {}, "There is no kind of world 'rom' to generate. Did you mean 'room'?"),
         ("sea", {}, "There is no kind of world 'sea' to generate. There are room, maze, clutter, warehouse."),
@@ -159,7 +159,7 @@ def test_the_walls_of_a_maze_are_where_it_is_closed_and_as_long_as_can_be():
         ),
     ],
 )
-def test_worlds_that_cannot_be_generated(kind, figures, sentence):
+def test_worlds_that_cannot_be_generated(kind, parameters, sentence):
     with pytest.raises(WorldError) as caught:
-        World.generate(kind, **figures)
+        World.generate(kind, **parameters)
     assert str(caught.value) == sentence

@@ -31,7 +31,7 @@ def test_a_robot_without_an_imu_gives_no_reading():
     assert Simulation(World.load("yard")).robot.imu() is None
 
 
-def test_a_robot_that_stands_still_feels_gravity_alone():
+def test_a_stopped_robot_measures_only_gravity():
     moving = simulation()
     first = moving.robot.imu()
     assert first == (0, 0, 0, 0, 0, GRAVITY)

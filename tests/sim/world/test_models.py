@@ -23,7 +23,7 @@ NAME = "a name of small letters, digits and single underscores that begins with 
 ROUTE = "[[x, y], ...], two or more corners (metres), each different from the one before"
 
 
-@pytest.mark.parametrize(("model", "figures", "sentence"), [
+@pytest.mark.parametrize(("model", "parameters", "sentence"), [
     (RobotModel, {"radius": -1}, "radius is -1; write a number from 0.0001 to 1000 (metres)."),
     (RobotModel, {"mass": 0}, "mass is 0; write a number from 0.0001 to 1000000 (kg)."),
     (RobotModel, {"mass": 5e-324}, "mass is 5e-324; write a number from 0.0001 to 1000000 (kg)."),
@@ -77,9 +77,9 @@ ROUTE = "[[x, y], ...], two or more corners (metres), each different from the on
     (OtherRobot, {"name": "a", "start": (0, 0, 0), "route": ((1, 1), (2, 2), (1, 1))},
      f"route is [[1, 1], [2, 2], [1, 1]]; write {ROUTE}."),
 ])  # fmt: skip
-def test_figures_that_cannot_be(model, figures, sentence):
+def test_invalid_values(model, parameters, sentence):
     with pytest.raises(ModelError) as caught:
-        model(**figures)
+        model(**parameters)
     assert str(caught.value) == f"{model.__name__}: {sentence}"
 
 

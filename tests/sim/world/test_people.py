@@ -28,7 +28,7 @@ def test_a_person_walks_round_at_their_pace_and_looks_where_they_go():
 
 
 @pytest.mark.parametrize("thing", ["robot", "box"])
-def test_who_stands_in_the_way_is_waited_for_and_then_the_person_turns_round(thing):
+def test_a_person_waits_for_a_standing_obstacle_and_then_turns_back(thing):
     there = {"start": (6.0, 0.0, 0.0)} if thing == "robot" else {"movable": (MovableBox(6, 0, 0, 0.2, 0.2),)}
     simulation = Simulation(world(**there))
     x, _, _ = walked(simulation, 5)
@@ -40,7 +40,7 @@ def test_who_stands_in_the_way_is_waited_for_and_then_the_person_turns_round(thi
     assert simulation.contacts == []
 
 
-def test_who_goes_away_in_time_is_waited_for_no_longer():
+def test_a_person_walks_on_when_the_obstacle_has_moved_away():
     simulation = Simulation(world((6.0, 0.0, math.pi / 2)))
     x, _, _ = walked(simulation, 6)
     for tenth in range(60, 90):
@@ -50,7 +50,7 @@ def test_who_goes_away_in_time_is_waited_for_no_longer():
     assert simulation.contacts == []
 
 
-def test_beside_the_way_one_may_stand():
+def test_an_obstacle_beside_the_path_does_not_block():
     simulation = Simulation(world((6.0, -0.4, 0.0)))
     assert walked(simulation, 8)[0] == pytest.approx(9)
     assert simulation.contacts == []
@@ -83,7 +83,7 @@ def test_equal_runs_are_equal_however_they_are_cut():
 
 
 @pytest.mark.parametrize(
-    ("figures", "sentence"),
+    ("parameters", "sentence"),
     [
         (
             {"route": ()},
@@ -93,9 +93,9 @@ def test_equal_runs_are_equal_however_they_are_cut():
         ({"speed": 5.0}, "Person: speed is 5.0; write a number from 0.0001 to 3 (m/s)."),
     ],
 )
-def test_people_that_cannot_be(figures, sentence):
+def test_invalid_people(parameters, sentence):
     with pytest.raises(WorldError) as caught:
-        Person(**{"route": ROUTE} | figures)
+        Person(**{"route": ROUTE} | parameters)
     assert str(caught.value) == sentence
 
 

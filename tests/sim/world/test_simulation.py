@@ -54,7 +54,7 @@ def test_advance_does_the_steps_that_end_by_then(until, time):
     assert simulation.time == time
 
 
-def test_advance_never_goes_back():
+def test_time_never_goes_back():
     simulation = Simulation(World.load("yard"))
     simulation.advance(1)
     simulation.advance(0.5)

@@ -13,7 +13,7 @@ from sim.world.battery import NEAR
 from sim.world.clearance import clearance
 from sim.world.route import Route
 from tests.sim.world.files import HEADINGS
-from tests.sim.world.ways import has_a_way
+from tests.sim.world.paths import has_a_path
 
 SEEDS = range(40)
 
@@ -33,7 +33,7 @@ def test_each_place_can_be_reached_from_the_charger(worlds):
         assert math.dist(world.start[:2], world.battery.charger) == 0
         for name, place in world.places().items():
             there = dataclasses.replace(world, goal=place[:2])
-            assert has_a_way(there, world.robot.radius + 0.02), (world.name, name)
+            assert has_a_path(there, world.robot.radius + 0.02), (world.name, name)
 
 
 def test_people_walk_a_minute_without_a_wait_a_touch_or_a_push(worlds):
@@ -48,7 +48,7 @@ def test_people_walk_a_minute_without_a_wait_a_touch_or_a_push(worlds):
         assert boxes == [(box.x, box.y, box.yaw) for box in world.movable]
 
 
-def test_people_keep_away_from_what_stands_still_and_from_boxes(worlds):
+def test_people_keep_away_from_static_obstacles_and_boxes(worlds):
     for world in worlds:
         for person in world.people:
             route = Route(person.route)
@@ -68,7 +68,7 @@ def test_a_warehouse_has_a_name_a_card_and_comes_back_from_plain_data(worlds):
     assert [body.kind for body in world.bodies] == ["robot", "box", "box", "box", "person"]
 
 
-def test_a_warehouse_holds_what_it_was_asked_for():
+def test_a_warehouse_has_the_requested_objects():
     world = World.generate("warehouse", seed=1, columns=1, rows=2, movable=2, people=3)
     assert (len(world.boxes), len(world.movable), len(world.people)) == (3, 2, 3)
     assert len(world.warehouse.pickups) == 2
@@ -132,7 +132,7 @@ def test_faults_in_a_warehouse_are_named(worlds, table, key, value, sentence):
         ("battery", lambda data: data["battery"].update(charger=[-1, 0]), "places"),
     ],
 )
-def test_what_lies_outside_is_refused(worlds, key, change, what):
+def test_a_pose_outside_the_bounds_is_rejected(worlds, key, change, what):
     data = json.loads(json.dumps(worlds[0].to_data()))
     change(data)
     with pytest.raises(WorldError) as caught:

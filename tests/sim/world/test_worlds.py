@@ -23,7 +23,7 @@ from sim.world import (
 from sim.world.world_file import MACHINES
 from tests.sim.world.files import CARD, HEADINGS, load
 from tests.sim.world.mobile import MOBILE
-from tests.sim.world.ways import has_a_way
+from tests.sim.world.paths import has_a_path
 
 IMU = "rate, gyro_noise, gyro_bias, accel_noise, accel_bias"
 LIDAR = "rays, range_min, range_max, noise, dropouts, x, y, yaw, silent"
@@ -62,7 +62,7 @@ def test_every_start_is_free(name):
 @pytest.mark.parametrize("name", [name for name in World.names() if World.load(name).goal])
 def test_every_goal_can_be_reached(name):
     world = dataclasses.replace(World.load(name), movable=())
-    assert has_a_way(world, RobotModel().radius)
+    assert has_a_path(world, RobotModel().radius)
 
 
 def test_the_maze_is_solved_by_following_its_left_wall():
@@ -262,7 +262,7 @@ def test_a_file_with_a_faulty_addition(tmp_path, more, sentence):
     assert words(tmp_path, GOOD.replace("[card]", f"{more}\n[card]")) == f"mine.toml: {sentence}"
 
 
-def test_a_file_sets_the_figures_of_robots_and_sensors(tmp_path):
+def test_a_file_sets_the_parameters_of_robots_and_sensors(tmp_path):
     text = """
         [robot]
         max_v = 1

@@ -39,7 +39,7 @@ def test_inverse_kinematics_undo_the_forward_ones(elbow_left):
 
 
 @pytest.mark.parametrize(("place", "distance"), [((1.0, 0.0), "1"), ((0.0, 0.05), "0.05")])
-def test_a_place_out_of_reach_is_told(place, distance):
+def test_a_point_out_of_reach_is_reported(place, distance):
     with pytest.raises(ReachError) as caught:
         MODEL.inverse(*place)
     assert str(caught.value) == (
@@ -201,7 +201,7 @@ def orders(rng, joint):
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_whatever_it_is_told_no_joint_ever_breaks_a_limit(seed):
+def test_no_command_makes_a_joint_exceed_a_limit(seed):
     """Neither of place, nor of speed, nor of acceleration; and speed is what places change by."""
     rng = random.Random(seed)
     joint = JointModel(

@@ -18,7 +18,7 @@ M, m, LENGTH = FREE.cart_mass, FREE.pole_mass, FREE.pole_length
 EXACT = 1e-6
 
 
-def begun(state, model=FREE):
+def started(state, model=FREE):
     cart_pole = alone(model)
     cart_pole.state = state
     return cart_pole
@@ -37,15 +37,15 @@ def crossings(cart_pole, seconds, value):
 
 def test_a_hanging_pole_swings_with_the_period_of_its_closed_form():
     """Small swings with a free cart: omega^2 = (M + m) g / (M l). A swing of 1e-4 rad adds less than 1e-9."""
-    cart_pole = begun(CartPoleState(0.0, math.pi + 1e-4, 0.0, 0.0))
+    cart_pole = started(CartPoleState(0.0, math.pi + 1e-4, 0.0, 0.0))
     found = crossings(cart_pole, 20, lambda state: state.angle - math.pi)
     period = (found[-1] - found[0]) / (len(found) - 1)
     assert period == pytest.approx(math.tau / math.sqrt((M + m) * GRAVITY / (M * LENGTH)), rel=EXACT)
 
 
-def test_an_upright_pole_falls_as_its_closed_form_says():
+def test_an_upright_pole_falls_as_in_the_closed_form():
     """Small angles: angle = angle_0 cosh(t sqrt((M + m) g / (M l)))."""
-    cart_pole = begun(CartPoleState(0.0, 1e-6, 0.0, 0.0))
+    cart_pole = started(CartPoleState(0.0, 1e-6, 0.0, 0.0))
     rate = math.sqrt((M + m) * GRAVITY / (M * LENGTH))
     for t in steps(cart_pole, 1):
         assert cart_pole.state.angle == pytest.approx(1e-6 * math.cosh(rate * t), rel=EXACT)
@@ -53,7 +53,7 @@ def test_an_upright_pole_falls_as_its_closed_form_says():
 
 @pytest.mark.parametrize("angle", [0.05, 1.0, 3.0])
 def test_without_friction_energy_and_momentum_stay(angle):
-    cart_pole = begun(CartPoleState(0.0, angle, 0.0, 0.0))
+    cart_pole = started(CartPoleState(0.0, angle, 0.0, 0.0))
     energy = FREE.energy(cart_pole.state)
     for _ in steps(cart_pole, 20):
         state = cart_pole.state
@@ -65,7 +65,7 @@ def test_without_friction_energy_and_momentum_stay(angle):
 def test_friction_takes_energy_at_the_rate_of_its_power():
     """Over one step, at speeds v and w: dE/dt = - b v^2 - c w^2."""
     model = dataclasses.replace(FREE, cart_friction=0.3, pole_friction=0.05)
-    cart_pole = begun(CartPoleState(0.0, 2.0, 0.5, 3.0), model)
+    cart_pole = started(CartPoleState(0.0, 2.0, 0.5, 3.0), model)
     lost = 0.0
     before = cart_pole.state
     for _ in steps(cart_pole, 2):
@@ -78,7 +78,7 @@ def test_friction_takes_energy_at_the_rate_of_its_power():
 
 
 def test_a_cart_alone_accelerates_with_force_by_mass():
-    cart_pole = begun(CartPoleState(0.0, 0.0, 0.0, 0.0), dataclasses.replace(FREE, pole_mass=1e-12))
+    cart_pole = started(CartPoleState(0.0, 0.0, 0.0, 0.0), dataclasses.replace(FREE, pole_mass=1e-12))
     for t in steps(cart_pole, 2):
         cart_pole.command(3.0)
         cart_pole.advance(t)
@@ -90,7 +90,7 @@ def test_a_cart_alone_accelerates_with_force_by_mass():
 def test_viscous_friction_gives_a_final_speed():
     """v = F / b (1 - exp(-b t / M))."""
     model = dataclasses.replace(FREE, pole_mass=1e-12, cart_friction=2.0)
-    cart_pole = begun(CartPoleState(0.0, 0.0, 0.0, 0.0), model)
+    cart_pole = started(CartPoleState(0.0, 0.0, 0.0, 0.0), model)
     cart_pole.command(3.0)
     for t in steps(cart_pole, 0.2):
         assert cart_pole.state.v == pytest.approx(1.5 * (1 - math.exp(-2.0 * t / M)), abs=EXACT)
@@ -100,7 +100,7 @@ def test_viscous_friction_gives_a_final_speed():
 def test_the_end_of_the_track_stops_the_cart_and_the_pole_swings_on(side):
     """The blow keeps the pole's angular momentum about the cart: w jumps by - cos(angle) v / l."""
     model = dataclasses.replace(FREE, track_length=1.0, pole_mass=1e-12)
-    cart_pole = begun(CartPoleState(0.0, 0.0, side * 1.0, 0.0), model)
+    cart_pole = started(CartPoleState(0.0, 0.0, side * 1.0, 0.0), model)
     hit = []
     for t in steps(cart_pole, 1):
         if abs(cart_pole.state.v) < EXACT and not hit:
@@ -116,7 +116,7 @@ def test_the_moment_of_the_blow_is_found_between_two_steps():
     """The cart is 0.12345 s from the end; from the blow on, the hanging pole swings: w / rate sin(rate t)."""
     speed, since, rate = 1e-4, 0.5 - 0.12345, math.sqrt(GRAVITY / LENGTH)
     model = dataclasses.replace(FREE, track_length=1.0, pole_mass=1e-12)
-    cart_pole = begun(CartPoleState(0.5 - 0.12345 * speed, math.pi, speed, 0.0), model)
+    cart_pole = started(CartPoleState(0.5 - 0.12345 * speed, math.pi, speed, 0.0), model)
     cart_pole.advance(0.5)
     swing = speed / LENGTH / rate
     assert cart_pole.state.angle - math.pi == pytest.approx(swing * math.sin(rate * since), rel=EXACT)
@@ -124,7 +124,7 @@ def test_the_moment_of_the_blow_is_found_between_two_steps():
 
 def test_a_cart_at_the_end_can_go_back():
     model = dataclasses.replace(FREE, track_length=1.0)
-    cart_pole = begun(CartPoleState(0.5, math.pi, 0.0, 0.0), model)
+    cart_pole = started(CartPoleState(0.5, math.pi, 0.0, 0.0), model)
     cart_pole.command(10.0)
     cart_pole.advance(0.1)
     assert (cart_pole.state.x, cart_pole.state.v) == (0.5, 0.0)
@@ -134,14 +134,14 @@ def test_a_cart_at_the_end_can_go_back():
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_whatever_it_is_told_the_cart_stays_on_its_track_and_blows_give_no_energy(seed):
+def test_no_command_moves_the_cart_off_its_track_and_impacts_add_no_energy(seed):
     """Energy rises by no more than the motor's work: force times way, here with twice the greatest speed."""
     rng = random.Random(seed)
     model = dataclasses.replace(
         FREE,
         pole_mass=rng.uniform(0.01, 2), pole_length=rng.uniform(0.2, 2), track_length=0.5, max_force=20,
     )  # fmt: skip
-    cart_pole = begun(CartPoleState(rng.uniform(-0.25, 0.25), rng.uniform(-3, 3), 0.0, 0.0), model)
+    cart_pole = started(CartPoleState(rng.uniform(-0.25, 0.25), rng.uniform(-3, 3), 0.0, 0.0), model)
     for step in range(2000):
         before = cart_pole.state
         if step % 30 == 0:
@@ -156,7 +156,7 @@ def test_whatever_it_is_told_the_cart_stays_on_its_track_and_blows_give_no_energ
 
 def test_a_command_is_cut_and_ends_after_its_timeout():
     model = dataclasses.replace(FREE, cart_mass=1.0, pole_mass=1e-12, max_force=5.0, command_timeout=0.2)
-    cart_pole = begun(CartPoleState(0.0, math.pi, 0.0, 0.0), model)
+    cart_pole = started(CartPoleState(0.0, math.pi, 0.0, 0.0), model)
     cart_pole.command(80.0)
     cart_pole.advance(0.2)
     assert cart_pole.state.v == pytest.approx(1.0)
@@ -197,7 +197,7 @@ def test_noise_has_its_standard_deviation_and_leaves_the_truth_alone():
 
 def test_a_push_gives_cart_and_pole_its_momentum_and_ends():
     pushes = (Push(0.5, 3.0, 0.1), Push(0.55, -1.0))
-    cart_pole = begun(CartPoleState(0.0, 0.3, 0.0, 0.0), dataclasses.replace(FREE, pushes=pushes))
+    cart_pole = started(CartPoleState(0.0, 0.3, 0.0, 0.0), dataclasses.replace(FREE, pushes=pushes))
     momentum = {}
     for t in steps(cart_pole, 1):
         _, angle, v, w = cart_pole.state
@@ -208,7 +208,7 @@ def test_a_push_gives_cart_and_pole_its_momentum_and_ends():
 
 
 def test_bodies_are_cart_and_pole_where_they_are():
-    cart_pole = begun(CartPoleState(0.5, 0.1, 0.0, 0.0))
+    cart_pole = started(CartPoleState(0.5, 0.1, 0.0, 0.0))
     assert [(body.name, body.kind) for body in cart_pole.world.bodies] == [("cart", "cart"), ("pole", "link")]
     assert cart_pole.poses == [(0.5, 0.0, 0.0), (0.5, 0.0, pytest.approx(math.pi / 2 + 0.1))]
 
@@ -229,12 +229,12 @@ def test_bodies_are_cart_and_pole_where_they_are():
         ),
     ],
 )
-def test_impossible_figures(values, sentence):
+def test_invalid_parameters(values, sentence):
     with pytest.raises(WorldError) as caught:
         CartPoleModel(**values)
     assert str(caught.value) == f"CartPoleModel: {sentence}"
 
 
-def test_a_world_with_pushes_is_kept():
+def test_a_world_with_pushes_is_stored():
     world = dataclasses.replace(World.load("cart_pole"), machine=CartPoleModel(pushes=[Push(1.0, 2.0)]))
     assert World.from_data(world.to_data()) == world

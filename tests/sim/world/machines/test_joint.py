@@ -43,7 +43,7 @@ def test_the_profile_is_a_trapezoid():
 
 
 @pytest.mark.parametrize(("told", "goes"), [(9.0, 1.5), (-9.0, -1.5), (1e300, 1.5)])
-def test_a_command_beyond_the_limits_is_cut_to_them(told, goes):
+def test_a_command_beyond_the_limits_is_clamped(told, goes):
     joint = alone(MODEL)
     joint.command(told)
     joint.advance(4)
@@ -122,7 +122,7 @@ def test_how_often_it_is_looked_at_changes_nothing():
         ({"length": -1.0}, "length is -1.0; write a number from 0.0001 to 1000 (metres)."),
     ],
 )
-def test_impossible_figures(values, sentence):
+def test_invalid_parameters(values, sentence):
     with pytest.raises(WorldError) as caught:
         JointModel(**values)
     assert str(caught.value) == f"JointModel: {sentence}"

@@ -16,7 +16,7 @@ def pond():
     return simulate(World.load("turtlesim"), 0)
 
 
-def test_how_often_it_is_asked_changes_nothing(pond):
+def test_the_frequency_of_calls_to_advance_changes_nothing(pond):
     other = simulate(World.load("turtlesim"), 0)
     for scene in (pond, other):
         scene.command("turtle1", 1.0, 0.0, 1.0)
@@ -72,7 +72,7 @@ def test_the_corners_of_the_canvas_are_those_of_the_pond():
     ((-3, 1, 1, -3), None),
     ((5, 5, 5, 5), (5, 5, 5, 5)),
 ])  # fmt: skip
-def test_only_the_part_of_a_line_that_lies_in_the_pond_is_drawn(line, part):
+def test_only_the_part_of_a_line_inside_the_pond_is_drawn(line, part):
     assert clipped(*line) == (part if part is None else pytest.approx(part))
 
 

@@ -24,7 +24,7 @@ def clearance(world, step):
     return gaps
 
 
-def has_a_way(world, radius, step=0.04):
+def has_a_path(world, radius, step=0.04):
     """Whether a disc of this radius (m) can move from start to goal, in steps along the grid.
 
     Between two points of the grid it comes at most half a step nearer to anything.
