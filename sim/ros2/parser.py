@@ -8,7 +8,7 @@ from typing import Any
 
 from sim.ros2.group import USAGE_ERROR, Parser, UsageError, build_parser
 from sim.ros2.system import CliError, Output, System
-from sim.ros2.verbs import pkg_create, publishing, subscribing  # noqa: F401  (each adds verbs to a group)
+from sim.ros2.verbs import echo, pkg_create, publishing  # noqa: F401  (each adds verbs to a group, in this order)
 from sim.ros2.verbs.action import action
 from sim.ros2.verbs.bag import bag
 from sim.ros2.verbs.doctor import doctor
