@@ -19,7 +19,7 @@ from typing import Any
 
 from grader.marking.sandbox.linux import same_addresses
 from tests.bench.report import avoider_run, fresh, table
-from tests.sim.ros.remote.apart import Apart
+from tests.sim.ros.remote.follower_process import FollowerProcess
 
 SECONDS, SECOND = 60, 1_000_000_000
 ROUNDS, RUNS = 3, 3
@@ -27,10 +27,10 @@ Counts = dict[str, Any]
 
 
 @cache
-def _other_process() -> Apart:
+def _other_process() -> FollowerProcess:
     """Where the student's node lives: on one core with this one, as in marking."""
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    made = Apart()
+    made = FollowerProcess()
     atexit.register(made.close)
     return made
 

@@ -17,7 +17,7 @@ from sim import Process, Recording
 from sim.evidence import CallbackError, Endpoint, Graph
 from sim.ros.launching.respawned import respawned
 from tests.exercises.score_tables import students
-from tests.sim.ros.remote.apart import Apart
+from tests.sim.ros.remote.follower_process import FollowerProcess
 
 warm = Exercise("warm", "A thermometer", seconds=5)
 
@@ -179,10 +179,10 @@ def test_a_slip_costs_half_in_what_a_scenario_makes_of_a_program_too(student, po
 
 
 def test_it_does_so_where_the_program_lives_in_another_process():
-    apart = Apart()
-    with apart.serving(__name__, "MisspeltAndWhole") as remote:
+    follower = FollowerProcess()
+    with follower.serving(__name__, "MisspeltAndWhole") as remote:
         score = killed.judge(RemotePrograms(remote))
-    apart.close()
+    follower.close()
     assert (score.broken, float(score)) == ([], 4.0)
 
 

@@ -1,4 +1,4 @@
-"""Launch files in a run: each program starts at its time, and ends, and starts again, in simulated time."""
+"""Launch files in a run: programs start, exit and restart in simulated time."""
 
 import sys
 
@@ -25,7 +25,7 @@ def package(tmp_path_factory):
 
 
 def said(recording):
-    """What launch says: level, stamp, name and text."""
+    """The log lines of launch: level, stamp, name and text."""
     names = ("launch", "launch.user", "driver", "once", "last", "python3", "ros2", "talker")
     lines = (line for line in recording.logs if line.node.split("-")[0] in names)
     return [f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}" for line in lines]
@@ -50,7 +50,7 @@ def test_two_robots_drive_each_in_its_namespace_from_its_time_on(two_robots):
     assert two_robots.ended.reason == "time"
 
 
-def test_launch_says_what_it_starts(two_robots):
+def test_launch_logs_what_it_starts(two_robots):
     assert said(two_robots) == [
         "[INFO] [0.000] [driver-1]: process started with pid [1]",
         "[INFO] [1.250] [driver-2]: process started with pid [2]",
@@ -82,7 +82,7 @@ def test_arguments_are_given_as_in_a_terminal(package, how):
     assert driven(recording) == {"/left/driver": [("/left/cmd_vel", 0.5, 0.75)]}
 
 
-def test_what_is_launched_is_on_the_host_of_its_launch_file(package):
+def test_launched_programs_run_on_the_host_of_their_launch_file(package):
     there = Process(f"{NAME} bringup.launch.py", host="robot")
     recording = run(there, seconds=0.5, quiet=True, network=Network(delay=0.1))
     assert recording.hosts["/left/driver"] == "robot"
@@ -95,7 +95,7 @@ def test_a_launch_file_plays(package):
     )
 
 
-def test_a_program_that_dies_is_started_again_and_handlers_hear_of_each_end(package):
+def test_a_program_that_dies_is_respawned_and_handlers_are_called(package):
     recording = run(f"{NAME} respawn.launch.py", seconds=20, quiet=True)
     path = package / "lib" / NAME / "once"
     died = f"[pid {{}}, exit code 3, cmd '{path} 3 --ros-args']."
@@ -145,7 +145,7 @@ if __name__ == "__main__":
 
 
 def description(tmp_path, *lines):
-    """A launch file with these entities, beside a talker that doesn't obey."""
+    """A launch file with these entities, beside a talker that ignores SIGINT."""
     (tmp_path / "talker.py").write_text(TALKER)
     (tmp_path / "helper.py").write_text("WORD = 'hello'\n")
     begin = "".join(f"from {it} import *\n" for it in ("launch", "launch.actions", "launch_ros.actions"))
@@ -155,7 +155,7 @@ def description(tmp_path, *lines):
     return file
 
 
-def test_a_file_is_a_program_and_one_that_does_not_obey_is_ended_by_force(tmp_path):
+def test_a_file_is_a_program_and_one_that_ignores_sigint_is_killed(tmp_path):
     talker = (
         f"ExecuteProcess(cmd=['python3', '-u', '{tmp_path}/talker.py', 'x'], additional_env={{'WORD': '1'}})"
     )
@@ -176,7 +176,7 @@ def test_a_file_is_a_program_and_one_that_does_not_obey_is_ended_by_force(tmp_pa
     ]
 
 
-def test_words_of_ros2_are_a_program_too(tmp_path):
+def test_a_ros2_command_is_a_program(tmp_path):
     file = description(tmp_path, "ExecuteProcess(cmd=['ros2', 'pkg', 'prefix', 'std_msgs'])")
     recording = run(file, seconds=2, quiet=True)
     assert "".join(text for _, text in recording.prints) == f"{sys.prefix}\n"
@@ -204,7 +204,7 @@ def test_words_of_ros2_are_a_program_too(tmp_path):
         (["1 / 0"], "ZeroDivisionError", "division by zero"),
     ],
 )
-def test_what_can_not_be_launched_is_the_runs_error(package, tmp_path, lines, kind, words):
+def test_a_failing_launch_is_an_error_of_the_run(package, tmp_path, lines, kind, words):
     recording = run(description(tmp_path, *lines), seconds=2, quiet=True)
     (error,) = recording.errors
     assert (error.node, error.callback, error.type) == ("/launch", "launch", kind)
@@ -221,7 +221,7 @@ def test_what_can_not_be_launched_is_the_runs_error(package, tmp_path, lines, ki
         ("Node(package='two_robots', executable='binary')", "`{package}/lib/two_robots/binary`"),
     ],
 )
-def test_what_is_no_python_is_refused_with_what_to_do(package, tmp_path, entity, program):
+def test_a_command_that_is_not_python_is_refused_with_advice(package, tmp_path, entity, program):
     recording = run(description(tmp_path, entity), seconds=2, quiet=True)
     (error,) = recording.errors
     assert error.text == (
@@ -247,13 +247,13 @@ def test_what_is_no_python_is_refused_with_what_to_do(package, tmp_path, entity,
         ),
     ],
 )
-def test_a_launch_file_that_is_not_there_is_named(package, words, text):
+def test_a_missing_launch_file_is_named(package, words, text):
     (error,) = run(words, seconds=1, quiet=True).errors
     assert error.type == "NoLaunchFile"
     assert error.text.startswith(text)
 
 
-def test_two_files_of_one_name_are_both_named(package, tmp_path, monkeypatch):
+def test_two_files_with_one_name_are_both_named(package, tmp_path, monkeypatch):
     prefix = install(tmp_path)
     monkeypatch.setenv("AMENT_PREFIX_PATH", sourced(prefix)["AMENT_PREFIX_PATH"])
     other = prefix / "share" / NAME / "one.launch.py"
@@ -265,7 +265,7 @@ def test_two_files_of_one_name_are_both_named(package, tmp_path, monkeypatch):
     )
 
 
-def test_a_description_can_be_run_as_it_is(tmp_path):
+def test_a_launch_description_can_be_run(tmp_path):
     from launch import LaunchDescription
     from launch.actions import LogInfo
 
@@ -274,7 +274,7 @@ def test_a_description_can_be_run_as_it_is(tmp_path):
     ]
 
 
-def test_launch_of_a_ros_installation_is_for_real_processes(monkeypatch):
+def test_launch_of_a_ros_installation_is_refused(monkeypatch):
     theirs = type(sys)("launch")
     theirs.__file__ = "/opt/ros/jazzy/launch/__init__.py"
     monkeypatch.setitem(sys.modules, "launch", theirs)

@@ -37,7 +37,7 @@ def test_a_lenient_program_may_use_whole_numbers():
         (lambda: _twist(1).linear.x, 1.0),
     ],
 )
-def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
+def test_numbers_of_the_other_kind_are_accepted_while_lenient(make, value):
     with lenient_fields():
         assert (make(), type(make())) == (value, type(value))
     with pytest.raises(AssertionError, match="must be of type"):
@@ -47,7 +47,7 @@ def test_numbers_of_the_other_kind_fit_while_they_are_wanted(make, value):
 @pytest.mark.parametrize(
     "make", [lambda: Float64(data=True), lambda: Float64(data="1"), lambda: Int32(data=2.5)]
 )
-def test_what_is_no_such_number_fits_never(make):
+def test_other_values_are_never_accepted(make):
     with lenient_fields(), pytest.raises(AssertionError, match="must be of type"):
         make()
 
@@ -59,7 +59,7 @@ def _twist(speed):
 
 
 class Single(Node):
-    """Says and hears Float32 where all others have Float64."""
+    """Publishes and subscribes to Float32 where all others use Float64."""
 
     type = Float32
 
@@ -115,7 +115,7 @@ class Sets(Node):
         self.get.call_async(GetParameters.Request(names=["speed", "flag"]))
 
 
-def test_a_parameter_is_found_by_nearly_its_name_and_one_that_begins_at_0_takes_0_5():
+def test_a_misspelt_parameter_is_found_and_one_with_default_0_accepts_0_5():
     set_, get = asked(Process(Setting))
     assert (set_.results[0].successful, get.values) == (False, [])
     set_, get = asked(Process(Setting, lenient=True))

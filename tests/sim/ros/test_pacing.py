@@ -1,4 +1,4 @@
-"""Simulated time goes along with a clock: at any speed, without catching up on what was missed."""
+"""Simulated time follows a clock at any speed, without catching up after a gap."""
 
 import math
 
@@ -29,7 +29,7 @@ def test_it_goes_at_its_speed(clock, speed):
     assert pace.measured == pytest.approx(speed, rel=0.05)
 
 
-def test_a_clock_nobody_looked_at_makes_no_jump(clock):
+def test_a_long_gap_does_not_make_time_jump(clock):
     pace = Pace(1.0, clock)
     assert pace.due(3.0) == 3.0
     clock.now += 5.0

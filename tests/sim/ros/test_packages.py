@@ -11,7 +11,7 @@ from tests.sim.ros.workspaces import as_it_was, build, with_programs
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory):
-    """A built workspace that was sourced; all is as before when the tests are over."""
+    """A built and sourced workspace; the environment is restored afterwards."""
     folder = tmp_path_factory.mktemp("ws")
     with_programs(folder)
     with as_it_was():
@@ -26,7 +26,7 @@ def said(target, **more):
     return [heard.message.data for heard in recording.messages("/chatter")]
 
 
-def test_an_entry_point_is_a_program_and_reads_its_files_anew_each_time(workspace):
+def test_an_entry_point_is_a_program_and_reads_its_files_again_each_time(workspace):
     talker = executable("my_pkg", "talker")
     assert talker.__name__ == "talker"
     assert said(talker) == ["hello", "hello"]
@@ -81,7 +81,7 @@ def test_the_programs_of_a_package_are_known(workspace):
         ("lost", "x", "lost has none. Name one in 'console_scripts' of its setup.py, and build it again."),
     ],
 )
-def test_why_there_is_no_such_program_is_said(workspace, package, name, why):
+def test_a_missing_program_is_explained(workspace, package, name, why):
     with pytest.raises(packages.ExecutableNotFound) as caught:
         executable(package, name)
     assert str(caught.value) == f"No executable found: {why}"
@@ -103,7 +103,7 @@ def test_why_there_is_no_such_program_is_said(workspace, package, name, why):
         ),
     ],
 )
-def test_what_tutorials_start_and_a_run_lacks_is_said(package, name, why):
+def test_a_tutorial_program_that_is_not_bundled_is_explained(package, name, why):
     with pytest.raises(packages.ExecutableNotFound) as caught:
         executable(package, name)
     assert str(caught.value) == f"No executable found: {why}"
@@ -123,7 +123,7 @@ def reason(package):
     return str(caught.value)
 
 
-def test_why_there_is_no_such_package_is_said(workspace, tmp_path, monkeypatch):
+def test_a_missing_package_is_explained(workspace, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     begin = "Package 'my_pgk' not found: "
     assert reason("my_pgk") == f"{begin}did you mean my_pkg?"

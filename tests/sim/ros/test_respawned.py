@@ -1,4 +1,4 @@
-"""Programs that are killed in the middle of a run, and come back."""
+"""Programs that are killed during a run, and started again."""
 
 import functools
 import itertools
@@ -10,7 +10,7 @@ from grader.exercise import Scenario
 from grader.programs import LocalPrograms, RemotePrograms
 from sim import Process, run
 from sim.ros.launching.respawned import respawned
-from tests.sim.ros.remote.apart import Apart
+from tests.sim.ros.remote.follower_process import FollowerProcess
 
 
 class Counter(Node):
@@ -50,23 +50,23 @@ def test_a_program_is_killed_and_begins_anew_later():
     assert recording.ended.reason == "time"
 
 
-def test_each_program_dies_at_its_own_moment_and_keeps_its_settings():
+def test_each_program_dies_at_its_own_time_and_keeps_its_settings():
     prepare = functools.partial(respawned, 1.0, 3.0, 0.5)
     cast = LocalPrograms([Counter, Process(Counter, remappings=[("/count", "/other")])])
     recording = run(*[prepare.func(program, *prepare.args) for program in cast.programs()], seconds=5)
     assert counts(recording).index(1, 1) != counts(recording, "/other").index(1, 1)
 
 
-def test_a_program_that_comes_to_its_end_by_itself_ends():
+def test_a_program_that_ends_by_itself_is_not_restarted():
     recording = run(respawned(Quitter, 0.3, 0.5, 0.1), seconds=5)
     assert counts(recording)[-1] == 8
     assert recording.all_exited_at is not None and recording.all_exited_at < 2.0
 
 
-def test_a_program_in_another_process_is_killed_at_the_same_moment():
+def test_a_program_in_another_process_is_killed_at_the_same_time():
     scenario = Scenario(None, 5.0, prepare=functools.partial(respawned, 1.0, 2.0, 0.5))
-    apart = Apart()
-    with apart.serving(__name__, "Counter") as remote:
+    follower = FollowerProcess()
+    with follower.serving(__name__, "Counter") as remote:
         there = counts(scenario.run(RemotePrograms(remote), 0))
-    apart.close()
+    follower.close()
     assert there == counts(scenario.run(LocalPrograms([Counter]), 0))

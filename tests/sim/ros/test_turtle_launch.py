@@ -1,4 +1,4 @@
-"""Launch files as the official tutorials have them: ponds in namespaces, a mimic, and tf2's programs."""
+"""Launch files of the official tutorials: turtlesims in namespaces, mimic, and tf2's programs."""
 
 import math
 
@@ -138,7 +138,7 @@ def test_without_a_world_a_pond_is_there_and_no_picture(tmp_path):
     assert recording.messages("/turtlesim1/turtle1/pose") and recording.errors == []
 
 
-def test_a_follower_swims_to_the_target_that_the_launch_file_is_given(tmp_path):
+def test_a_follower_swims_to_the_target_argument(tmp_path):
     file(tmp_path, "turtle.launch.py", TURTLE)
     path = file(tmp_path, "carrot.launch.py", CARROT)
     recording = run(path, world="turtlesim", seconds=15, quiet=True)
@@ -150,7 +150,7 @@ def test_a_follower_swims_to_the_target_that_the_launch_file_is_given(tmp_path):
     ]
 
 
-def test_what_has_happened_in_the_worlds_pond_is_forgotten_when_another_program_takes_it():
+def test_the_world_s_pond_is_reset_when_another_program_takes_it_over():
     def late():
         import time
 
@@ -162,7 +162,7 @@ def test_what_has_happened_in_the_worlds_pond_is_forgotten_when_another_program_
     assert TAKEN in [line.text for line in recording.logs]
 
 
-def test_the_tutorial_on_event_handlers_hears_what_programs_say_and_when_they_are_done(tmp_path):
+def test_the_event_handler_tutorial_gets_output_and_exits_of_programs(tmp_path):
     path = file(tmp_path, "events.launch.py", EVENTS, WORDS)
     recording = run(path, world="turtlesim", seconds=8, quiet=True)
     assert (recording.errors, recording.ended.stamp) == ([], 3.0)
@@ -186,14 +186,14 @@ def test_the_tutorial_on_event_handlers_hears_what_programs_say_and_when_they_ar
     assert recording.drawing.ground == (120, 86, 255)
 
 
-def test_two_ponds_are_launched_by_the_file_that_turtlesim_brings():
+def test_the_bundled_launch_file_of_turtlesim_starts_two_ponds():
     recording = run("turtlesim multisim.launch.py", world="turtlesim", seconds=0.2, quiet=True)
     assert recording.errors == []
     ponds = {heard.sender for heard in recording.published if heard.type == "turtlesim/msg/Pose"}
     assert ponds == {"/turtlesim1/turtlesim", "/turtlesim2/turtlesim"}
 
 
-def test_where_an_installation_has_the_file_that_turtlesim_brings_its_own_is_taken(tmp_path, monkeypatch):
+def test_an_installed_launch_file_takes_precedence_over_the_bundled_one(tmp_path, monkeypatch):
     share = tmp_path / "share"
     for folder in (share / "turtlesim", share / "ament_index/resource_index/packages"):
         folder.mkdir(parents=True)
@@ -231,7 +231,7 @@ def test_yaml_and_ctrl_c(tmp_path):
         ("tf2_ros", "tf2_monitor", "tf2_ros has static_transform_publisher, tf2_echo, and no tf2_monitor."),
     ],
 )
-def test_a_program_that_the_course_lacks_is_told_of(tmp_path, package, name, words):
+def test_a_program_that_is_not_bundled_is_reported(tmp_path, package, name, words):
     path = file(tmp_path, "x.launch.py", f"Node(package={package!r}, executable={name!r})")
     (error,) = run(path, world="turtlesim", seconds=1, quiet=True).errors
     assert error.type == "ExecutableNotFound"

@@ -1,4 +1,4 @@
-"""A terminal: reads lines, a list of words as JSON each, and writes what ros2 says to them, as JSON."""
+"""A terminal: reads commands, each a JSON list of arguments, and writes their output as JSON."""
 
 import json
 import sys
@@ -7,8 +7,8 @@ from sim.ros2 import parser
 from sim.ros2.live import LiveSystem
 
 
-class Kept:
-    """One node for all commands, for finding the others takes a while."""
+class SharedSystem:
+    """One node for all commands, because discovery takes a while."""
 
     def __init__(self, system):
         self.system = system
@@ -22,16 +22,16 @@ class Kept:
 
 def main():
     command_parser = parser.make_parser()
-    said, complained = [], []
-    with LiveSystem(said.append, complained.append) as system:
+    output, errors = [], []
+    with LiveSystem(output.append, errors.append) as system:
         for line in sys.stdin:
-            asked = json.loads(line)
+            arguments = json.loads(line)
             status = parser.execute(
-                command_parser, asked, lambda: Kept(system), said.append, complained.append
+                command_parser, arguments, lambda: SharedSystem(system), output.append, errors.append
             )
-            print(json.dumps({"said": said, "complained": complained, "status": status}), flush=True)
-            said.clear()
-            complained.clear()
+            print(json.dumps({"output": output, "errors": errors, "status": status}), flush=True)
+            output.clear()
+            errors.clear()
 
 
 if __name__ == "__main__":

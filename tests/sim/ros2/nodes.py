@@ -1,4 +1,4 @@
-"""A small system with one of everything. `python -m tests.sim.ros2.nodes` is it as a program."""
+"""A small system with one of everything. `python -m tests.sim.ros2.nodes` runs it as a program."""
 
 import contextlib
 
@@ -16,7 +16,7 @@ from std_msgs.msg import Float64, String
 
 
 class Talker(Node):
-    """Says where it is, ten times a second, and has parameters of most kinds."""
+    """Publishes its position at 10 Hz, and has parameters of most types."""
 
     def __init__(self):
         super().__init__("talker")
@@ -47,7 +47,7 @@ class Talker(Node):
 
 
 class Listener(Node):
-    """Hears the levels that nobody publishes but the tests."""
+    """Subscribes to the levels, which only the tests publish."""
 
     def __init__(self):
         super().__init__("listener", namespace="/upstairs")

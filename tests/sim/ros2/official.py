@@ -1,4 +1,4 @@
-"""What the official tools say about the system of nodes.py.
+"""The official tools' output for the system of nodes.py.
 
 official.txt was recorded, command by command, with ros2cli 0.32.2 and rosidl_runtime_py (branches jazzy of
 github.com/ros2/ros2cli, de6cd272, and github.com/ros2/rosidl_runtime_py) on rclpy 7.1.6, rmw_fastrtps_cpp,
@@ -25,14 +25,14 @@ VARIES = (
 
 
 def plain(text: str) -> str:
-    """The text without what differs from one time to another."""
+    """The text without what varies."""
     for pattern, replacement in VARIES:
         text = re.sub(pattern, replacement, text)
     return text
 
 
 def recorded() -> dict[str, str]:
-    """Command to what it says, errors included; of one that was recorded twice, what it said first."""
+    """Command to output, errors included; the first output of a command that was recorded twice."""
     found: dict[str, str] = {}
     for part in re.split(r"(?m)^\$ ros2 ", TEXT)[1:]:
         command, _, text = part.partition("\n")

@@ -1,4 +1,4 @@
-"""The words of ros2 as a program of a run."""
+"""ros2 commands as programs of a run."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from sim import run
 from sim.ros2.cli_program import terminal
 
 TWIST = "geometry_msgs/msg/Twist '{linear: {x: 0.3}}'"
-SAID = {
+OUTPUT = {
     "ros topic list": "ros: command not found\n",
     "ros2 topic pub '": "\"ros2 topic pub '\" can't be read: No closing quotation.\n",
     "ros2 topic pub /cmd_vel Twist": "The passed message type is invalid\n",
@@ -28,16 +28,16 @@ def test_a_command_takes_part_in_a_run():
     assert recording.path[-1].x > 0.4
 
 
-@pytest.mark.parametrize("command", SAID)
-def test_what_it_says_is_printed(command):
+@pytest.mark.parametrize("command", OUTPUT)
+def test_its_output_is_printed(command):
     text = "".join(text for _, text in typed(command).prints)
-    assert text.startswith(SAID[command])
+    assert text.startswith(OUTPUT[command])
 
 
-def test_a_function_gives_the_command_when_the_program_starts():
+def test_a_function_returns_the_command_when_the_program_starts():
     assert typed(lambda: "ros2 node list").prints[0][1] == "/robot"
 
 
-def test_what_is_no_command_is_named():
+def test_an_invalid_command_is_reported():
     says = "None is not a command: expected a text such as 'ros2 topic list'."
     assert typed(lambda: None).prints[0][1] == says

@@ -1,4 +1,4 @@
-"""The ROS domains of this machine, read off the sockets that are open."""
+"""The ROS domains on this machine, from its open sockets."""
 
 import pytest
 
@@ -21,7 +21,7 @@ def test_each_participant_has_two_ports_of_its_domain(sockets):
     assert domains.participant_ports(42) == {17912, 17913}
 
 
-def test_the_domain_where_somebody_is_gets_named(sockets):
+def test_the_hint_names_the_domains_that_have_nodes(sockets):
     sockets(17910, 17911, 7410, 7411)
     assert domains.no_nodes_hint(7) == (
         "Nobody is on ROS domain 7 of this machine; there are nodes on 0 and 42."
@@ -38,6 +38,6 @@ def test_the_domain_where_somebody_is_gets_named(sockets):
     )
 
 
-def test_a_machine_that_does_not_tell_its_sockets_has_none(tmp_path, monkeypatch):
+def test_unreadable_sockets_count_as_none(tmp_path, monkeypatch):
     monkeypatch.setattr(domains, "_SOCKETS", tmp_path / "none")
     assert domains.active_domains() == set()

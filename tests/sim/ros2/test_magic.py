@@ -1,4 +1,4 @@
-"""%ros2 in a real kernel: about the play that goes on while the cell waits, and about the last run."""
+"""%ros2 in a real kernel: the player that runs while the cell waits, and the last run."""
 
 import pytest
 from jupyter_client.manager import start_new_kernel
@@ -15,7 +15,7 @@ def kernel():
     manager.shutdown_kernel(now=True)
 
 
-def test_it_speaks_to_the_play_and_then_to_its_recording(kernel):
+def test_it_uses_the_player_and_then_its_recording(kernel):
     kernel("from tests.sim.ros2.nodes import NODES, Listener")
     assert kernel("%ros2 node list").startswith("Nothing has run yet")
     kernel("data = 3\nplayer = play(*NODES, seconds=60, speed=20, quiet=True)")

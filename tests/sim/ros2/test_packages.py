@@ -22,46 +22,46 @@ def package(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def told(package):
+def environment(package):
     """The environment of a terminal where the workspace is sourced."""
-    places = sourced(package)
-    ours = (str(REPOSITORY), str(REPOSITORY / "ros_packages/python"))
-    return places | {"PYTHONPATH": os.pathsep.join([places["PYTHONPATH"], *ours])}
+    variables = sourced(package)
+    folders = (str(REPOSITORY), str(REPOSITORY / "ros_packages/python"))
+    return variables | {"PYTHONPATH": os.pathsep.join([variables["PYTHONPATH"], *folders])}
 
 
 @pytest.fixture
-def say(package, monkeypatch):
-    """What ros2 says to some words, and its status."""
+def execute(package, monkeypatch):
+    """Executes a ros2 command; returns its status and its lines of output."""
     monkeypatch.setenv("AMENT_PREFIX_PATH", sourced(package)["AMENT_PREFIX_PATH"])
 
-    def ask(line):
+    def execute(line):
         lines = []
         status = parser.execute(parser.make_parser(), shlex.split(line), None, lines.append, lines.append)
         return status, lines
 
-    return ask
+    return execute
 
 
-def test_packages_are_listed(say):
-    status, lines = say("pkg list")
+def test_packages_are_listed(execute):
+    status, lines = execute("pkg list")
     assert status == 0
     assert lines == sorted(lines)
     assert {NAME, "rclpy", "std_msgs"} <= set(lines)
 
 
-def test_a_package_tells_its_programs_its_place_and_its_description(say, package):
-    assert say(f"pkg executables {NAME}") == (0, [f"{NAME} binary", f"{NAME} driver", f"{NAME} once"])
+def test_programs_prefix_and_manifest_of_a_package_are_printed(execute, package):
+    assert execute(f"pkg executables {NAME}") == (0, [f"{NAME} binary", f"{NAME} driver", f"{NAME} once"])
     names = [str(package / "lib" / NAME / name) for name in ("binary", "driver", "once")]
-    assert say(f"pkg executables {NAME} --full-path") == (0, names)
-    assert f"{NAME} driver" in say("pkg executables")[1]
-    assert say(f"pkg prefix {NAME}") == (0, [str(package)])
-    assert say(f"pkg prefix --share {NAME}") == (0, [str(package / "share" / NAME)])
-    assert say(f"pkg xml {NAME} -t version") == (0, ["0.1.0"])
-    assert say(f"pkg xml {NAME}")[1][0].startswith('<package format="3"><name>two_robots</name>')
+    assert execute(f"pkg executables {NAME} --full-path") == (0, names)
+    assert f"{NAME} driver" in execute("pkg executables")[1]
+    assert execute(f"pkg prefix {NAME}") == (0, [str(package)])
+    assert execute(f"pkg prefix --share {NAME}") == (0, [str(package / "share" / NAME)])
+    assert execute(f"pkg xml {NAME} -t version") == (0, ["0.1.0"])
+    assert execute(f"pkg xml {NAME}")[1][0].startswith('<package format="3"><name>two_robots</name>')
 
 
 @pytest.mark.parametrize(
-    ("line", "words_"),
+    ("line", "text"),
     [
         ("pkg executables two_robot", "Package 'two_robot' not found: did you mean two_robots?"),
         ("pkg prefix two_robot", "Package not found"),
@@ -86,23 +86,23 @@ def test_a_package_tells_its_programs_its_place_and_its_description(say, package
         ("launch two_robots one.launch.py speed:=", "malformed launch argument 'speed:=', expected format"),
     ],
 )
-def test_what_is_not_there_is_said_as_by_the_official_tools_and_why(say, line, words_):
-    status, (said,) = say(line)
+def test_what_is_missing_is_reported_as_by_the_official_tools_with_the_reason(execute, line, text):
+    status, (output,) = execute(line)
     assert status == 1
-    assert said.startswith(words_)
+    assert output.startswith(text)
 
 
-def test_a_package_without_its_description_says_so(say, tmp_path, monkeypatch):
+def test_a_package_without_a_manifest_is_reported(execute, tmp_path, monkeypatch):
     prefix = install(tmp_path)
     (prefix / "share" / NAME / "package.xml").unlink()
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
-    assert say(f"pkg xml {NAME}") == (1, ["Package XML manifest not found"])
+    assert execute(f"pkg xml {NAME}") == (1, ["Package XML manifest not found"])
 
 
-def test_a_launch_file_tells_its_arguments(say, package, tmp_path):
-    status, (said,) = say(f"launch -s {NAME} bringup.launch.yaml")
+def test_the_arguments_of_a_launch_file_are_printed(execute, package, tmp_path):
+    status, (output,) = execute(f"launch -s {NAME} bringup.launch.yaml")
     assert status == 0
-    assert said.splitlines() == [
+    assert output.splitlines() == [
         "Arguments (pass arguments as '<name>:=<value>'):",
         "",
         "    'speed':",
@@ -111,7 +111,7 @@ def test_a_launch_file_tells_its_arguments(say, package, tmp_path):
     ]
     file = tmp_path / "x.launch.yaml"
     file.write_text("launch:\n- group: {if: $(var x), children: [{arg: {name: y}}]}\n")
-    assert say(f"launch {file} --show-args")[1][0].splitlines()[1:] == [
+    assert execute(f"launch {file} --show-args")[1][0].splitlines()[1:] == [
         "",
         "    'y':*",
         "        no description given",
@@ -119,14 +119,14 @@ def test_a_launch_file_tells_its_arguments(say, package, tmp_path):
         "* argument(s) which are only used if specific conditions occur",
     ]
     file.write_text("launch: []\n")
-    assert say(f"launch {file} -s")[1][0].splitlines()[1:] == ["", "  No arguments."]
+    assert execute(f"launch {file} -s")[1][0].splitlines()[1:] == ["", "  No arguments."]
 
 
-def test_a_launch_file_is_printed_as_a_tree(say, package):
-    status, (said,) = say(f"launch --print {NAME} respawn.launch.py")
+def test_a_launch_file_is_printed_as_a_tree(execute, package):
+    status, (output,) = execute(f"launch --print {NAME} respawn.launch.py")
     once, driver = (f"ExecInPkg(pkg='{NAME}', exec='{name}')" for name in ("once", "driver"))
     assert status == 0
-    assert re.sub(r"<(\w+\.)*(\w+) object at 0x\w+>", r"<\2>", said).splitlines() == [
+    assert re.sub(r"<(\w+\.)*(\w+) object at 0x\w+>", r"<\2>", output).splitlines() == [
         "<LaunchDescription>",
         "├── RegisterEventHandler('<OnProcessExit>'):",
         "│   └── OnProcessExit",
@@ -142,7 +142,7 @@ def test_a_launch_file_is_printed_as_a_tree(say, package):
     ]
 
 
-def test_in_a_run_processes_of_their_own_are_refused(package, monkeypatch):
+def test_commands_that_start_processes_are_refused_in_a_run(package, monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", sourced(package)["AMENT_PREFIX_PATH"])
     for line, instead in (
         (f"launch {NAME} bringup.launch.py", f'run("{NAME} bringup.launch.py")'),
@@ -163,13 +163,13 @@ def test_in_a_run_processes_of_their_own_are_refused(package, monkeypatch):
         ("sh -c 'kill -9 $$'", -9, ["[ros2run]: Killed"]),
     ],
 )
-def test_run_is_the_program_and_tells_how_it_failed(say, prefix, status, lines):
-    assert say(f'run --prefix "{prefix}" {NAME} once 3') == (status, lines)
+def test_run_reports_how_the_program_failed(execute, prefix, status, lines):
+    assert execute(f'run --prefix "{prefix}" {NAME} once 3') == (status, lines)
 
 
-def test_two_robots_are_launched_as_processes_and_ctrl_c_ends_them(told, tmp_path):
+def test_two_robots_are_launched_as_processes_and_ctrl_c_ends_them(environment, tmp_path):
     process = start(
-        [*ROS2, "launch", NAME, "bringup.launch.py"], free_domain(), ROS_LOG_DIR=str(tmp_path), **told
+        [*ROS2, "launch", NAME, "bringup.launch.py"], free_domain(), ROS_LOG_DIR=str(tmp_path), **environment
     )
     lines = []
     while len([line for line in lines if line.endswith("ready\n")]) < 2:
@@ -177,19 +177,19 @@ def test_two_robots_are_launched_as_processes_and_ctrl_c_ends_them(told, tmp_pat
         assert lines[-1], process.communicate()
     process.send_signal(signal.SIGINT)
     rest, err = process.communicate(timeout=300)
-    said = re.sub(r"pid (\[?)\d+", r"pid \1P", "".join(lines) + rest).splitlines()
-    assert said[0].startswith(f"[INFO] [launch]: All log files can be found below {tmp_path}/")
-    assert said[1:6] == [
+    lines = re.sub(r"pid (\[?)\d+", r"pid \1P", "".join(lines) + rest).splitlines()
+    assert lines[0].startswith(f"[INFO] [launch]: All log files can be found below {tmp_path}/")
+    assert lines[1:6] == [
         "[INFO] [launch]: Default logging verbosity is set to INFO",
         "[INFO] [driver-1]: process started with pid [P]",
         *(
             ["[driver-1] ready", "[INFO] [driver-2]: process started with pid [P]"]
-            if said[3] == "[driver-1] ready"
+            if lines[3] == "[driver-1] ready"
             else ["[INFO] [driver-2]: process started with pid [P]", "[driver-1] ready"]
         ),
         "[driver-2] ready",
     ]
-    assert sorted(said[6:]) == [
+    assert sorted(lines[6:]) == [
         "[INFO] [driver-1]: process has finished cleanly [pid P]",
         "[INFO] [driver-1]: sending signal 'SIGINT' to process[driver-1]",
         "[INFO] [driver-2]: process has finished cleanly [pid P]",
@@ -199,12 +199,12 @@ def test_two_robots_are_launched_as_processes_and_ctrl_c_ends_them(told, tmp_pat
     assert (process.returncode, err) == (0, "")
 
 
-def test_a_launch_file_that_fails_ends_with_status_1(say, tmp_path, monkeypatch, capsys):
+def test_a_launch_file_that_fails_ends_with_status_1(execute, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     monkeypatch.setattr(launch_config, "_log_dir", None)
     file = tmp_path / "x.launch.yaml"
     file.write_text("launch:\n- node: {pkg: no_such, exec: x}\n")
-    assert say(f"launch {file}") == (1, [])
+    assert execute(f"launch {file}") == (1, [])
     (line,) = capsys.readouterr().out.splitlines()[2:]
     begin = "[ERROR] [launch]: Caught exception in launch (see debug for traceback): \"package 'no_such' not"
     assert line.startswith(begin)

@@ -1,4 +1,4 @@
-"""ros2 pkg create: what it says, and every file that it writes."""
+"""ros2 pkg create: its output, and every file that it writes."""
 
 import shlex
 from pathlib import Path
@@ -18,26 +18,28 @@ COMMANDS = [
 WHO = " --maintainer-name Ada --maintainer-email ada@home.org"
 
 
-def say(line: str) -> tuple[int, str]:
-    """The status and the words of `ros2 pkg ...`."""
-    said: list[str] = []
-    status = parser.execute(parser.make_parser(), ["pkg", *shlex.split(line)], None, said.append, said.append)
-    return status, "\n".join(said)
+def execute(line: str) -> tuple[int, str]:
+    """The status and the output of `ros2 pkg ...`."""
+    lines: list[str] = []
+    status = parser.execute(
+        parser.make_parser(), ["pkg", *shlex.split(line)], None, lines.append, lines.append
+    )
+    return status, "\n".join(lines)
 
 
 def made(line: str, folder: Path) -> str:
-    """A command, what it says, and each file that it writes, but for the text of a licence."""
-    status, said = say(line + WHO)
+    """A command, its output, and each file that it writes, except the text of a licence."""
+    status, lines = execute(line + WHO)
     files = {
         path.relative_to(folder).as_posix(): "(…)\n" if path.name == "LICENSE" else path.read_text()
         for path in sorted(folder.rglob("*"))
         if path.is_file()
     }
     listing = "".join(f"--- {name}\n{text}" for name, text in files.items())
-    return f"$ ros2 pkg {line}\n{said.replace(str(folder), '~')}\n({status})\n{listing}"
+    return f"$ ros2 pkg {line}\n{lines.replace(str(folder), '~')}\n({status})\n{listing}"
 
 
-def test_the_words_and_the_files_are_these(tmp_path, monkeypatch):
+def test_the_output_and_the_files_are_as_expected(tmp_path, monkeypatch):
     texts = []
     for number, line in enumerate(COMMANDS):
         folder = tmp_path / str(number)
@@ -49,7 +51,7 @@ def test_the_words_and_the_files_are_these(tmp_path, monkeypatch):
 
 def test_catkin_reads_every_package_xml(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert [say(line)[0] for line in COMMANDS] == [0, 0, 0, 0]
+    assert [execute(line)[0] for line in COMMANDS] == [0, 0, 0, 0]
     read = {name: parse_package(str(tmp_path / name)) for name in ("my_pkg", "cpp_pkg", "bare_pkg")}
     assert [str(one) for one in read["my_pkg"].build_depends] == ["rclpy"]
     assert read["cpp_pkg"].description == "Says &lt;hello&gt;"  # as markup
@@ -58,9 +60,9 @@ def test_catkin_reads_every_package_xml(tmp_path, monkeypatch):
 
 def test_a_licence_that_the_course_has_is_written(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    say(COMMANDS[0])
+    execute(COMMANDS[0])
     assert "Apache License" in (tmp_path / "my_pkg" / "LICENSE").read_text()
-    say(COMMANDS[3])
+    execute(COMMANDS[3])
     assert not (tmp_path / "my_interfaces" / "LICENSE").exists()
 
 
@@ -92,19 +94,19 @@ def test_a_licence_that_the_course_has_is_written(tmp_path, monkeypatch):
         ("create mine --build-type ament_pyton", 2, "Did you mean ament_python?"),
     ],
 )
-def test_what_cannot_be_made_is_refused_in_these_words(tmp_path, monkeypatch, line, status, complaint):
+def test_a_package_that_can_t_be_created_is_refused(tmp_path, monkeypatch, line, status, complaint):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "there").mkdir()
     (tmp_path / "there" / "file").touch()
-    told = say(line)
-    assert (told[0], told[1].endswith(complaint)) == (status, True), told
+    environment = execute(line)
+    assert (environment[0], environment[1].endswith(complaint)) == (status, True), environment
 
 
-def test_who_says_no_address_has_the_one_that_git_knows(tmp_path, monkeypatch):
+def test_the_default_email_address_is_git_s(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "git").write_text("[user]\nemail = eve@home.org\n")
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(tmp_path / "git"))
     monkeypatch.setenv("GIT_CONFIG_SYSTEM", "/dev/null")
-    assert "<eve@home.org>" in say("create one --maintainer-name Eve")[1]
+    assert "<eve@home.org>" in execute("create one --maintainer-name Eve")[1]
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert "<Eve@todo.todo>" in say("create two --maintainer-name Eve")[1]
+    assert "<Eve@todo.todo>" in execute("create two --maintainer-name Eve")[1]

@@ -1,4 +1,4 @@
-"""%ros2 about a play that is going on, in its time."""
+"""%ros2 with a running player, in simulated time."""
 
 import math
 from pathlib import Path
@@ -31,7 +31,7 @@ OURS = {
 
 @pytest.fixture
 def playing(capsys, tmp_path, monkeypatch):
-    """A play of the nodes, as fast as it goes; what %ros2 prints for a line about it."""
+    """A player of the nodes, as fast as possible; returns the output of a %ros2 command."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "params.yaml").write_text(PARAMETERS)
     made = player(*NODES, seconds=200, speed=math.inf, clock=perf_counter)
@@ -47,7 +47,7 @@ def playing(capsys, tmp_path, monkeypatch):
     made.stop()
 
 
-def test_what_changes_something_is_done_and_said_as_by_the_official_tools(playing):
+def test_commands_that_change_the_system_match_the_official_tools(playing):
     for command in filter(CHANGES.match, OFFICIAL):
         expected = plain(OFFICIAL[command])
         assert plain(playing(command)) == OURS.get(command, expected), command
@@ -56,7 +56,7 @@ def test_what_changes_something_is_done_and_said_as_by_the_official_tools(playin
     assert not playing.player.recording.errors
 
 
-def test_it_leaves_nothing_of_its_own_in_lists(playing):
+def test_its_own_node_is_not_listed(playing):
     playing("param get /talker speed")
     assert playing("node list -a") == OFFICIAL["node list"]
     assert plain(playing("topic list -v")) == plain(OFFICIAL["topic list -v"])
@@ -65,7 +65,7 @@ def test_it_leaves_nothing_of_its_own_in_lists(playing):
     )
 
 
-def test_it_measures_for_five_seconds_of_the_play_and_says_something_every_second(playing):
+def test_it_measures_for_five_simulated_seconds_and_reports_every_second(playing):
     before = playing.player.recording.stamp
     lines = playing("topic hz /place").splitlines()
     assert lines[::2] == ["average rate: 10.000"] * 4
@@ -73,13 +73,13 @@ def test_it_measures_for_five_seconds_of_the_play_and_says_something_every_secon
     assert playing.player.recording.stamp == pytest.approx(before + 5.0)
 
 
-def test_no_more_time_goes_by_than_an_answer_takes(playing):
+def test_no_more_time_passes_than_a_response_takes(playing):
     call = "service call /add example_interfaces/srv/AddTwoInts '{a: 2, b: 3}'"
     assert playing(call).endswith("sum=5)\n\n")
     assert playing.player.recording.stamp < 0.5
 
 
-def test_publishing_without_end_ends_after_five_seconds_of_the_play(playing):
+def test_endless_publishing_ends_after_five_simulated_seconds(playing):
     assert playing("topic pub -r 2 -p 5 /level std_msgs/msg/Float64 '{data: 1.0}'") == (
         "publisher: beginning loop\n"
         "publishing #5: std_msgs.msg.Float64(data=1.0)\n\npublishing #10: std_msgs.msg.Float64(data=1.0)\n\n"
@@ -124,11 +124,11 @@ def test_publishing_without_end_ends_after_five_seconds_of_the_play(playing):
         ("bag record", "Need to specify at least one option out of --all, --topics\n"),
     ],
 )
-def test_what_does_not_work_says_why(playing, command, words):
+def test_a_failure_is_explained(playing, command, words):
     assert playing(command).startswith(words)
 
 
-def test_a_play_that_stands_still_answers_nothing(playing):
+def test_a_paused_player_refuses_commands(playing):
     playing.player.play_frame(0.5)
     playing.player.pause()
     still = "The play is paused, so nothing happens in it: let it go on, and try again.\n"
@@ -137,7 +137,7 @@ def test_a_play_that_stands_still_answers_nothing(playing):
     assert playing("node list") == OFFICIAL["node list"]
 
 
-def test_ctrl_c_ends_what_goes_on_without_end(playing):
+def test_ctrl_c_ends_an_endless_command(playing):
     player, turn, turns = playing.player, playing.player.play_frame, []
 
     def interrupted(*arguments):
@@ -154,7 +154,7 @@ def test_ctrl_c_ends_what_goes_on_without_end(playing):
     assert len(player.recording.messages("/level")) == count
 
 
-def test_a_node_without_services_for_its_parameters_is_given_up(capsys):
+def test_a_node_without_parameter_services_times_out(capsys):
     def mute():
         return Node("mute", start_parameter_services=False)
 
@@ -164,14 +164,14 @@ def test_a_node_without_services_for_its_parameters_is_given_up(capsys):
     made.stop()
 
 
-def test_when_the_play_is_over_it_is_the_last_recording(playing):
+def test_a_player_that_has_ended_is_the_last_recording(playing):
     recording = playing.player.result()
     assert latest.player is None
     assert latest.recording is recording
     assert playing("topic hz /place").startswith("average rate: 10.000\n")
 
 
-def test_a_play_that_ends_meanwhile_is_said(playing):
+def test_a_player_that_ends_during_a_command_is_reported(playing):
     while playing.player.recording.stamp < 198.9:
         playing.player.play_frame(199.0)
     assert playing("service call /ad example_interfaces/srv/AddTwoInts").endswith(
@@ -179,7 +179,7 @@ def test_a_play_that_ends_meanwhile_is_said(playing):
     )
 
 
-def test_a_bag_is_recorded_looked_at_and_played_again(playing):
+def test_a_bag_is_recorded_described_and_played_back(playing):
     said = playing("bag record -o kept --topics /place /greeting /levl")
     assert said == (
         "WARNING: topic [/levl] does not appear to be published yet. Did you mean /level?\n"

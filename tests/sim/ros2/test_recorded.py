@@ -1,4 +1,4 @@
-"""%ros2 about a run that is over, beside what the official tools say of the same nodes in other processes."""
+"""%ros2 with a recording, compared with the official tools' output for the same nodes."""
 
 import re
 
@@ -44,7 +44,7 @@ def recording():
 
 @pytest.fixture
 def said(recording, capsys):
-    """What %ros2 prints for a line, about the recording."""
+    """The output of a %ros2 command on the recording."""
     latest.recording = recording
     assert latest.player is None
 
@@ -63,7 +63,7 @@ def test_a_recording_is_described_as_the_official_tools_describe_a_system(said, 
 
 
 @pytest.mark.parametrize("command", MEASURED)
-def test_what_takes_the_official_tools_a_while_is_measured_at_once(said, command):
+def test_statistics_of_a_recording_are_printed_at_once(said, command):
     assert said(command) == MEASURED[command]
     form = re.compile(r"-?[0-9.]+")
     lines = [form.sub("N", line) for line in OFFICIAL[command].splitlines()]
@@ -82,7 +82,7 @@ def test_what_takes_the_official_tools_a_while_is_measured_at_once(said, command
         "lifecycle set /lamp configure",
     ],
 )
-def test_what_needs_running_nodes_says_that_none_run_any_more(said, command):
+def test_commands_that_need_running_nodes_are_refused(said, command):
     assert said(command) == OVER
 
 
@@ -125,7 +125,7 @@ def test_what_needs_running_nodes_says_that_none_run_any_more(said, command):
         ("node list -a -c", "5\n"),
     ],
 )
-def test_the_words_for_what_is_not_there_and_for_options(said, command, words):
+def test_missing_names_and_options(said, command, words):
     assert said(command) == words
 
 
@@ -144,24 +144,24 @@ def test_the_words_for_what_is_not_there_and_for_options(said, command, words):
         ("topic pub -r 0 /a std_msgs/msg/Empty", "argument -r/--rate: Value must be positive\n"),
     ],
 )
-def test_words_that_make_no_sense_name_what_was_probably_meant(said, command, end):
+def test_invalid_arguments_get_a_suggestion(said, command, end):
     text = said(command)
     assert text.startswith("usage: ros2")
     assert text.endswith(end)
 
 
-def test_no_words_and_a_cry_for_help_give_the_words_that_there_are(said):
+def test_help_lists_the_commands(said):
     assert said("").startswith("usage: ros2 [-h] COMMAND ...\n")
     assert "Print the average publishing rate to screen." in said("topic --help")
 
 
-def test_asking_for_other_settings_changes_none_of_the_presets(said):
+def test_qos_options_do_not_change_the_presets(said):
     said("topic echo --once --qos-reliability reliable --qos-depth 3 /place")
     assert qos_profile_sensor_data.reliability is ReliabilityPolicy.BEST_EFFORT
     assert qos_profile_sensor_data.depth == 5
 
 
-def test_a_cell_shows_no_more_messages_than_one_reads(said):
+def test_a_cell_prints_a_limited_number_of_messages(said):
     text = said("topic echo --field point.x /place")
     more = "... the first 10 messages; in Python, recording.messages('/place') has all\n"
     assert text == "1.5\n---\n" * 10 + more
@@ -180,7 +180,7 @@ def test_two_nodes_of_one_name_are_warned_of(said):
     )
 
 
-def test_doctor_names_lonely_topics_and_settings_that_do_not_fit(said):
+def test_doctor_reports_unmatched_topics_and_incompatible_qos(said):
     assert said("doctor") == (
         "UserWarning: Publisher without subscriber detected on /greeting.\n"
         "UserWarning: Publisher without subscriber detected on /lamp/transition_event.\n"
@@ -194,7 +194,7 @@ def test_doctor_names_lonely_topics_and_settings_that_do_not_fit(said):
     assert "compatibility status    : No publisher/subscriber pairs found\n" in report
 
 
-def test_without_a_run_there_is_nothing_to_ask_about(said):
+def test_without_a_run_commands_are_refused(said):
     latest.recording = None
     assert said("node list") == (
         "Nothing has run yet: start nodes with run(...) or play(...), and then ask about them.\n"

@@ -1,4 +1,4 @@
-"""ros2 in a terminal: about nodes in another process, in real time."""
+"""ros2 in a terminal: nodes in another process, in real time."""
 
 import json
 import os
@@ -54,7 +54,7 @@ def system():
 
 @pytest.fixture(scope="module")
 def terminal(system, tmp_path_factory):
-    """What ros2 in another process says to some words, and its status."""
+    """Executes commands in another process; returns their output and status."""
     file = tmp_path_factory.mktemp("parameters") / "params.yaml"
     file.write_text(PARAMETERS)
     process = start([sys.executable, "-m", "tests.sim.ros2.client"], system)
@@ -64,7 +64,7 @@ def terminal(system, tmp_path_factory):
         process.stdin.write(json.dumps(words) + "\n")
         process.stdin.flush()
         answer = json.loads(process.stdout.readline())
-        return "".join(f"{text}\n" for text in answer["said"] + answer["complained"]), answer["status"]
+        return "".join(f"{text}\n" for text in answer["output"] + answer["errors"]), answer["status"]
 
     yield say
     process.communicate(timeout=300)
@@ -84,7 +84,7 @@ def test_nodes_in_another_process_are_described_as_by_the_official_tools(termina
 
 
 @pytest.mark.parametrize("command", MEASURED)
-def test_what_comes_is_measured_until_ctrl_c(system, command):
+def test_statistics_are_printed_until_ctrl_c(system, command):
     process = start([*ROS2, *command.split()], system)
     lines = [line for line in (process.stdout.readline() for _ in range(5)) if not NOT_YET.match(line)][:4]
     process.send_signal(signal.SIGINT)
@@ -95,7 +95,7 @@ def test_what_comes_is_measured_until_ctrl_c(system, command):
     assert {form.sub("N", line) for line in lines} <= known
 
 
-def test_ctrl_c_is_not_lost_where_an_object_goes():
+def test_ctrl_c_in_a_destructor_is_not_lost():
     program = """
 import signal, time
 from sim.ros2 import terminal
@@ -115,8 +115,8 @@ raise SystemExit(terminal.main())
     assert ended([sys.executable, "-c", program, "topic", "list"], free_domain()) == (2, "", "")
 
 
-def test_the_command_itself_says_what_is_wrong_on_stderr(system):
-    for _ in range(20):  # a busy machine may have found nobody yet
+def test_errors_are_printed_on_stderr(system):
+    for _ in range(20):  # on a busy machine, discovery may take longer
         said = ended([*ROS2, "param", "get", "/talkr", "speed"], system)
         if said[2] != "Node not found\n":
             break
@@ -126,7 +126,7 @@ def test_the_command_itself_says_what_is_wrong_on_stderr(system):
     assert err.endswith("Did you mean topic?\n")
 
 
-def test_doctor_looks_at_the_same_as_in_a_recording(terminal):
+def test_doctor_checks_the_same_as_in_a_recording(terminal):
     assert terminal("doctor") == (
         "UserWarning: Publisher without subscriber detected on /greeting.\n"
         "UserWarning: Publisher without subscriber detected on /lamp/transition_event.\n"
@@ -137,7 +137,7 @@ def test_doctor_looks_at_the_same_as_in_a_recording(terminal):
     )
 
 
-def test_a_bag_is_recorded_until_ctrl_c_and_played_again(terminal, system, tmp_path):
+def test_a_bag_is_recorded_until_ctrl_c_and_played_back(terminal, system, tmp_path):
     folder = tmp_path / "kept"
     process = start([*ROS2, "bag", "record", "-o", str(folder), "/place"], system)
     while "Subscribed" not in process.stdout.readline():
@@ -163,7 +163,7 @@ def test_a_topic_of_the_robot_is_measured_beside_it():
     assert re.fullmatch(r"average rate: \d+\.\d{3}\n", first)
 
 
-def test_a_domain_where_nobody_is_names_the_one_where_somebody_is(system):
+def test_a_domain_without_nodes_gets_a_hint_at_others(system):
     elsewhere = next(domain for domain in range(60, 101) if domain != system)
     status, out, err = ended([*ROS2, "node", "list"], elsewhere)
     assert (status, out) == (0, "")
@@ -171,12 +171,12 @@ def test_a_domain_where_nobody_is_names_the_one_where_somebody_is(system):
     assert str(system) in err
 
 
-def test_a_domain_that_can_not_be_is_said():
+def test_an_invalid_domain_is_reported():
     told = "ROS_DOMAIN_ID is 'lab', and a domain is a whole number from 0 to 232: export ROS_DOMAIN_ID=42\n"
     assert ended([*ROS2, "node", "list"], "lab") == (1, "", told)
 
 
-# What bash does when somebody presses Tab after a line, and prints what it would offer.
+# What bash does when Tab is pressed after a line; prints the completions.
 TAB = """
 eval "$(register-python-argcomplete ros2)"
 while read -r COMP_LINE; do
@@ -200,7 +200,7 @@ TYPED = {
 
 
 def test_bash_completes_verbs_names_and_types(system):
-    """Somebody who gets nothing, for the machine is busy, presses Tab again."""
+    """On a busy machine a completion may be empty, and is requested again."""
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
     shell = start(["bash", "-c", TAB], system, PATH=path)
 
@@ -216,8 +216,8 @@ def test_bash_completes_verbs_names_and_types(system):
     assert shell.communicate(timeout=300)[1] == ""
 
 
-def test_a_domain_that_can_not_be_completes_nothing():
-    """Bash would show what is said in the middle of the line."""
+def test_an_invalid_domain_completes_nothing():
+    """Bash would show an error in the middle of the line."""
     told = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": " ", "_ARGCOMPLETE_STDOUT_FILENAME": "/dev/stderr"}
     told |= {"_ARGCOMPLETE_SHELL": "bash", "COMP_TYPE": "9", "COMP_POINT": "16"}
     told |= {"COMP_LINE": "ros2 node info /"}
@@ -225,7 +225,7 @@ def test_a_domain_that_can_not_be_completes_nothing():
     assert ended([sys.executable, "-c", program], "lab", **told) == (0, "", "")
 
 
-def test_where_the_official_command_is_installed_that_one_is_run(tmp_path):
+def test_the_official_command_is_executed_if_installed(tmp_path):
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
     texts = {ours: "from sim.ros2.terminal import main", theirs: 'echo official "$@"; exit 3'}
     for folder, text in texts.items():
@@ -238,7 +238,7 @@ def test_where_the_official_command_is_installed_that_one_is_run(tmp_path):
     assert ended([*ROS2, "topic", "list"], 0, PATH=path) == (3, "official topic list\n", "")
 
 
-def test_ctrl_c_while_an_object_is_made_says_nothing(system):
+def test_ctrl_c_in_a_constructor_prints_nothing(system):
     program = """
 import signal, sys
 from sim.ros2 import parser, terminal

@@ -1,20 +1,20 @@
-"""The other process, warm for all tests of a module that leave it well."""
+"""The follower process, shared by the tests of a module."""
 
 import pytest
 
-from tests.sim.ros.remote.apart import Apart
+from tests.sim.ros.remote.follower_process import FollowerProcess
 
 
 @pytest.fixture(scope="module")
-def apart():
-    process = Apart()
+def follower():
+    process = FollowerProcess()
     yield process
     process.close()
 
 
 @pytest.fixture
 def lost():
-    """One that may be lost."""
-    process = Apart()
+    """A follower process of its own, for tests that end it."""
+    process = FollowerProcess()
     yield process
     process.close()

@@ -1,6 +1,6 @@
-"""A process of its own that serves students' nodes; for the tests of runs in two processes.
+"""A process that serves students' nodes, for tests of runs in two processes.
 
-python -m tests.sim.ros.remote.apart FD    serves the nodes that it is told of over this socket
+python -m tests.sim.ros.remote.follower_process FD    serves nodes that are named over this socket
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from tests.students.teams import programs_of
 ROOT = Path(__file__).parents[4]
 
 
-class Apart:
-    """The process, and our end of the wire to it."""
+class FollowerProcess:
+    """The process, and the leader's end of the wire."""
 
     def __init__(self) -> None:
         self._begin()
 
     def _begin(self) -> None:
-        ours, theirs = socket.socketpair()
-        command = [sys.executable, "-m", "tests.sim.ros.remote.apart", str(theirs.fileno())]
+        near, far = socket.socketpair()
+        command = [sys.executable, "-m", "tests.sim.ros.remote.follower_process", str(far.fileno())]
         environment = {name: value for name, value in os.environ.items() if name != "COURSE_SECRET"}
-        self._folder = tempfile.TemporaryDirectory(prefix="apart-")  # what it leaves when it is killed
+        self._folder = tempfile.TemporaryDirectory(prefix="follower-")  # remains when the process is killed
         environment["TMPDIR"] = self._folder.name
-        self.process = subprocess.Popen(command, cwd=ROOT, env=environment, pass_fds=[theirs.fileno()])
-        theirs.close()
-        self.wire = Wire(ours)
+        self.process = subprocess.Popen(command, cwd=ROOT, env=environment, pass_fds=[far.fileno()])
+        far.close()
+        self.wire = Wire(near)
 
     @contextlib.contextmanager
     def serving(
         self, module: str, *names: str, patience: float = 120.0, secret: str = ""
     ) -> Iterator[Remote]:
-        """What stands here for nodes of a module; after an error there is a new process."""
+        """A program that represents nodes of a module; after an error, the process is replaced."""
         self.wire.send(module=module, names=names)
         remote = Remote(self.wire, patience, secret=secret)
         try:
@@ -53,7 +53,7 @@ class Apart:
             raise
 
     def close(self) -> None:
-        """Let it go."""
+        """End the process."""
         self.wire.close()
         self.process.kill()
         self.process.wait()
@@ -61,7 +61,7 @@ class Apart:
 
 
 def main() -> None:
-    """Serve, until the other side hangs up."""
+    """Serve until the connection is closed."""
     wire = Wire(socket.socket(fileno=int(sys.argv[1])))
     try:
         while True:

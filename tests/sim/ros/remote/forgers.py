@@ -1,4 +1,4 @@
-"""Students' nodes that try to change what they can't: they live in the other process."""
+"""Students' nodes in the other process that try to tamper with the evidence."""
 
 import contextlib
 import gc
@@ -16,7 +16,7 @@ from sim.world import MobileRobot, Simulation
 
 
 class Honest(Node):
-    """Says "hello" ten times a second, and never moves the robot."""
+    """Publishes "hello" at 10 Hz, and never moves the robot."""
 
     def __init__(self):
         super().__init__("honest")
@@ -36,7 +36,7 @@ class Honest(Node):
 
 
 class Teleporter(Honest):
-    """Looks for the robot in memory."""
+    """Searches memory for the robot."""
 
     def try_it(self):
         for thing in gc.get_objects():
@@ -45,7 +45,7 @@ class Teleporter(Honest):
 
 
 class Forger(Honest):
-    """Changes all recordings that it finds."""
+    """Changes all recordings in memory."""
 
     def try_it(self):
         for thing in gc.get_objects():
@@ -56,21 +56,21 @@ class Forger(Honest):
 
 
 class Hurried(Honest):
-    """Turns its own clock on by a minute."""
+    """Advances its own clock by a minute."""
 
     def try_it(self):
         active().now += 60_000_000_000
 
 
 class Lazy(Honest):
-    """Lets its clock stand."""
+    """Stops its own clock."""
 
     def try_it(self):
         type(active()).now = property(lambda self: 0, lambda self, now: None)
 
 
 class Spy(Honest):
-    """Tells the seed that it finds, and what it draws."""
+    """Logs the seeds that it finds, and a random number."""
 
     def try_it(self):
         import random
@@ -80,14 +80,14 @@ class Spy(Honest):
 
 
 class Garbage(Honest):
-    """Publishes bytes that are no message."""
+    """Publishes invalid bytes."""
 
     def try_it(self):
         self.publisher.publish(b"\0\1\0\0\xff\xff\xff\xff")
 
 
 class Heavy(Honest):
-    """Publishes more than the wire takes at once."""
+    """Publishes a message that is too long for the wire."""
 
     def try_it(self):
         self.publisher.publish(String(data="x" * 80_000_000))

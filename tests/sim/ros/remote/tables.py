@@ -16,13 +16,13 @@ from grader.workspace import building
 from sim.ros.remote import RemoteLost
 from tests.exercises.builds import kept_builds
 from tests.exercises.score_tables import page, shown, students
-from tests.sim.ros.remote.apart import Apart
+from tests.sim.ros.remote.follower_process import FollowerProcess
 
 ASSIGNMENTS = (
     *("nodes", "topics", "services", "actions", "sensing"),
     *("navigator", "silence", "joints", "frames", "control", "packages", "safety", "delivery"),
 )
-# They draw numbers for themselves, and the other process must not know the run's seed: other numbers come.
+# They use random numbers, which differ because the other process must not know the run's seed.
 DRAWING = ("OnceOnly", "TooWarm", "Fahrenheit", "DrawnOnceInInit", "ToAndFro")
 
 
@@ -49,16 +49,16 @@ def right(assignment: str, exercise: str) -> list[str]:
 
 
 def wrong(assignment: str, exercise: str) -> list[str]:
-    """The nodes that miss something, as far as their words depend on no chance."""
+    """The nodes that miss something and whose page does not depend on random numbers."""
     good = right(assignment, exercise)
     names = [name for name in page(assignment, exercise) if name not in good]
     return [name for name in names if name not in DRAWING]
 
 
-def earned(apart: Apart, assignment: str, exercise: str, name: str, secret: str = "") -> str:
-    """What a node gets that lives in the other process, as a table's page says it."""
+def earned(follower: FollowerProcess, assignment: str, exercise: str, name: str, secret: str = "") -> str:
+    """The score of a node in the other process, in the form of a page."""
     module = f"tests.students.{assignment}.{exercise}"
-    with kept_builds(), apart.serving(module, name, secret=secret) as remote:
+    with kept_builds(), follower.serving(module, name, secret=secret) as remote:
         score = judge(assignment, exercise).judge(RemotePrograms(remote, building.build), secret)
     return shown(name, score)
 
@@ -68,21 +68,21 @@ def main() -> None:
     for assignment, exercise in exercises():
         if assignment not in (sys.argv[1:] or ASSIGNMENTS):
             continue
-        begin, differing, apart = time.monotonic(), 0, Apart()
+        begin, differing, follower = time.monotonic(), 0, FollowerProcess()
         names = list(students(assignment, exercise))
         for name in names:
             wanted = page(assignment, exercise)[name]
             try:
-                found = earned(apart, assignment, exercise, name)
+                found = earned(follower, assignment, exercise, name)
             except RemoteLost as lost:
                 found = f"{name}: {lost.reason}"
             if found != wanted:
                 differing += 1
                 lines = difflib.unified_diff(
-                    wanted.splitlines(), found.splitlines(), name, "apart", "", "", 0, ""
+                    wanted.splitlines(), found.splitlines(), name, "remote", "", "", 0, ""
                 )
                 print("\n".join(lines))
-        apart.close()
+        follower.close()
         spent = time.monotonic() - begin
         print(f"{assignment} {exercise}: {len(names)} nodes, {differing} differ, {spent:.1f} s", flush=True)
 

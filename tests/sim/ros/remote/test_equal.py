@@ -1,4 +1,4 @@
-"""A run in two processes leaves the recording that the same run leaves in one."""
+"""A run in two processes leaves the same recording as in one process."""
 
 import importlib
 from dataclasses import asdict
@@ -45,7 +45,7 @@ ALONE = {
     "output": ("logs_at_every_level", "logs_debug_lines", "odd_texts"),
     "hangs": ("PingPong", "ZeroTimer", "EventNobodySets", "JoinsItself", "GuardCondition"),
 }  # fmt: skip
-# Ours in this process, the student's in the other one.
+# The course's program in this process, the student's in the other one.
 TOGETHER = [
     (("services", "Adder"), ("services", "Customer")),
     (("services", "Customer"), ("services", "Adder")),
@@ -78,7 +78,7 @@ TOGETHER = [
     (("goals", "Later"), ("actions", "Client")),
     (("actions", "Server"), ("goals", "AsksForNoResult")),
 ]
-# What is said before the two have found each other.
+# Messages that are sent before the two have discovered each other.
 TOO_EARLY = [
     (("topics", "Hears"), ("topics", "SaysItAtOnce")),
     (("topics", "SaysItAtOnce"), ("topics", "Hears")),
@@ -103,7 +103,7 @@ def found(module: str, name: str):
 
 
 def evidence(recording: Recording) -> dict:
-    """All of it, but for the ids of goals: they are drawn."""
+    """The whole recording, except the goals' random ids."""
     plain = asdict(recording) | {"seed": 0}
     for goal in plain["goals"]:
         goal["id"] = ""
@@ -111,38 +111,38 @@ def evidence(recording: Recording) -> dict:
 
 
 @pytest.mark.parametrize(("module", "name"), [(m, name) for m, names in ALONE.items() for name in names])
-def test_a_program_that_lives_elsewhere_is_recorded_as_here(apart, module, name):
-    with apart.serving(f"{ENGINE}.{module}", name) as remote:
+def test_a_program_in_the_other_process_leaves_an_equal_recording(follower, module, name):
+    with follower.serving(f"{ENGINE}.{module}", name) as remote:
         there = run(remote, seconds=6, quiet=True)
     assert evidence(there) == evidence(run(found(module, name), seconds=6, quiet=True))
 
 
 @pytest.mark.parametrize(("ours", "theirs"), [*TOGETHER, *TOO_EARLY])
-def test_what_both_sides_say_to_each_other_is_recorded_as_in_one(apart, ours, theirs):
-    with apart.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
+def test_two_programs_that_communicate_leave_an_equal_recording(follower, ours, theirs):
+    with follower.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
         there = run(found(*ours), remote, seconds=8, quiet=True)
     assert evidence(there) == evidence(run(found(*ours), found(*theirs), seconds=8, quiet=True))
 
 
 @pytest.mark.parametrize(("ours", "theirs"), LOOKING)
-def test_topics_of_all_kinds_are_as_in_one(apart, ours, theirs):
-    with apart.serving(OBSERVERS, theirs) as remote:
+def test_topics_with_all_kinds_of_qos_are_equal(follower, ours, theirs):
+    with follower.serving(OBSERVERS, theirs) as remote:
         there = run(getattr(observers, ours), remote, seconds=5.5, quiet=True)
     here = run(getattr(observers, ours), getattr(observers, theirs), seconds=5.5, quiet=True)
     assert evidence(there) == evidence(here)
     assert there.logs or there.messages("/answer")
 
 
-def test_a_node_elsewhere_sees_the_graph_as_it_is(apart):
+def test_a_node_in_the_other_process_sees_the_same_graph(follower):
     ours = found("services", "Adder"), found("actions", "Server"), observers.PickyListener
-    with apart.serving(OBSERVERS, "Observer") as remote:
+    with follower.serving(OBSERVERS, "Observer") as remote:
         there = run(*ours, remote, world="room", seconds=2, quiet=True)
     here = run(*ours, observers.Observer, world="room", seconds=2, quiet=True)
     assert [line.text for line in there.logs] == [line.text for line in here.logs]
 
 
-def test_a_node_elsewhere_is_seen_as_it_is(apart):
-    with apart.serving(f"{ENGINE}.actions", "Server") as remote:
+def test_a_node_in_the_other_process_looks_the_same_in_the_graph(follower):
+    with follower.serving(f"{ENGINE}.actions", "Server") as remote:
         there = run(observers.Observer, remote, seconds=2, quiet=True)
     here = run(observers.Observer, found("actions", "Server"), seconds=2, quiet=True)
     assert [line.text for line in there.logs] == [line.text for line in here.logs]
@@ -158,7 +158,7 @@ def test_a_node_elsewhere_is_seen_as_it_is(apart):
         lambda node: node.create_client(SetParameters, "adder/set_parameters").service_is_ready(),
     ],
 )
-def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look):
+def test_proxies_of_services_are_created_when_a_node_looks_them_up(follower, look):
     made = []
 
     class Looker(Node):
@@ -171,7 +171,7 @@ def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look
                 made.append(len(link.proxies.services))
             self.get_logger().info(f"{look(self)}")
 
-    with apart.serving(f"{ENGINE}.services", "Adder") as remote:
+    with follower.serving(f"{ENGINE}.services", "Adder") as remote:
         there = run(Looker, remote, seconds=0.7, quiet=True)
     here = run(Looker, found("services", "Adder"), seconds=0.7, quiet=True)
     assert made == [0]
@@ -179,38 +179,38 @@ def test_services_elsewhere_are_made_when_a_node_here_looks_for_them(apart, look
 
 
 @pytest.mark.parametrize("name", ["OtherService", "OtherClient", "LateOtherService", "NoName"])
-def test_a_service_that_has_another_type_elsewhere_is_refused_as_in_one(apart, name):
-    with apart.serving(OBSERVERS, name) as remote:
+def test_a_service_with_another_type_in_the_other_process_is_refused(follower, name):
+    with follower.serving(OBSERVERS, name) as remote:
         there = run(found("services", "Adder"), remote, seconds=2, quiet=True)
     here = run(found("services", "Adder"), getattr(observers, name), seconds=2, quiet=True)
     assert evidence(there) == evidence(here)
     assert there.ended.reason == "error"
 
 
-def test_several_nodes_of_a_student_live_in_one_process(apart):
-    with apart.serving(f"{ENGINE}.callers", "First", "Second") as remote:
+def test_several_nodes_of_a_student_run_in_one_process(follower):
+    with follower.serving(f"{ENGINE}.callers", "First", "Second") as remote:
         there = run(found("services", "SlowAdder"), remote, seconds=8, quiet=True)
     names = [found("callers", name) for name in ("First", "Second")]
     assert evidence(there) == evidence(run(found("services", "SlowAdder"), *names, seconds=8, quiet=True))
 
 
-def test_a_service_that_both_sides_offer_is_asked_on_both(apart):
-    with apart.serving(f"{ENGINE}.callers", "First", "OtherAdder") as remote:
+def test_a_service_that_both_processes_offer_is_called_in_both(follower):
+    with follower.serving(f"{ENGINE}.callers", "First", "OtherAdder") as remote:
         there = run(found("services", "SlowAdder"), remote, seconds=8, quiet=True)
     assert there.ended.reason == "time"
     assert {call.server for call in there.calls_of("/add")} == {"/adder"}
 
 
-def test_an_action_that_both_sides_offer_is_asked_on_both(apart):
-    with apart.serving(f"{ENGINE}.actions", "Client", "Server") as remote:
+def test_an_action_that_both_processes_offer_gets_goals_in_both(follower):
+    with follower.serving(f"{ENGINE}.actions", "Client", "Server") as remote:
         there = run(found("actions", "Server"), remote, seconds=8, quiet=True)
     assert there.ended.reason == "time"
     assert "succeeded" in {goal.status for goal in there.goals}
 
 
-def test_a_drive_is_the_same_to_the_last_bit(apart):
+def test_a_drive_is_the_same_to_the_last_bit(follower):
     from tests.bench.avoider import main
 
-    with apart.serving("tests.bench.avoider", "main") as remote:
+    with follower.serving("tests.bench.avoider", "main") as remote:
         there = [run(remote, world="room", seconds=10, quiet=True) for _ in range(2)]
     assert [drive.digest for drive in there] == [run(main, world="room", seconds=10, quiet=True).digest] * 2

@@ -1,4 +1,4 @@
-"""Nodes in the other process can't reach what is believed; and a process that is lost is named."""
+"""Nodes in the other process can't change the leader's evidence; a lost process is reported."""
 
 import pytest
 
@@ -8,8 +8,8 @@ from sim.ros.remote import RemoteLost
 FORGERS = "tests.sim.ros.remote.forgers"
 
 
-def drive(apart, name: str, **settings):
-    with apart.serving(FORGERS, name) as remote:
+def drive(follower, name: str, **settings):
+    with follower.serving(FORGERS, name) as remote:
         return run(remote, world="room", seconds=2, quiet=True, **settings)
 
 
@@ -18,8 +18,8 @@ def hellos(recording) -> list[tuple[float, str]]:
 
 
 @pytest.mark.parametrize("name", ["Honest", "Teleporter", "Forger"])
-def test_what_was_sent_and_where_the_robot_is_stays_as_it_was(apart, name):
-    recording = drive(apart, name)
+def test_messages_and_poses_cannot_be_forged(follower, name):
+    recording = drive(follower, name)
     assert hellos(recording) == [(round(0.1 * tick, 1), "hello") for tick in range(1, 21)]
     assert {pose[1:] for pose in recording.path} == {recording.path[0][1:]}
     assert recording.logs == []
@@ -35,19 +35,19 @@ def test_a_clock_that_was_tampered_with_is_noticed(lost, name):
     )
 
 
-def test_the_seed_of_the_run_and_the_secret_stay_here(apart, monkeypatch):
+def test_the_seed_and_the_secret_are_not_revealed(follower, monkeypatch):
     monkeypatch.setenv("COURSE_SECRET", "a secret of this test")
-    told = [drive(apart, "Spy", seed=seed).logs[0].text for seed in (7, 7, 8)]
-    assert told[0] == told[1] != told[2]
-    seed, _, secret = told[0].split(" ")
+    texts = [drive(follower, "Spy", seed=seed).logs[0].text for seed in (7, 7, 8)]
+    assert texts[0] == texts[1] != texts[2]
+    seed, _, secret = texts[0].split(" ")
     assert "7" not in seed.split(",")
     assert secret == "None"
 
 
-def test_the_secret_changes_what_the_nodes_draw(apart):
+def test_the_secret_changes_the_nodes_random_numbers(follower):
     drawn = []
     for secret in ("", "a secret", "a secret"):
-        with apart.serving(FORGERS, "Spy", secret=secret) as remote:
+        with follower.serving(FORGERS, "Spy", secret=secret) as remote:
             drawn.append(run(remote, seconds=1, quiet=True).logs[0].text.split(" ")[1])
     assert drawn[0] != drawn[1] == drawn[2]
 
@@ -76,19 +76,19 @@ def test_the_secret_changes_what_the_nodes_draw(apart):
         ),
     ],
 )
-def test_a_process_that_is_lost_midway_is_named(lost, name, patience, reason):
+def test_losing_the_process_during_a_run_is_reported(lost, name, patience, reason):
     with pytest.raises(RemoteLost) as found, lost.serving(FORGERS, name, patience=patience) as remote:
         run(remote, world="room", seconds=2, quiet=True)
     assert found.value.reason == reason
 
 
-def test_a_program_that_exits_takes_no_process_with_it(apart):
-    recording = drive(apart, "Exits")
+def test_a_program_that_exits_does_not_end_its_process(follower):
+    recording = drive(follower, "Exits")
     assert (recording.ended.reason, recording.errors[0].type) == ("error", "SystemExit")
     assert len(hellos(recording)) == 5
 
 
-def test_after_a_lost_process_the_next_run_is_well(lost):
+def test_a_lost_process_does_not_affect_the_next_run(lost):
     with pytest.raises(RemoteLost), lost.serving(FORGERS, "Killed") as remote:
         run(remote, world="room", seconds=2, quiet=True)
     assert len(hellos(drive(lost, "Honest"))) == 20

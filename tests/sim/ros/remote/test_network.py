@@ -1,4 +1,4 @@
-"""A network between the two sides of a run is as between two hosts in one process: equal recordings."""
+"""A simulated network between the two processes gives the same recording as in one process."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from tests.sim.ros.remote.test_equal import ENGINE, OBSERVERS, evidence, found
 
 RADIO = Network(loss=0.2, delay=0.05, jitter=0.02)
 SLOW = Network(delay=0.1)
-# Ours on the robot, in this process; the student's on the laptop, in the other one.
+# The course's program on the robot, in this process; the student's on the laptop, in the other one.
 PAIRS = [
     ("services", "Adder", "services", "Customer"),
     ("services", "Customer", "services", "Adder"),
@@ -36,9 +36,9 @@ EVENTS = [
 ]
 
 
-def same(apart, network, ours, module, name, theirs):
+def same(follower, network, ours, module, name, theirs):
     settings = {"seconds": 8, "quiet": True, "network": network}
-    with apart.serving(module, name) as remote:
+    with follower.serving(module, name) as remote:
         there = run(Process(ours, host="robot"), remote, **settings)
     here = run(Process(ours, host="robot"), theirs, **settings)
     assert ordered(there) == ordered(here)
@@ -46,28 +46,28 @@ def same(apart, network, ours, module, name, theirs):
 
 
 def ordered(recording):
-    """Its evidence. What ends at one moment for both sides, such as a lease, is told in any order."""
+    """The recording. What ends at the same time in both processes, such as a lease, has no order."""
     found = evidence(recording)
     return found | {kind: sorted(found[kind]) for kind in ("logs", "callbacks")}
 
 
 @pytest.mark.parametrize("network", [SLOW, RADIO], ids=["slow", "radio"])
 @pytest.mark.parametrize("pair", PAIRS, ids="-".join)
-def test_services_and_actions(apart, network, pair):
+def test_services_and_actions(follower, network, pair):
     module, name, *other = pair
-    same(apart, network, found(module, name), f"{ENGINE}.{other[0]}", other[1], found(*other))
+    same(follower, network, found(module, name), f"{ENGINE}.{other[0]}", other[1], found(*other))
 
 
 @pytest.mark.parametrize("network", [SLOW, RADIO], ids=["slow", "radio"])
 @pytest.mark.parametrize("pair", LOOKING, ids="-".join)
-def test_topics(apart, network, pair):
+def test_topics(follower, network, pair):
     ours, theirs = pair
-    same(apart, network, getattr(observers, ours), OBSERVERS, theirs, getattr(observers, theirs))
+    same(follower, network, getattr(observers, ours), OBSERVERS, theirs, getattr(observers, theirs))
 
 
 @pytest.mark.parametrize("network", [None, SLOW, RADIO], ids=["none", "slow", "radio"])
 @pytest.mark.parametrize("pair", EVENTS, ids="-".join)
-def test_deadlines_signs_of_life_and_losses(apart, network, pair):
+def test_deadlines_liveliness_and_losses(follower, network, pair):
     ours, theirs = (found("qos_events", name) for name in pair)
-    recording = same(apart, network, ours, f"{ENGINE}.qos_events", pair[1], theirs)
+    recording = same(follower, network, ours, f"{ENGINE}.qos_events", pair[1], theirs)
     assert network is not RADIO or recording.logs

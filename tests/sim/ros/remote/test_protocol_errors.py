@@ -43,7 +43,7 @@ ID = "00" * 16
 
 @contextlib.contextmanager
 def answering(*answers, after=QUIET, over=ENDED, deadline=None):
-    """What a wire leads to whose other side says this and no more, turn by turn; then all is quiet."""
+    """A Remote whose process gives these answers, one each turn, and then `after`."""
     near, far = socket.socketpair()
     wire, left = Wire(far), list(answers)
 
@@ -67,8 +67,8 @@ def answering(*answers, after=QUIET, over=ENDED, deadline=None):
         wire.close()
 
 
-def loses(*answers, over=ENDED) -> str:
-    """Why the process was given up that answered so."""
+def reason_for(*answers, over=ENDED) -> str:
+    """The reason for which a process with these answers is given up."""
     with answering(*answers, over=over) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
     return lost.value.reason
@@ -86,7 +86,7 @@ def sent(reason: str) -> str:
     return f"The process with the nodes sent {reason}."
 
 
-def test_who_says_nothing_new_is_fine():
+def test_a_process_without_events_completes_the_run():
     with answering() as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert (recording.ended.reason, recording.ended.stamp) == ("time", 1.0)
@@ -214,8 +214,8 @@ def test_who_says_nothing_new_is_fine():
         ([["goal answered", 9]], "a report on a goal that does not exist"),
     ],
 )  # fmt: skip
-def test_an_event_that_can_t_be_ends_the_run(events, words):
-    assert loses(answer_with(*events)) == sent(words)
+def test_an_invalid_event_ends_the_run(events, words):
+    assert reason_for(answer_with(*events)) == sent(words)
 
 
 @pytest.mark.parametrize(
@@ -246,7 +246,7 @@ def test_an_event_that_can_t_be_ends_the_run(events, words):
     ],
 )  # fmt: skip
 def test_an_invalid_self_report_ends_the_run(reports, words):
-    assert loses(self_reports(**reports)) == sent(words)
+    assert reason_for(self_reports(**reports)) == sent(words)
 
 
 @pytest.mark.parametrize(
@@ -262,61 +262,61 @@ def test_an_invalid_self_report_ends_the_run(reports, words):
         (QUIET | {"fault": ["hang", 5]}, "a reason that is not a text"),
     ],
 )
-def test_an_answer_that_can_t_be_ends_the_run(answer, words):
-    assert loses(answer) == sent(words)
+def test_an_invalid_answer_ends_the_run(answer, words):
+    assert reason_for(answer) == sent(words)
 
 
-def test_a_run_that_is_left_over_there_is_named_as_that():
-    assert loses(QUIET | {"next": END // 2}, {"done": True, "threads": False}) == (
+def test_a_run_that_ends_early_in_the_other_process_is_reported():
+    assert reason_for(QUIET | {"next": END // 2}, {"done": True, "threads": False}) == (
         "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
         "or wrote to its connections."
     )
 
 
-def test_a_moment_that_has_passed_can_t_come_again():
-    assert loses(QUIET | {"next": END // 2}, QUIET | {"next": END // 4}) == sent(
+def test_the_next_time_step_must_be_later():
+    assert reason_for(QUIET | {"next": END // 2}, QUIET | {"next": END // 4}) == sent(
         "a next moment that is not an integer from 500000001 to 1000000000"
     )
 
 
-def test_who_is_never_done_with_a_moment_is_given_up():
+def test_a_process_that_stays_busy_reaches_the_time_limit():
     with answering(after=QUIET | {"busy": True}) as remote, pytest.raises(RemoteLost) as lost:
         remote.total = 0.1
         run(remote, seconds=1, quiet=True)
     assert lost.value.reason == "The process with the nodes took more than 0.1 s for one run."
 
 
-def test_who_floods_gets_a_livelock():
+def test_a_flood_of_messages_is_a_livelock():
     hello = ["message", "/talker", "/chat", encode(String(data="hello")), False]
     with answering(answer_with(TALKS, *[hello] * 20_001)) as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert recording.ended.detail == ("/talker sent 20000 messages at t = 0 s without letting time move on.")
 
 
-def test_long_texts_are_cut_and_odd_ones_made_writable():
+def test_long_texts_are_cut_and_surrogates_replaced():
     with answering(self_reports(logs=[["INFO", "a" * 999, "b" * 99_999], ["WARN", "x", "\ud800"]])) as remote:
         recording = run(remote, seconds=1, quiet=True)
     assert [(line.node, line.text) for line in recording.logs] == [("a" * 255, "b" * 20_000), ("x", "?")]
 
 
 def test_a_process_that_could_not_run_the_nodes_says_why():
-    assert loses({"failed": "TypeError: no"}) == "The nodes could not be run: TypeError: no."
+    assert reason_for({"failed": "TypeError: no"}) == "The nodes could not be run: TypeError: no."
 
 
-def test_what_it_says_of_a_failure_is_one_line_that_a_terminal_can_show():
-    assert loses({"failed": "a\x1b[2J\nb\u202e\ud800" + "c" * 9_999}) == (
+def test_a_failure_is_reported_on_one_printable_line():
+    assert reason_for({"failed": "a\x1b[2J\nb\u202e\ud800" + "c" * 9_999}) == (
         "The nodes could not be run: a?[2J b??" + "c" * 1_991 + "."
     )
 
 
-def test_a_stderr_that_is_no_text_ends_the_run():
-    assert loses(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is not a text")
+def test_a_stderr_that_is_not_a_text_ends_the_run():
+    assert reason_for(QUIET | {"alive": False}, over={"stderr": 5}) == sent("a stderr that is not a text")
 
 
-def test_who_makes_and_destroys_without_end_is_given_up(monkeypatch):
+def test_creating_and_destroying_endpoints_has_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.proxies.MAX_ENDPOINTS_PER_RUN", 50)
     again = [TALKS, ["destroyed", [1]]] * 50 + [TALKS]
-    assert loses(answer_with(*again)) == sent(
+    assert reason_for(answer_with(*again)) == sent(
         "more than 50 endpoints of topics, services and actions, one after the other"
     )
 
@@ -324,32 +324,34 @@ def test_who_makes_and_destroys_without_end_is_given_up(monkeypatch):
 def test_all_events_of_a_run_have_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.events.MAX_EVENTS_PER_RUN", 2)
     hello = ["message", "/talker", "/chat", encode(String(data="hello")), False]
-    assert loses(answer_with(TALKS, hello) | {"next": 1}, answer_with(hello)) == sent("more than 2 events")
+    assert reason_for(answer_with(TALKS, hello) | {"next": 1}, answer_with(hello)) == sent(
+        "more than 2 events"
+    )
 
 
 def test_all_texts_of_a_run_have_a_limit(monkeypatch):
     monkeypatch.setattr("sim.ros.remote.validation.MAX_TOTAL_TEXT", 20)
     words = "more than 20 characters of log lines, names and other texts"
-    assert loses(self_reports(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
-    assert loses(self_reports(prints=["x" * 21])) == sent(words)
-    assert loses(self_reports(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
+    assert reason_for(self_reports(logs=[["INFO", "talker", "hello"]] * 3)) == sent(words)
+    assert reason_for(self_reports(prints=["x" * 21])) == sent(words)
+    assert reason_for(self_reports(errors=[["/talker", "tick", "E", "no", "line 1"]] * 2)) == sent(words)
 
 
-def test_what_takes_too_long_to_enter_ends_the_run():
+def test_events_that_take_too_long_to_apply_end_the_run():
     with answering(answer_with(TALKS), deadline=lambda: 0.0) as remote, pytest.raises(RemoteLost) as lost:
         run(remote, seconds=1, quiet=True)
     assert lost.value.reason == sent("more than can be processed in the remaining time")
 
 
 @pytest.mark.parametrize("period", [2**64 - 1, math.inf, math.nan])
-def test_a_number_beyond_all_numbers_is_none(period):
-    assert loses(self_reports(timers=[["/talker", period, "tick"]])) == sent(
+def test_a_number_out_of_range_is_refused(period):
+    assert reason_for(self_reports(timers=[["/talker", period, "tick"]])) == sent(
         "a timer's period that is not a number from 0 to 1e+09"
     )
 
 
 class Asker(Node):
-    """Asks /add once, at 0.25 s."""
+    """Calls /add once, at 0.25 s."""
 
     def __init__(self):
         super().__init__("asker")
@@ -361,7 +363,7 @@ class Asker(Node):
         self.client.call_async(AddTwoInts.Request(a=1, b=2))
 
 
-def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it():
+def test_a_course_call_taken_by_two_servers_keeps_its_request_time():
     type_ = "example_interfaces/srv/AddTwoInts"
     again = ["call", 13, "/add", type_, "/asker", True, encode(AddTwoInts.Request(a=1, b=2)), False]
     half = QUIET | {"next": END // 2}
@@ -370,7 +372,7 @@ def test_a_call_of_ours_that_a_second_server_has_taken_was_made_when_we_made_it(
     assert [(call.client, call.requested) for call in made] == [("/asker", 0.25)] * 2
 
 
-def test_what_is_no_message_ends_the_run():
+def test_bytes_that_are_no_message_end_the_run():
     near, far = socket.socketpair()
     with near, far, pytest.raises(RemoteLost) as lost:
         far.sendall(b"\0\0\0\1\xc1")
@@ -381,7 +383,7 @@ def test_what_is_no_message_ends_the_run():
     )
 
 
-def test_who_hung_up_before_the_run_is_gone():
+def test_a_connection_closed_before_the_run_is_reported():
     near, far = socket.socketpair()
     far.close()
     with near, pytest.raises(RemoteLost) as lost:
@@ -393,7 +395,7 @@ def test_who_hung_up_before_the_run_is_gone():
 
 
 class Companion(Node):
-    """Ours, and without a mistake."""
+    """A companion without a mistake."""
 
     def __init__(self):
         super().__init__("companion")
@@ -408,26 +410,26 @@ def talks(recording):
 TALKING = Exercise("talking", "Talking", [talks], seconds=1, companions=[Companion])
 
 
-def test_an_error_that_is_made_up_is_no_mistake_of_ours():
+def test_a_forged_error_is_not_attributed_to_the_course():
     made_up = ["/companion", "Companion.tick", "ValueError", "no", f'File "{__file__}", line 1, in tick']
     with answering({"answer": None}, self_reports(errors=[made_up])) as remote:
         score = TALKING.judge(RemotePrograms(remote))
     assert (float(score), score.broken) == (0.0, [])
 
 
-def test_a_lost_process_is_no_mistake_of_ours():
+def test_a_lost_process_is_not_attributed_to_the_course():
     with answering({"answer": None}, {"failed": "no"}) as remote, pytest.raises(RemoteLost):
         TALKING.judge(RemotePrograms(remote))
 
 
 @pytest.mark.parametrize("answer", [5, ["saw"], ["saw", 5], {}, [["saw"], "hint"]])
-def test_a_refusal_that_can_t_be_is_a_lost_process(answer):
+def test_an_invalid_refusal_is_a_lost_process(answer):
     with answering({"answer": answer}) as remote, pytest.raises(RemoteLost) as lost:
         TALKING.judge(RemotePrograms(remote))
     assert lost.value.reason == "The process with the nodes did not say whether they can be run."
 
 
-def test_a_refusal_is_told_in_its_own_words():
+def test_a_refusal_is_shown_unchanged():
     with answering({"answer": ["None", "Write your class."]}) as remote:
         score = TALKING.judge(RemotePrograms(remote))
     assert float(score) == 0.0

@@ -1,4 +1,4 @@
-"""Nodes that live in another process get the points and the words that they get in one.
+"""Nodes in another process get the same score pages as in one process.
 
 Two of each exercise, every day of short ones only; `python -m tests.sim.ros.remote.tables` compares all.
 """
@@ -15,17 +15,17 @@ def rows(pairs):
 
 
 @pytest.mark.parametrize(("assignment", "exercise"), rows(exercises()))
-def test_a_right_node_earns_everything_with_private_seeds(apart, assignment, exercise):
+def test_a_right_node_earns_everything_with_private_seeds(follower, assignment, exercise):
     name = right(assignment, exercise)[0]
     most = judge(assignment, exercise).points
-    assert earned(apart, assignment, exercise, name, "a secret of this test") == f"{name}: {most:g}"
+    assert earned(follower, assignment, exercise, name, "a secret of this test") == f"{name}: {most:g}"
 
 
 @pytest.mark.parametrize(
     ("assignment", "exercise"),
     rows(pair for pair in exercises() if pair[0] not in ("sensing", "navigator")),
 )
-def test_a_wrong_node_gets_the_words_of_its_table(apart, assignment, exercise):
+def test_a_wrong_node_gets_the_text_of_its_page(follower, assignment, exercise):
     names = wrong(assignment, exercise)
     name = names[len(names) // 2]
-    assert earned(apart, assignment, exercise, name) == page(assignment, exercise)[name]
+    assert earned(follower, assignment, exercise, name) == page(assignment, exercise)[name]

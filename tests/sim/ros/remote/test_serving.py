@@ -1,4 +1,4 @@
-"""The process with the nodes: what it does when it is told, and who judges there."""
+"""The follower process: the commands that it executes."""
 
 import socket
 import threading
@@ -45,20 +45,20 @@ def test_the_last_message_is_what_serve_returns(wires):
         ({}, "nobody here knows how to None"),
     ],
 )
-def test_what_it_does_not_know_it_does_not_do(wires, order, words):
+def test_an_unknown_command_is_refused(wires, order, words):
     wires[0].send(**order)
     with pytest.raises(WireBroken, match=f"^{words}$"):
         serve(wires[1], [Idle])
 
 
-def test_it_ends_with_the_wire(wires):
+def test_serving_ends_when_the_connection_is_closed(wires):
     wires[0].close()
     with pytest.raises(WireClosed):
         serve(wires[1], [Idle])
 
 
 @pytest.mark.parametrize("nodes", [[None], [5], ["Idle"]])
-def test_it_tells_whether_there_is_something_to_run(wires, nodes):
+def test_a_function_is_called_with_the_nodes(wires, nodes):
     wires[0].send(do="ask", question="grader.programs:plain_refusal", words=[])
     Remote(wires[0]).end()
     serve(wires[1], nodes)
@@ -67,7 +67,7 @@ def test_it_tells_whether_there_is_something_to_run(wires, nodes):
     assert hint
 
 
-def test_nodes_that_can_t_be_run_are_told_of(wires):
+def test_nodes_that_can_t_be_run_are_reported(wires):
     wires[0].send(do="run", seconds=1.0, seed=0, preparation="")
     wires[0].send(do="go", now=0, events=[])
     Remote(wires[0]).end()
@@ -78,7 +78,7 @@ def test_nodes_that_can_t_be_run_are_told_of(wires):
     }
 
 
-def test_only_one_other_process_takes_part(wires):
+def test_only_one_other_process_can_take_part(wires):
     def answer():
         far, quiet = wires[1], {"events": [], "self_reports": {}, "next": 10**9, "busy": False, "alive": True}
         for _ in range(2):
@@ -95,22 +95,22 @@ def test_only_one_other_process_takes_part(wires):
     assert lost.value.reason == "Only one other process can have nodes in a run."
 
 
-def test_one_turn_is_enough_for_all_that_only_concerns_the_other_process(apart, monkeypatch):
-    """Parallel callbacks take several rounds, of which nobody here hears anything but log lines."""
-    moments, send = [], apart.wire.send
+def test_one_turn_per_time_step_is_enough_without_events(follower, monkeypatch):
+    """Parallel callbacks take several rounds, which cause no events for the leader."""
+    moments, send = [], follower.wire.send
 
     def count(**message):
         moments.extend([message["now"]] if message.get("do") == "go" else [])
         send(**message)
 
-    monkeypatch.setattr(apart.wire, "send", count)
-    with apart.serving("tests.students.engine.threads", "two_groups_in_parallel") as remote:
+    monkeypatch.setattr(follower.wire, "send", count)
+    with follower.serving("tests.students.engine.threads", "two_groups_in_parallel") as remote:
         recording = run(remote, seconds=3, quiet=True)
     assert len(recording.logs) == 8
     assert len(moments) == len(set(moments)) == 9
 
 
-def test_a_process_that_does_not_let_go_is_given_up(wires):
+def test_a_process_that_does_not_receive_is_given_up(wires):
     remote = Remote(Wire(wires[0]._socket, patience=0.05))
     with pytest.raises(RemoteLost) as lost:
         remote.end(text="x" * 5_000_000)

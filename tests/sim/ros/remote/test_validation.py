@@ -1,4 +1,4 @@
-"""Bytes from the other process: whatever they are, they are a message or they are refused."""
+"""Bytes from the other process are a valid message or refused."""
 
 import random
 
@@ -39,7 +39,7 @@ MESSAGES = (
 
 
 @pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)
-def test_a_message_comes_as_it_was(original):
+def test_a_valid_message_is_unchanged(original):
     found, raw = valid_message(encode(original), type(original), "a message")
     assert found == original
     assert valid_message(bytes(raw), type(original), "a message")[0] == original
@@ -48,7 +48,7 @@ def test_a_message_comes_as_it_was(original):
 
 
 @pytest.mark.parametrize("sent", [encode(Twist())[:-1], encode(Twist())[:20], "a text", 7, None])
-def test_what_is_no_twist_is_refused(sent):
+def test_bytes_that_are_no_twist_are_refused(sent):
     with pytest.raises(ProtocolError, match=r"^a command that is not of type geometry_msgs/msg/Twist$"):
         valid_message_bytes(sent, Twist, "a command")
 
@@ -69,7 +69,7 @@ def test_names_count_once_and_other_texts_each_time(monkeypatch):
 
 
 @pytest.mark.parametrize("original", MESSAGES, ids=lambda original: type(original).__name__)
-def test_spoilt_bytes_are_another_message_or_none(original):
+def test_corrupted_bytes_are_another_message_or_refused(original):
     chance = random.Random(5)
     refused = 0
     for _ in range(500):
@@ -100,5 +100,5 @@ def test_spoilt_bytes_are_another_message_or_none(original):
         qos_profile_best_available,
     ],
 )
-def test_a_qos_profile_crosses_whole(profile):
+def test_a_qos_profile_survives_the_wire(profile):
     assert valid_qos(qos_to_list(profile)) == profile

@@ -1,4 +1,4 @@
-"""The wire between two processes: what goes over it, and each way in which it fails."""
+"""The wire between two processes: its messages, and each of its errors."""
 
 import socket
 import struct
@@ -32,7 +32,7 @@ def framed(body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + body
 
 
-def test_messages_come_whole_and_in_order(wires):
+def test_messages_arrive_complete_and_in_order(wires):
     near, far = wires
     near.send(do="go", now=1)
     near.send(text="Grüße, \ud800 and \0", numbers=[1, 0.1, None, True], big=2**63, raw=b"\xff")
@@ -45,7 +45,7 @@ def test_messages_come_whole_and_in_order(wires):
     }
 
 
-def test_a_message_may_be_longer_than_any_buffer_between(wires):
+def test_a_message_may_be_longer_than_the_socket_buffers(wires):
     near, far = wires
     text = "x" * 5_000_000
     sender = threading.Thread(target=near.send, kwargs={"text": text})
@@ -54,7 +54,7 @@ def test_a_message_may_be_longer_than_any_buffer_between(wires):
     sender.join()
 
 
-def test_who_hung_up_is_gone(wires):
+def test_a_closed_connection_raises_wire_closed(wires):
     near, far = wires
     near.send(last=1)
     near.close()
@@ -67,14 +67,14 @@ def test_who_hung_up_is_gone(wires):
         near.receive()
 
 
-def test_half_a_message_is_none(ends):
+def test_an_incomplete_message_is_not_received(ends):
     ends[0].sendall(framed(b"\x81\xa1a\x01")[:-1])
     ends[0].close()
     with pytest.raises(WireClosed, match=r"^the other process has closed the connection$"):
         Wire(ends[1]).receive()
 
 
-def test_silence_has_its_limit_and_the_rest_may_still_come(ends):
+def test_receiving_times_out_and_can_be_continued(ends):
     far = Wire(ends[1])
     with pytest.raises(WireTimeout, match=r"^no complete message came for 0\.05 s$"):
         far.receive(0.05)
@@ -85,7 +85,7 @@ def test_silence_has_its_limit_and_the_rest_may_still_come(ends):
     assert far.receive(0.05) == {"a": 1}
 
 
-def test_who_takes_no_message_is_not_waited_for_for_ever(ends):
+def test_sending_times_out_if_the_other_process_does_not_receive(ends):
     with pytest.raises(WireTimeout, match=r"^the other process accepted no message for 0\.05 s$"):
         Wire(ends[0], patience=0.05).send(text="x" * 5_000_000)
 
@@ -107,13 +107,13 @@ def test_who_takes_no_message_is_not_waited_for_for_ever(ends):
         (b"\xc0", "the received message is not a dictionary but a NoneType"),
     ],
 )
-def test_what_is_no_message_is_refused(ends, body, words):
+def test_bytes_that_are_no_message_are_refused(ends, body, words):
     ends[0].sendall(framed(body))
     with pytest.raises(WireBroken, match=f"^{words}$"):
         Wire(ends[1]).receive(1)
 
 
-def test_a_message_that_is_too_long_is_refused_before_it_comes(ends):
+def test_a_message_that_is_too_long_is_refused_by_its_length(ends):
     ends[0].sendall(struct.pack(">I", 2**32 - 1))
     with pytest.raises(WireBroken, match=r"^a message of 4294967295 bytes is too long: 100 are allowed$"):
         Wire(ends[1], limit=100).receive(1)
@@ -134,14 +134,14 @@ def test_a_message_that_is_too_long_is_not_sent(wires, ends):
         (_endless(), "the message can't be sent: recursion limit exceeded."),
     ],
 )
-def test_what_is_no_plain_data_is_not_sent(wires, value, words):
+def test_only_plain_data_is_sent(wires, value, words):
     with pytest.raises(WireBroken, match=f"^{words}"):
         wires[0].send(value=value)
     wires[0].send(all="well")
     assert wires[1].receive(1) == {"all": "well"}
 
 
-def test_what_is_sent_is_plain_messagepack_with_its_length_before(ends):
+def test_a_sent_message_is_messagepack_after_its_length(ends):
     Wire(ends[0]).send(a="ä")
     size = struct.unpack(">I", ends[1].recv(4))[0]
     assert msgpack.unpackb(ends[1].recv(size)) == {"a": "ä"}
