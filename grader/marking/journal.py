@@ -9,7 +9,7 @@ import hashlib
 import json
 import os
 import uuid
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 from grader.marking.atomic_file import write_atomically
 from grader.marking.errors import CourseError, ResultError
 from grader.marking.result import Result
+from grader.marking.task import MarkingTask
 
 SETTINGS = ".settings.json"  # hidden: no student's name begins with a dot
 LOCK = ".lock"
@@ -77,6 +78,17 @@ class Journal:
             return None
         result = entry.result
         return entry if (result.student, result.assignment) == (student, self.folder.name) else None
+
+    def unmarked(
+        self, tasks: Iterable[MarkingTask], found: Callable[[JournalEntry], object]
+    ) -> Iterator[MarkingTask]:
+        """Yield the tasks without a stored result; the results of the others are passed to `found`."""
+        for task in tasks:
+            entry = self.find(task.student, task.key)
+            if entry is None:
+                yield task
+            else:
+                found(entry)
 
     def discard(self, students: Iterable[str]) -> None:
         """Delete results, so that these submissions are marked again."""

@@ -16,13 +16,13 @@ def printable(text: str) -> str:
 
 
 class ProgressLine:
-    """The progress of marking `total` submissions."""
+    """The progress of marking `total` submissions, of which some may be marked already."""
 
     def __init__(
         self, total: int, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._total, self._stream, self._clock = total, stream or sys.stderr, clock
-        self._begin, self._done = clock(), 0
+        self._begin, self._done, self._skipped = clock(), 0, 0
         self._is_terminal = self._stream.isatty()
 
     def add_result(self, result: Result) -> None:
@@ -30,16 +30,20 @@ class ProgressLine:
         most = sum(cell.max for notebook in result.notebooks for cell in notebook.cells)
         self.add_line(f"{result.student}: {result.points:g} of {most:g} points, {result.verdict}")
 
+    def skip(self) -> None:
+        """Count one that is marked already, and show nothing."""
+        self._skipped += 1
+
     def add_line(self, text: str) -> None:
         """Show that one more is done."""
         self._done += 1
         text = printable(text)
-        count = f"{self._done} of {self._total}"
+        count = f"{self._done + self._skipped} of {self._total}"
         if not self._is_terminal:
             print(f"{count}  {text}", file=self._stream, flush=True)
             return
         rate = self._done / max(self._clock() - self._begin, 1e-3)
-        left = _duration((self._total - self._done) / rate)
+        left = _duration((self._total - self._skipped - self._done) / rate)
         line = f"{count}, {rate:.2g} each second, {left} left  {text}"
         width = shutil.get_terminal_size().columns - 1
         print(CLEAR + line[:width], end="", file=self._stream, flush=True)

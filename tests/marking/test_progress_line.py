@@ -41,6 +41,17 @@ def test_on_a_terminal_one_line_changes_and_goes(now, left, monkeypatch):
     assert stream.getvalue().endswith("marked\r\x1b[K")
 
 
+def test_those_that_are_marked_already_are_counted_and_not_in_the_rate(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    stream, times = Terminal(), iter([0.0, 2.0])
+    progress = ProgressLine(4, stream, lambda: next(times))
+    progress.skip()
+    progress.add_result(marked("anna"))
+    assert stream.getvalue() == (
+        "\r\x1b[K2 of 4, 0.5 each second, 4 s left  anna: 3.5 of 10 points, marked"
+    )
+
+
 def test_a_narrow_terminal_gets_a_short_line(monkeypatch):
     monkeypatch.setenv("COLUMNS", "20")
     stream = Terminal()

@@ -3,30 +3,26 @@
 The order for each submission is journal, gradebook, notebooks. Each step can be repeated, and the notebooks
 have the id of the marking that they show; so when a run is killed, the next one does what is left.
 """
+import contextlib
+import itertools
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
 
 from grader.marking import secret
 from grader.marking.command.check_release import check_release
 from grader.marking.command.task_reader import TaskReader
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
-from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.course import Course, timestamp
 from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.find_submissions import find_submissions
-from grader.marking.gradebook.marked_notebooks import (
-    is_shown,
-    marked_notebooks,
-    submission_time,
-    write_notebooks,
-)
+from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
 from grader.marking.journal import Journal, JournalEntry
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
-from grader.marking.submission.assignment_release import load_release
+from grader.marking.submission.assignment_release import Release, load_release
 from grader.marking.task import MarkingTask, TaskPool
 
 
@@ -84,76 +80,80 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
             journal.discard(submissions)
             journal.save_settings(asdict(replace(settings, force=False)))  # --resume does not repeat that
         outcome = Outcome({}, worth or {}, len(submissions))
-        reader = TaskReader(load_release(course.release(assignment)), key)
-        run = _ClassRun(course, book, journal, outcome, reader)
+        release = load_release(course.release(assignment))
+        run = _ClassRun(course, book, journal, outcome, release)
+        tasks = itertools.starmap(TaskReader(release, key).read, submissions.items())  # read when requested
         try:
-            run.find_marked(submissions)
-            if run.waiting:
-                with open_pool(settings, key) as pool:
-                    run.mark(pool)
+            run.mark(tasks, lambda: open_pool(settings, key))
+            unmarked = [student for student in submissions if student not in outcome.results]
+            outcome.problems += [f"{student} was not marked: mark again" for student in unmarked]
             run.write_late()
             if settings.feedback:
                 run.give_feedback(assignment, settings.jobs)
         except KeyboardInterrupt:
             outcome.interrupted = True
+            with contextlib.suppress(KeyboardInterrupt):
+                run.find_marked(tasks)  # the summary is of all results
     outcome.seconds = time.monotonic() - begin
     return outcome
 
 
 class _ClassRun:
-    """Where results come in and go out.
+    """The run of a class: each submission is read once, and its result is either found or made by a pool.
 
-    waiting: the folders of who is not marked yet. late: keys of results that are in the journal, but not in
-    the gradebook. Both by student.
+    waiting: keys of the submissions that the pool has. late: keys of results that are in the journal, but not
+    in the gradebook. Both by student.
     """
 
     def __init__(
-        self, course: Course, book: Book, journal: Journal, outcome: Outcome, reader: TaskReader
+        self, course: Course, book: Book, journal: Journal, outcome: Outcome, release: Release
     ) -> None:
         self.course, self.book, self.journal, self.outcome = course, book, journal, outcome
-        self.reader = reader
-        self.waiting: dict[str, Path] = {}
+        self.release = release
+        self.waiting: dict[str, str] = {}
         self.late: dict[str, str] = {}
 
-    def find_marked(self, submissions: Mapping[str, Path]) -> None:
-        """Find what is marked already, and write what the gradebook doesn't have of it."""
-        for student, folder in submissions.items():
-            entry = self.journal.find(student, self.reader.read(student, folder).key)
-            if entry is None:
-                self.waiting[student] = folder
-            else:
-                self.file(entry)
+    def mark(
+        self, tasks: Iterator[MarkingTask], open_pool: Callable[[], AbstractContextManager[TaskPool]]
+    ) -> None:
+        """File the result of each task: the stored one, or that of a pool, which is opened if needed."""
+        with contextlib.closing(ProgressLine(self.outcome.total)) as progress:
+            unmarked = self._unmarked(tasks, progress)
+            first = next(unmarked, None)
+            if first is not None:
+                with open_pool() as pool:
+                    for result in pool.mark(itertools.chain([first], unmarked)):
+                        self._check(result)
+                        self.file(self.journal.save(result))
+                        self.outcome.fresh.append(result.student)
+                        progress.add_result(result)
 
-    def mark(self, pool: TaskPool) -> None:
-        """Let the pool mark what waits, and file each result as it comes."""
-        progress = ProgressLine(len(self.waiting))
-        keys: dict[str, str] = {}  # of what the pool has
-        try:
-            for result in pool.mark(self._tasks(keys)):
-                expected = (self.reader.release.assignment, keys.pop(result.student, None))
-                if (result.assignment, result.key) != expected:
-                    raise RuntimeError(f"a result for {result.student} came that nobody waits for")
-                del self.waiting[result.student]
-                self.file(self.journal.save(result))
-                self.outcome.fresh.append(result.student)
-                progress.add_result(result)
-        finally:
-            progress.close()
-        self.outcome.problems += [f"{student} was not marked: mark again" for student in self.waiting]
+    def find_marked(self, tasks: Iterator[MarkingTask]) -> None:
+        """File the stored results of tasks; the others are left."""
+        for _ in self.journal.unmarked(tasks, self.file):
+            pass
 
-    def _tasks(self, keys: dict[str, str]) -> Iterator[MarkingTask]:
-        """What waits, each read when its turn comes: no more of a class is in memory than is marked."""
-        for student, folder in list(self.waiting.items()):
-            task = self.reader.read(student, folder)
-            keys[student] = task.key
+    def _unmarked(self, tasks: Iterator[MarkingTask], progress: ProgressLine) -> Iterator[MarkingTask]:
+        def found(entry: JournalEntry) -> None:
+            self.file(entry)
+            progress.skip()
+
+        for task in self.journal.unmarked(tasks, found):
+            self.waiting[task.student] = task.key
             yield task
 
+    def _check(self, result: Result) -> None:
+        """Raise RuntimeError for a result of another task."""
+        expected = (self.release.assignment, self.waiting.pop(result.student, None))
+        if (result.assignment, result.key) != expected:
+            raise RuntimeError(f"a result for {result.student} came that nobody waits for")
+
     def file(self, entry: JournalEntry) -> None:
-        """Note a result, and bring gradebook and notebooks up to it."""
+        """Add a result to the outcome, and update gradebook and notebooks."""
         result = entry.result
         without = [replace(note, notebook={}) for note in result.notebooks]
         self.outcome.results[result.student] = replace(result, notebooks=without)
-        if self.late:  # somebody holds the gradebook: asking for each result would hold up the marking
+        if self.late:  # another program holds the gradebook: waiting for it each time would delay the marking
             self.late[result.student] = result.key
             return
         try:
@@ -162,16 +162,16 @@ class _ClassRun:
             self.late[result.student] = result.key
 
     def write(self, entry: JournalEntry) -> None:
-        """Bring gradebook and notebooks up to a result, if they aren't. Raises GradebookError, OSError."""
-        result, shown = entry.result, marked_notebooks(entry, self.reader.release)
-        when = submission_time(self.course, result)
+        """Update gradebook and notebooks, unless they have this result. Raises GradebookError, OSError."""
+        result, shown = entry.result, marked_notebooks(entry, self.release)
+        when, text = timestamp(self.course.submitted(result.student, result.assignment))
         if is_shown(self.course, entry, shown) and self.book.has(result.assignment, result.student, when):
             return
         self.book.write(result, shown, when)
-        write_notebooks(self.course, result, shown)
+        write_notebooks(self.course, result, shown, text)
 
     def write_late(self) -> None:
-        """Try once more what the gradebook did not take. Nothing is lost: the journal has it."""
+        """Write again what the gradebook did not take. The journal has all of it."""
         for done, (student, key) in enumerate(self.late.items()):
             entry = self.journal.find(student, key)
             try:

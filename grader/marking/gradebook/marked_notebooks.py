@@ -1,14 +1,13 @@
 """Writes the notebooks of marked submissions into class/autograded/, for formgrader and feedback."""
 import copy
 from collections.abc import Iterable
-from datetime import datetime
 from pathlib import Path
 
 import nbformat
 from nbformat import NotebookNode
 
 from grader.marking.atomic_file import write_atomically
-from grader.marking.gradebook.course import TIMESTAMP, Course, timestamp
+from grader.marking.gradebook.course import TIMESTAMP, Course
 from grader.marking.journal import JournalEntry
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
@@ -47,14 +46,18 @@ def notice(result: Result) -> str:
     return "\n\n".join([*parts, "\n".join(f"- {_line(repair)}" for repair in result.repairs)]).rstrip()
 
 
-def write_notebooks(course: Course, result: Result, shown: dict[str, NotebookNode]) -> None:
-    """Write the notebooks into the student's folder, with the submission's time. Raises OSError."""
+def write_notebooks(
+    course: Course, result: Result, shown: dict[str, NotebookNode], time: str
+) -> None:
+    """Write the notebooks into the student's folder. Raises OSError.
+
+    time: the text of the submission's timestamp.txt, or "".
+    """
     student, assignment = result.student, result.assignment
     folder = course.autograded(student, assignment)
     mode = 0o664 if course.directory.groupshared else 0o444
-    _, text = timestamp(course.submitted(student, assignment))
-    if text:
-        write_atomically(folder / TIMESTAMP, text, mode)
+    if time:
+        write_atomically(folder / TIMESTAMP, time, mode)
     else:
         (folder / TIMESTAMP).unlink(missing_ok=True)
     for old in folder.glob("*.ipynb"):
@@ -68,11 +71,6 @@ def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
     """Whether the notebooks in the student's folder are those of this marking."""
     folder = course.autograded(entry.result.student, entry.result.assignment)
     return all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
-
-
-def submission_time(course: Course, result: Result) -> datetime | None:
-    """When the submission was handed in (UTC), if that is known."""
-    return timestamp(course.submitted(result.student, result.assignment))[0]
 
 
 def _marking(path: Path) -> str | None:

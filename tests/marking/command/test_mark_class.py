@@ -4,7 +4,9 @@ from dataclasses import replace
 import pytest
 from nbgrader.api import Gradebook
 
+from grader.marking.command import task_reader
 from grader.marking.command.mark_class import Settings, mark_class
+from grader.marking.submission.submitted_files import read_folder
 from tests.marking.classroom import ASSIGNMENT, gradebook, result, submit
 from tests.marking.fake_pool import ReadyPool
 
@@ -46,6 +48,21 @@ def test_what_has_not_changed_is_not_marked_again_and_the_summary_is_of_all(cour
     assert second.results == first.results
     assert gradebook(course) == before
     assert [notebook(course, student).stat().st_mtime_ns for student in ALL] == times
+
+
+def test_each_submission_is_read_once_and_what_was_read_is_marked(course, pool, monkeypatch):
+    read = []
+
+    def counted(folder, release):
+        read.append(folder.parent.name)
+        return read_folder(folder, release)
+
+    monkeypatch.setattr(task_reader, "read_folder", counted)
+    assert run(course, pool).fresh == read == ALL
+    submit(course, "bob", line="Line = 3")
+    read.clear()
+    assert run(course, pool).fresh == ["bob"]
+    assert read == ALL
 
 
 def test_what_has_changed_or_come_since_is_marked(course, pool):
@@ -153,6 +170,19 @@ def test_ctrl_c_keeps_what_is_marked(course, pool):
     pool.change = result
     assert run(course, pool, Settings()).fresh == ["bob", "eve"]
     assert (course.feedback("anna", ASSIGNMENT) / "nodes.html").exists()
+
+
+def test_after_ctrl_c_the_outcome_still_has_all_results(course, pool):
+    run(course, pool)
+    submit(course, "anna", line="Line = 3")
+
+    def interrupt(here, task):
+        raise KeyboardInterrupt
+
+    pool.change = interrupt
+    outcome = run(course, pool)
+    assert outcome.interrupted
+    assert (outcome.fresh, list(outcome.results)) == ([], ["bob", "eve"])
 
 
 def test_what_is_handed_in_anew_while_others_are_marked_is_kept_as_what_was_marked(course, pool):

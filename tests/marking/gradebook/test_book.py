@@ -10,8 +10,8 @@ from nbgrader.api import Gradebook
 
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
-from grader.marking.gradebook.course import Course
-from grader.marking.gradebook.marked_notebooks import marked_notebooks, submission_time
+from grader.marking.gradebook.course import Course, timestamp
+from grader.marking.gradebook.marked_notebooks import marked_notebooks
 from grader.marking.journal import JournalEntry
 from grader.marking.release.make_exercises import release
 from grader.marking.release.nbgrader_command import nbgrader
@@ -62,7 +62,8 @@ def file(course):
 def write(course, task, **changes):
     entry = JournalEntry("ab12", result(course, task, **changes))
     with Book(course) as book:
-        book.write(entry.result, marked_notebooks(entry, task.release), submission_time(course, entry.result))
+        when, _ = timestamp(course.submitted(task.student, ASSIGNMENT))
+        book.write(entry.result, marked_notebooks(entry, task.release), when)
 
 
 def cells(found, *changed):

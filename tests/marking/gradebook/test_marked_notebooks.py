@@ -8,12 +8,12 @@ from grader.marking.gradebook.marked_notebooks import (
     is_shown,
     marked_notebooks,
     notice,
-    submission_time,
     write_notebooks,
 )
 from grader.marking.journal import JournalEntry
 from tests.marking.classroom import ASSIGNMENT, result, submit, tasks
 
+TIME = "2026-01-01 10:00:00 UTC"
 LOOK = "Your notebook was mended before it was marked. Please check that this is your work:"
 STOPPED = "Your notebook was stopped before its end. What was done before keeps its points."
 NOTICES = [
@@ -63,7 +63,7 @@ def test_a_refused_submission_shows_what_was_to_be_done(course, task):
 def test_the_notebooks_say_which_marking_they_show(course, task):
     entry = JournalEntry("ab12", result(course, task))
     assert not is_shown(course, entry, ["nodes"])
-    write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
+    write_notebooks(course, entry.result, marked_notebooks(entry, task.release), "")
     assert is_shown(course, entry, ["nodes"])
     assert not is_shown(course, replace(entry, id="other"), ["nodes"])
     assert not is_shown(course, entry, ["nodes", "more"])
@@ -79,20 +79,18 @@ def test_the_folder_holds_what_was_marked_and_the_time_and_nothing_else(course, 
     (folder / "old.ipynb").write_text("from another marking")
     entry = JournalEntry("ab12", result(course, task))
     for _ in range(2):
-        write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
+        write_notebooks(course, entry.result, marked_notebooks(entry, task.release), TIME)
         assert sorted(path.name for path in folder.iterdir()) == ["nodes.ipynb", "timestamp.txt"]
         assert {os.stat(path).st_mode & 0o777 for path in folder.iterdir()} == {0o444}
-    assert str(submission_time(course, entry.result)) == "2026-01-01 10:00:00"
-    (course.submitted("anna", ASSIGNMENT) / "timestamp.txt").unlink()
-    write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
+    assert (folder / "timestamp.txt").read_text() == TIME
+    write_notebooks(course, entry.result, marked_notebooks(entry, task.release), "")
     assert [path.name for path in folder.iterdir()] == ["nodes.ipynb"]
-    assert submission_time(course, entry.result) is None
 
 
 def test_a_course_of_several_instructors_lets_its_group_write(course, task):
     course.directory.groupshared = True
     entry = JournalEntry("ab12", result(course, task))
-    write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
+    write_notebooks(course, entry.result, marked_notebooks(entry, task.release), "")
     assert os.stat(course.autograded("anna", ASSIGNMENT) / "nodes.ipynb").st_mode & 0o777 == 0o664
 
 
@@ -100,5 +98,5 @@ def test_a_student_with_an_odd_name_has_a_page(course):
     submit(course, "x [1]")
     task = next(task for task in tasks(course) if task.student == "x [1]")
     entry = JournalEntry("ab12", result(course, task))
-    write_notebooks(course, entry.result, marked_notebooks(entry, task.release))
+    write_notebooks(course, entry.result, marked_notebooks(entry, task.release), "")
     assert is_shown(course, entry, ["nodes"])

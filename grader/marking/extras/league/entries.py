@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import importlib.util
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,13 +31,14 @@ class Entries:
     release: Release
     read: Mapping[str, Callable[[], SubmittedFiles]]
 
-    def tasks(self, contest: Contest, chosen: Iterable[str]) -> Iterable[MarkingTask]:
-        """The task of each chosen entry, read when it is requested."""
-        version = code_version()
-        for student in chosen:
-            submitted = self.read[student]()
-            key = submission_key(submitted, self.release, repr(contest), version)
-            yield MarkingTask(student, self.release, submitted, key, ContestProcedure(contest))
+    def tasks(self, contest: Contest) -> Iterator[MarkingTask]:
+        """The task of each entry, read when it is requested."""
+        return map(functools.partial(self._task, contest), self.read)
+
+    def _task(self, contest: Contest, student: str) -> MarkingTask:
+        submitted = self.read[student]()
+        key = submission_key(submitted, self.release, repr(contest), code_version())
+        return MarkingTask(student, self.release, submitted, key, ContestProcedure(contest))
 
 
 def of_class(folder: Path, assignment: str) -> Entries:

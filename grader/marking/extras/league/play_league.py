@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import secrets
 from collections.abc import Callable
 from contextlib import AbstractContextManager
@@ -10,7 +12,7 @@ from typing import Any
 
 from grader.marking.extras.league.contest import Contest
 from grader.marking.extras.league.entries import Entries
-from grader.marking.journal import Journal
+from grader.marking.journal import Journal, JournalEntry
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
 from grader.marking.task import TaskPool, TimeLimits
@@ -34,25 +36,26 @@ def play(
 ) -> LeagueOutcome:
     """Run the contest with all entries. The caller holds the journal's lock. Raises OSError."""
     played = LeagueOutcome(total=len(entries.read))
-    waiting: list[str] = []
-    for task in entries.tasks(contest, entries.read):
-        entry = journal.find(task.student, task.key)
-        if entry:
+    with contextlib.closing(ProgressLine(played.total)) as progress:
+
+        def found(entry: JournalEntry) -> None:
             played.results.append(entry.result)
-        else:
-            waiting.append(task.student)
-    progress = ProgressLine(len(waiting))
-    try:
-        if waiting:
-            with open_pool() as pool:
-                for result in pool.mark(entries.tasks(contest, waiting)):
-                    played.results.append(journal.save(result).result)
-                    played.fresh += 1
-                    progress.add_line(f"{result.student.lstrip('.')}: {_done(result)}")
-    except KeyboardInterrupt:
-        played.interrupted = True
-    finally:
-        progress.close()
+            progress.skip()
+
+        tasks = entries.tasks(contest)
+        unplayed = journal.unmarked(tasks, found)
+        try:
+            first = next(unplayed, None)
+            if first is not None:
+                with open_pool() as pool:
+                    for result in pool.mark(itertools.chain([first], unplayed)):
+                        played.results.append(journal.save(result).result)
+                        played.fresh += 1
+                        progress.add_line(f"{result.student.lstrip('.')}: {_done(result)}")
+        except KeyboardInterrupt:
+            played.interrupted = True
+            with contextlib.suppress(KeyboardInterrupt):
+                list(journal.unmarked(tasks, found))  # the count is of all results
     return played
 
 
