@@ -29,6 +29,12 @@ class Pose2D(NamedTuple):
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return self.x + cos * point[0] - sin * point[1], self.y + sin * point[0] + cos * point[1]
 
+    def towards(self, other: Pose2D, ratio: float) -> Pose2D:
+        """Return a pose between this one (ratio 0) and another (ratio 1), turned the shorter way."""
+        turn = math.remainder(other.yaw - self.yaw, math.tau)
+        x, y = (a + ratio * (b - a) for a, b in zip(self[:2], other[:2], strict=True))
+        return Pose2D(x, y, self.yaw + ratio * turn)
+
     def is_near(self, other: Pose2D, distance: float, angle: float) -> bool:
         """Return whether two poses differ by at most a distance (m) and an angle (rad).
 

@@ -18,7 +18,6 @@ TOPICS = sorted(path.name for path in EXERCISES.iterdir() if path.is_dir() and p
 STILL = {
     "control",
     "delivery",
-    "frames",
     "navigator",
     "packages",
     "safety",

@@ -1,14 +1,17 @@
 """The exercises of 09_frames, from the place of a lidar to a follower, and transforms that come late."""
 
-from grader.exercises.frames.broadcasting import Wheels, odometry
-from grader.exercises.frames.delayed import SlowLocalization, delayed
-from grader.exercises.frames.finding import Watcher, watch
-from grader.exercises.frames.following import behind
-from grader.exercises.frames.looking import lookup
-from grader.exercises.frames.mounting import Mechanic, mount
-from grader.exercises.frames.partners import localization
-from grader.exercises.frames.places import convoy, parked, square
-from grader.exercises.frames.team import Team
+from grader.companions.lidar_mount import Mechanic
+from grader.companions.moving_frames import SlowLocalization, Wheels
+from grader.companions.sightings import Team
+from grader.companions.tower_watcher import Watcher
+from grader.companions.transforms import localization
+from grader.exercises.frames.behind import behind
+from grader.exercises.frames.delayed import delayed
+from grader.exercises.frames.lookup import lookup
+from grader.exercises.frames.mount import mount
+from grader.exercises.frames.odometry import odometry
+from grader.exercises.frames.watch import watch
+from grader.worlds.fields import convoy, parked, square
 
 __all__ = [
     "Mechanic",

@@ -35,3 +35,10 @@ def test_near_is_by_distance_and_by_the_shorter_turn():
 
 def test_its_text_has_units():
     assert str(Pose2D(1.0, -0.5, 0.25)) == "x 1.00 m, y -0.50 m, yaw 0.25 rad"
+
+
+def test_a_pose_between_two_is_turned_the_shorter_way():
+    begin, end = Pose2D(1.0, 2.0, 3.0), Pose2D(3.0, 1.0, -3.0)
+    assert begin.towards(end, 0.0) == begin
+    assert begin.towards(end, 0.5) == pytest.approx((2.0, 1.5, math.pi))
+    assert begin.towards(end, 1.0) == pytest.approx((3.0, 1.0, math.tau - 3.0))

@@ -159,3 +159,10 @@ class Degrees(Follower):
         command.linear.x = 0.2
         command.angular.z = max(-2.0, min(2.0, math.degrees(math.atan2(y, x))))
         self.publisher.publish(command)
+
+
+class DrivesWithoutFrames(Follower):
+    def __init__(self):
+        Node.__init__(self, "follower")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, lambda: self.drive(1.0, 0.2))

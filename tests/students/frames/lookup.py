@@ -145,3 +145,27 @@ class ReasonsByHeart(Placer):
     def place(self, msg):
         self.asked = msg
         super().place(msg)
+
+
+class SwappedButNamedMap(Swapped):
+    def moved(self, msg):
+        point = super().moved(msg)
+        point.header.frame_id = "map"
+        return point
+
+
+class PublishesTwice(Placer):
+    def place(self, msg):
+        super().place(msg)
+        super().place(msg)
+
+
+class PassesThemOn(Placer):
+    """Without a listener it has no frames."""
+
+    def listen(self):
+        pass
+
+    def place(self, msg):
+        self.found.publish(msg)
+        self.refused.publish(String(data="LookupException"))

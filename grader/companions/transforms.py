@@ -1,0 +1,41 @@
+"""Transforms of the course, and a localization that knows where robots began."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import StaticTransformBroadcaster
+
+from grader.geometry import Pose2D
+from sim import World
+
+
+def transform(parent: str, child: str, pose: Pose2D, stamp: Time | None = None) -> TransformStamped:
+    """Return a transform in the plane; without a stamp, that of a static one."""
+    sent = TransformStamped(child_frame_id=child)
+    sent.header.frame_id, sent.header.stamp = parent, (stamp or Time()).to_msg()
+    x, y, yaw = pose
+    sent.transform.translation.x, sent.transform.translation.y = float(x), float(y)
+    sent.transform.rotation.z, sent.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    return sent
+
+
+class Localization(Node):
+    """Publishes static transforms from map to the odom of each robot of a world: where it began."""
+
+    def __init__(self, world: World) -> None:
+        super().__init__("localization")
+        self.broadcaster = StaticTransformBroadcaster(self)
+        starts = {"odom" if name == "robot" else f"{name}/odom": p for name, p in world.starts().items()}
+        transforms = [transform("map", frame, Pose2D(*start)) for frame, start in starts.items()]
+        self.broadcaster.sendTransform(transforms)
+
+
+def localization(world: World) -> list[Callable[[], Node]]:
+    """Return the localization of a world, as companions of a run in it."""
+    return [functools.partial(Localization, world)]

@@ -1,0 +1,90 @@
+"""The project on frames: follow another robot by transforms."""
+
+from __future__ import annotations
+
+import math
+import statistics
+
+from grader.checks import Missed, hinting, keeps_clear, lasts, otherwise, publishes, stands_still, subscribes
+from grader.checks.frames import TF
+from grader.companions.transforms import localization
+from grader.exercise import Exercise, Scenario
+from grader.geometry import Pose2D
+from grader.worlds.fields import convoy, parked
+from sim.evidence import Recording, Seconds
+
+GAP, BAND = 1.0, 0.25  # m
+NEAREST, FARTHEST = 0.7, 1.4  # m
+SETTLED = 9.0  # s
+WHY_OFF = {
+    "The robot hardly moves. Does the lookup fail each time? Log the error: it says why. And is the "
+    "robot's own frame, base_link, the target?": lambda run, gaps: (
+        math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1
+    ),
+    "It is too near: the point 1 m behind the leader is at x = -1 in leader/base_link.": (
+        lambda run, gaps: gaps and statistics.mean(gaps.values()) < 0.75
+    ),
+    "It loses the leader. Ask where the point is in base_link, the robot's own frame: odom and "
+    "leader/odom are two frames, and only the tree knows how they lie.": lambda run, gaps: (
+        gaps and statistics.mean(gaps.values()) > 2.0
+    ),
+    "Steer by the angle atan2(y, x) of the point in base_link, in rad; drive faster the farther it is.": (
+        otherwise
+    ),
+}
+
+behind = Exercise(
+    "behind",
+    "Follow the leader",
+    scenarios=[
+        Scenario(convoy, 22, 1, companions=lambda seed: localization(convoy(seed)), name="driving"),
+        Scenario(parked, 14, 2, companions=lambda seed: localization(parked(seed)), name="parked"),
+    ],
+)
+
+
+@behind.check(2)
+def hears_frames_and_drives(run: Recording) -> None:
+    """The node hears /tf and /tf_static, and sends Twist messages on /cmd_vel."""
+    with hinting(guess="A TransformListener hears both topics. Publish in the timer's callback."):
+        subscribes(run, "/tf", TF)
+        subscribes(run, "/tf_static", TF)
+        publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist", at_least=5)
+
+
+@behind.check(11, after=hears_frames_and_drives, only="driving", hints=WHY_OFF)
+def keeps_the_gap(run: Recording) -> None:
+    """From 9 s on it is 0.7 m to 1.4 m from the leader, for nine tenths of the time."""
+    gaps = _gaps(run)
+    if not gaps:
+        raise Missed(f"a robot that follows until {SETTLED:g} s and longer", "the run ended before")
+    off = {stamp: gap for stamp, gap in gaps.items() if not NEAREST <= gap <= FARTHEST}
+    if len(off) > 0.1 * len(gaps):
+        stamp, gap = max(off.items(), key=lambda row: abs(row[1] - GAP))
+        saw = f"{gap:.2f} m at {stamp:.3g} s; outside in {len(off) / len(gaps):.0%} of the time"
+        expected = f"{NEAREST:g} m to {FARTHEST:g} m between the two robots"
+        raise Missed(expected, saw, about=(gaps,), picture="path")
+
+
+@behind.check(5, after=hears_frames_and_drives, only="parked", hints=WHY_OFF)
+def stands_behind_one_who_stands(run: Recording) -> None:
+    """Behind a leader that stands, it comes to stand itself, within 0.25 m of that point."""
+    robot, leader = run.path[-1], run.tracks["leader"][-1]
+    error = math.dist(robot[1:3], Pose2D(*leader[1:]).point((-GAP, 0.0)))
+    if not error <= BAND:
+        expected = f"the robot within {BAND:g} m of the point {GAP:g} m behind the leader at the end"
+        raise Missed(expected, f"{error:.2f} m away", about=(_gaps(run),), picture="path")
+    stands_still(run, last=2.0, tolerance=0.05)
+
+
+@behind.check(4, after=keeps_the_gap)
+def touches_nothing(run: Recording) -> None:
+    """The robot touches nothing, and nobody."""
+    keeps_clear(run, "Does it aim at the leader itself? Aim at the point 1 m behind, and slow down there.")
+    lasts(run, "/cmd_vel")
+
+
+def _gaps(run: Recording) -> dict[Seconds, float]:
+    """The distance (m) between the two robots at each moment from when the robot should have caught up."""
+    pairs = zip(run.path, run.tracks["leader"], strict=False)
+    return {pose.stamp: math.dist(pose[1:3], other[1:3]) for pose, other in pairs if pose.stamp >= SETTLED}

@@ -1,0 +1,83 @@
+"""Broadcast once, as a static transform, where a lidar is mounted."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
+from grader.companions.lidar_mount import Mechanic
+from grader.exercise import Exercise
+from grader.responses import from_course, same
+from sim.evidence import Recording
+
+STATIC, MOUNTING = "/tf_static", "/mounting"
+
+mount = Exercise("mount", "Where the lidar sits", seconds=3, companions=[Mechanic], seeds=(1, 2))
+
+
+@mount.check(2)
+def sends_static_transforms(run: Recording) -> None:
+    """The node hears /mounting (Pose2D), and publishes transforms on /tf_static."""
+    with hinting(
+        guess="A StaticTransformBroadcaster publishes on /tf_static, a TransformBroadcaster on /tf."
+    ):
+        subscribes(run, MOUNTING, "geometry_msgs/msg/Pose2D")
+        publishes(run, STATIC, TF)
+
+
+@mount.check(5, after=sends_static_transforms)
+def puts_it_there(run: Recording) -> list[Broadcast]:
+    """The parent is base_link, the child base_scan, and it is where the mechanic says: x and y."""
+    mounting = from_course(run, MOUNTING)[0].message
+    x, y = mounting.x, mounting.y
+    sent = between(
+        broadcasts(run, STATIC), "base_link", "base_scan", STATIC,
+        lambda one: math.dist(one.pose[:2], (x, y)) <= NEAR,
+    )  # fmt: skip
+    found = sent[-1].pose
+    if not math.dist(found[:2], (x, y)) <= NEAR:
+        # A coordinate that is right, and not by chance as 0 is.
+        known = [
+            same(saw, right, NEAR) and abs(right) / 2 > NEAR for saw, right in ((found.x, x), (found.y, y))
+        ]
+        raise Missed(
+            f"x {x:.2f} m, y {y:.2f} m",
+            f"x {found.x:.2f} m, y {found.y:.2f} m",
+            "translation.x is msg.x, and translation.y is msg.y.",
+            credit=PART if any(known) else 0.0,
+            measured=sent,
+        )
+    return sent
+
+
+@mount.check(
+    5,
+    after=puts_it_there,
+    hints={
+        f"z 0 and w 1 is no turn at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
+        "theta is in radians already.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
+        FULL_TURN: otherwise,
+    },
+)
+def turns_it(run: Recording, sent: list[Broadcast]) -> None:
+    """It is turned as the mechanic says: a quaternion of length 1, for theta about z."""
+    theta, turn = from_course(run, MOUNTING)[0].message.theta, sent[-1].message.transform.rotation
+    if not sent[-1].is_rotation:
+        length = math.hypot(turn.x, turn.y, turn.z, turn.w)
+        saw = f"one of length {length:.2f}, which tf2 throws away"
+        raise Missed("a quaternion of length 1", saw, FULL_TURN)
+    yaw = sent[-1].pose.yaw
+    if abs(math.remainder(yaw - theta, math.tau)) > NEAR:
+        raise Missed(f"yaw {theta:.2f} rad", f"yaw {yaw:.2f} rad", about=(turn,))
+
+
+@mount.check(2, after=puts_it_there)
+def says_it_once(run: Recording) -> None:
+    """It is said once, and kept for all who come later."""
+    count = sum(not row.from_course for row in run.messages(STATIC))
+    ends = [end for end in run.graph.publishers(STATIC) if not end.from_course]
+    volatile = any(end.qos["durability"] == "volatile" for end in ends)
+    if volatile or count > 1:
+        hint = "A StaticTransformBroadcaster keeps it for latecomers: send it once, when /mounting comes."
+        raise Missed("one message, kept (transient local)", f"{count}{', volatile' * volatile}", hint)

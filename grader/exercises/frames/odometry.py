@@ -1,0 +1,114 @@
+"""Broadcast a moving frame: where odometry has the robot."""
+
+from __future__ import annotations
+
+import math
+
+from builtin_interfaces.msg import Time
+
+from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks.fields import stamp_words
+from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
+from grader.companions.moving_frames import Wheels
+from grader.exercise import Exercise
+from grader.geometry import Pose2D
+from grader.responses import Window, from_course, same
+from sim.evidence import Message, Recording, since_start
+
+WHEELS = "/wheels/odom"
+SOON = 0.05  # s
+EARLY = 0.3  # s; until then, a place may be right by accident
+OFTEN = 0.3  # of the odometries
+
+odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companions=[Wheels], seeds=(1, 2))
+
+
+@odometry.check(2)
+def hears_and_sends(run: Recording) -> None:
+    """The node hears /wheels/odom, and publishes transforms on /tf."""
+    with hinting(guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback."):
+        subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
+        publishes(run, "/tf", TF)
+
+
+@odometry.check(
+    5,
+    after=hears_and_sends,
+    hints={
+        "That is where it was before. Send in the callback of /wheels/odom, and not from a timer.": (
+            lambda run, sent, poses: _is_late(sent, poses)
+        ),
+        "translation is the position, pose.pose.position: x and y of the same message.": (
+            lambda run, sent, poses: not _is_placed(sent, poses)
+        ),
+        f"Parts of rotation are those of pose.pose.orientation, all four. {FULL_TURN}": otherwise,
+    },
+)
+def puts_it_there(run: Recording) -> None:
+    """The parent is odom, the child base_link, and it is where the odometry has it, turned as it is."""
+    rows, sent, wrong = _odometry(run), broadcasts(run, "/tf"), []
+    for one in sent:
+        poses = [Pose2D.from_message(row.message.pose.pose) for row in Window(0.0, one.stamp).rows(rows)]
+        if poses and not (one.is_rotation and one.pose.is_near(poses[-1], NEAR, NEAR)):
+            wrong.append((one, poses))
+    between(sent, "odom", "base_link", "/tf", lambda one: not wrong)
+    if wrong:
+        first, poses = wrong[0]
+        credit = min((_credit(*pair) for pair in wrong if pair[0].stamp > EARLY), default=0.0)
+        saw = f"{first.pose}"
+        raise Missed(f"{poses[-1]} at {first.stamp:.3g} s", saw, about=(first, poses), credit=credit)
+    if len(sent) < OFTEN * len(rows):
+        hint = "The robot drives on: send in the callback of /wheels/odom, each time it is called."
+        raise Missed(f"a transform for each of {len(rows)} odometries", f"{len(sent)}", hint)
+
+
+@odometry.check(3, after=puts_it_there)
+def one_for_each(run: Recording) -> None:
+    """Each odometry gives one transform, at once."""
+    sent = broadcasts(run, "/tf")
+    for row in _odometry(run)[:-1]:  # the answer to the last may not have come
+        count = len(Window.after(row.stamp, SOON).rows(sent))
+        if count != 1:
+            hint = (
+                "Send in the callback of /wheels/odom: one transform for each message, and none from a timer."
+            )
+            expected = f"one transform for the odometry at {row.stamp:.3g} s, within {SOON:g} s"
+            raise Missed(expected, f"{count}", hint)
+
+
+@odometry.check(4, after=puts_it_there)
+def stamps_it(run: Recording) -> None:
+    """The transform has the odometry's stamp: when it was measured, and not when it was sent."""
+    stamps = [since_start(row.message.header.stamp) for row in _odometry(run)]
+    sent = broadcasts(run, "/tf")
+    for one in sent:
+        if not any(same(one.measured, stamp) for stamp in stamps):
+            stamp = one.message.header.stamp
+            hint = "Take header.stamp of the odometry: that is when the robot was there."
+            if stamp == Time():
+                hint = "Without a stamp it is a transform of time 0."
+            nearest = max((known for known in stamps if known <= one.stamp), default=stamps[0])
+            raise Missed(f"the stamp of {nearest:.3f} s", stamp_words(stamp), hint)
+    count = len({one.measured for one in sent})
+    if count < OFTEN * len(stamps):
+        hint = "Each odometry has a stamp of its own: take header.stamp of the one that has just come."
+        raise Missed(f"{len(stamps)} stamps, one for each odometry", f"{count}", hint)
+
+
+def _odometry(run: Recording) -> list[Message]:
+    return from_course(run, WHEELS, at_least=5, what="odometry")
+
+
+def _credit(sent: Broadcast, poses: list[Pose2D]) -> float:
+    """A part of the points where a wrong transform is right in one thing. poses: by the odometry so far."""
+    turned = abs(math.remainder(sent.pose.yaw - poses[-1].yaw, math.tau)) <= NEAR and sent.is_rotation
+    return PART if turned or _is_placed(sent, poses) or _is_late(sent, poses) else 0.0
+
+
+def _is_placed(sent: Broadcast, poses: list[Pose2D]) -> bool:
+    return math.dist(sent.pose[:2], poses[-1][:2]) <= NEAR
+
+
+def _is_late(sent: Broadcast, poses: list[Pose2D]) -> bool:
+    """Whether the robot was there a moment ago."""
+    return any(sent.pose.is_near(pose, NEAR, NEAR) for pose in poses[-3:])

@@ -1,0 +1,88 @@
+"""Find two faults: a node waits for a robot that does not exist, and drives another one."""
+
+from __future__ import annotations
+
+import math
+
+from grader.checks import Missed, named, publishes
+from grader.companions.tower_watcher import WAITING
+from grader.companions.transforms import localization
+from grader.exercise import Exercise
+from grader.worlds.fields import square
+from sim.evidence import Endpoint, Recording
+
+OUT, STRANGER = "/tower/cmd_vel", "/cmd_vel"
+HALF = 0.2  # of the points, where one of the two faults is corrected: with the rest that makes half
+SETTLED, BAND, STILL = 5.0, 0.3, 0.05  # s, rad, m
+
+watch = Exercise(
+    "watch",
+    "The tower that does not watch",
+    world=square,
+    seconds=9,
+    companions=lambda seed: localization(square(seed)),
+    seeds=(1, 2),
+)
+
+
+@watch.check(2)
+def starts_the_watcher(run: Recording) -> None:
+    """The watcher is started, as /watcher."""
+    named(run, "/watcher")
+
+
+@watch.check(10, after=starts_the_watcher)
+def faces_the_scout(run: Recording) -> None:
+    """From 5 s on the tower faces the scout, within 0.3 rad."""
+    _require_no_waiting(run)
+    _require_own_commands(run)
+    publishes(run, OUT, "geometry_msgs/msg/Twist")
+    for tower, scout in zip(run.tracks["tower"], run.tracks["scout"], strict=False):
+        angle = math.atan2(scout.y - tower.y, scout.x - tower.x)
+        off = abs(math.remainder(angle - tower.yaw, math.tau))
+        if tower.stamp >= SETTLED and not off <= BAND:
+            hint = "Which robot does it look at? `target` is the name of the one that drives: scout."
+            raise Missed(f"at most {BAND:g} rad off the scout", f"{off:.2f} rad at {tower.stamp:.3g} s", hint)
+
+
+@watch.check(4, after=faces_the_scout)
+def leaves_others_alone(run: Recording) -> None:
+    """The other robot is left where it is."""
+    for pose in run.path:
+        if math.dist(run.path[0][1:3], pose[1:3]) > STILL:
+            saw, hint = (
+                f"it has moved by {pose.stamp:.3g} s",
+                "That robot is not yours: send nothing on /cmd_vel.",
+            )
+            raise Missed("the other robot where it was", saw, hint, unsafe=True)
+
+
+def _require_no_waiting(run: Recording) -> None:
+    """Raise Missed where the watcher still waits for a frame."""
+    waits = [line for line in run.logs if not line.from_course and line.level == "WARN" and line.stamp > 1.0]
+    if waits:
+        is_watcher = all(line.text.startswith(WAITING) for line in waits)
+        raise Missed(
+            "no warning after 1 s",
+            f"“{waits[0].text}” at {waits[0].stamp:.3g} s",
+            "The log says which frame it waits for. Which robots are there? `target` is a parameter.",
+            credit=HALF if is_watcher and _publishers(run, OUT) else 0.0,
+        )
+
+
+def _require_own_commands(run: Recording) -> None:
+    """Raise Missed where all commands go to another robot."""
+    strange = _publishers(run, STRANGER)
+    if strange and not _publishers(run, OUT):
+        raise Missed(
+            f"commands on {OUT}",
+            f"{strange[0].node} publishes on {STRANGER}",
+            "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
+            "from cmd_vel to the tower's own topic, sends it there.",
+            credit=HALF,
+            unsafe=True,
+        )
+
+
+def _publishers(run: Recording, topic: str) -> list[Endpoint]:
+    return [end for end in run.graph.publishers(topic) if not end.from_course]
