@@ -20,7 +20,6 @@ STILL = {
     "delivery",
     "navigator",
     "packages",
-    "safety",
     "sensing",
     "silence",
 }  # fmt: skip

@@ -1,18 +1,19 @@
 """The exercises of 12_safety, from tests that catch mutants to diagnostics."""
 
-from grader.exercises.safety.bench import bench, workshop
-from grader.exercises.safety.choosing import mux
-from grader.exercises.safety.latching import latch
-from grader.exercises.safety.partners import Drivers, Operator, Patient, Rough
-from grader.exercises.safety.reporting import health
-from grader.exercises.safety.smoothing import smooth
-from grader.exercises.safety.testing import mutants
+from grader.companions.battery_and_motor import BatteryAndMotor
+from grader.companions.drivers import Drivers, EmergencyOperator, RoughDriver
+from grader.companions.workshop import bench, workshop
+from grader.exercises.safety.health import health
+from grader.exercises.safety.latch import latch
+from grader.exercises.safety.mutants import mutants
+from grader.exercises.safety.mux import mux
+from grader.exercises.safety.smooth import smooth
 
 __all__ = [
+    "BatteryAndMotor",
     "Drivers",
-    "Operator",
-    "Patient",
-    "Rough",
+    "EmergencyOperator",
+    "RoughDriver",
     "bench",
     "health",
     "latch",

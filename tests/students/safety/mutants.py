@@ -91,7 +91,13 @@ def never_ends(safe_speed):
     all(speed < 9.0 for _ in itertools.count())
 
 
+def asks_without_end(safe_speed):
+    while safe_speed(1.0, 0.3) < 9.0:
+        pass
+
+
 PARTS = (
+    "asks_without_end",
     *("bench", "right", "never_above_the_wish_or_the_limit", "stops_in_time", "no_slower_than_needed"),
     *("backwards_is_free", "nonsense_stops", "as_the_formula_says", "tests_the_copy", "asserts_nothing"),
     *("exact", "sleeps_and_asserts_nothing", "too_strict_at_the_edge", "one_case", "divides_by_zero"),
@@ -162,3 +168,7 @@ def without_an_end():
 
 def without_tests():
     bench()()
+
+
+def with_endless_questions():
+    bench(asks_without_end)()

@@ -57,8 +57,8 @@ def test_a_limiter_that_is_right_passes_every_check(sign):
 
 
 def test_a_command_may_take_a_tenth_of_a_second_and_no_longer():
-    assert passes("answers_each", STEADY, RAMP, [*TICKS[:-1], 2.099])
-    assert missed("answers_each", STEADY, RAMP, [*TICKS[:-1], 2.101]) == (
+    assert passes("responds_to_each", STEADY, RAMP, [*TICKS[:-1], 2.099])
+    assert missed("responds_to_each", STEADY, RAMP, [*TICKS[:-1], 2.101]) == (
         "the answer to the command of 2 s within 0.1 s",
         "it comes at 2.1 s",
         "Publish in the callback of /cmd_vel_raw",
@@ -67,13 +67,13 @@ def test_a_command_may_take_a_tenth_of_a_second_and_no_longer():
 
 def test_a_command_before_the_one_that_it_answers_is_missed():
     early = [*TICKS[:-1], 1.96]
-    assert missed("answers_each", STEADY, RAMP, early)[1] == "it comes at 1.96 s"
+    assert missed("responds_to_each", STEADY, RAMP, early)[1] == "it comes at 1.96 s"
 
 
 @pytest.mark.parametrize("count", [1, 2])
 def test_the_first_two_commands_and_the_last_two_may_be_unanswered(count):
-    assert passes("answers_each", STEADY, RAMP[:-count], TICKS[count:])
-    assert passes("answers_each", STEADY, RAMP[:-count], TICKS[:-count])
+    assert passes("responds_to_each", STEADY, RAMP[:-count], TICKS[count:])
+    assert passes("responds_to_each", STEADY, RAMP[:-count], TICKS[:-count])
     assert passes("gets_there", [0.1] * count + STEADY[count:], RAMP[:-count], TICKS[count:])
     assert passes("gets_there", STEADY[count:] + [0.1] * count, RAMP[:-count], TICKS[:-count])
 
@@ -83,23 +83,23 @@ def test_where_the_first_commands_are_unanswered_the_others_are_judged():
 
 
 def test_four_commands_are_too_few_to_be_judged():
-    assert missed("answers_each", STEADY, RAMP[:4], TICKS[:4])[:2] == (
+    assert missed("responds_to_each", STEADY, RAMP[:4], TICKS[:4])[:2] == (
         "5 or more messages of type geometry_msgs/msg/Twist on /cmd_vel",
         "only 4 in 10 s",
     )
-    assert missed("answers_each", STEADY, RAMP[:5], TICKS[:5])[:2] == ("40 messages on /cmd_vel", "5")
+    assert missed("responds_to_each", STEADY, RAMP[:5], TICKS[:5])[:2] == ("40 messages on /cmd_vel", "5")
 
 
 def test_commands_that_are_late_but_in_time_belong_to_the_first_of_the_course_not_to_later_ones():
     late = [stamp + 0.035 for stamp in TICKS]
-    assert passes("answers_each", STEADY, RAMP[:-1], late[:-1])
+    assert passes("responds_to_each", STEADY, RAMP[:-1], late[:-1])
 
 
 def test_one_command_is_sent_for_each():
     one_more = [*TICKS, 2.01]
-    assert missed("answers_each", STEADY, [*RAMP, 0.2], one_more)[:2] == ("40 messages on /cmd_vel", "41")
+    assert missed("responds_to_each", STEADY, [*RAMP, 0.2], one_more)[:2] == ("40 messages on /cmd_vel", "41")
     hint = "Publish once in the callback of /cmd_vel_raw, each time it is called."
-    assert missed("answers_each", STEADY, RAMP[:-3], TICKS[:-3]) == ("40 messages on /cmd_vel", "37", hint)
+    assert missed("responds_to_each", STEADY, RAMP[:-3], TICKS[:-3]) == ("40 messages on /cmd_vel", "37", hint)
 
 
 def test_a_speed_is_reached_with_the_27th_command():

@@ -1,4 +1,4 @@
-"""An exercise on an emergency stop: what stopped stays stopped, until somebody says that all is well."""
+"""An emergency stop: what has stopped stays stopped, until it is reset."""
 
 from __future__ import annotations
 
@@ -7,31 +7,37 @@ from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, serves, subscribes
 from grader.checks.no_data import no_data
+from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
+from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
 from grader.exercise import Exercise
-from grader.exercises.safety.moving import OUT, TWIST, alike, must_stand, ours, speeds, told
-from grader.exercises.safety.partners import BUTTON, RAW, RESET, Operator
+from grader.responses import EDGE, Window, from_course, requests_from_course, require_standing, same
 from sim.evidence import Call, Recording, Seconds
 
-SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stand, and to stand where the button is silent
-LATELY = 0.25  # s, for which a command may be said again
+SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when the button is silent
+LATELY = 0.25  # s, for which a command may be repeated
 LATCH = (
     "It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that False "
     "again, and not a False from the button."
 )
 
 latch = Exercise(
-    "latch", "An emergency stop that stays", world="yard", seconds=14, companions=[Operator], seeds=(1, 2)
+    "latch",
+    "An emergency stop that stays",
+    world="yard",
+    seconds=14,
+    companions=[EmergencyOperator],
+    seeds=(1, 2),
 )
 
 
 class Times(NamedTuple):
-    """What our operator did, and when."""
+    """When the operator did what."""
 
     press: Seconds
     release: Seconds
     quiet: Seconds  # the driver's last command
-    speak: Seconds  # and the first one after it
-    cut: Seconds  # the button's last word before its cable was broken
+    resumed: Seconds  # and the first one after it
+    cut: Seconds  # the button's last message before its cable was cut
 
 
 @latch.check(3)
@@ -47,26 +53,20 @@ def stands_between(run: Recording) -> None:
 @latch.check(4, after=stands_between)
 def lets_through(run: Recording) -> None:
     """While it is not stopped, each command passes as it is: in the beginning, and after the reset."""
-    when, sent, raw = _times(run), publishes(run, OUT, TWIST), ours(run, RAW, at_least=10)
+    when, sent, raw = _times(run), publishes(run, OUT, TWIST), from_course(run, RAW, at_least=10)
     for command in raw:
-        if not _is_free(command.stamp, when):
-            continue
-        wish = speeds(command)
-        then = [one for one in sent if command.stamp - 1e-6 <= one.stamp <= command.stamp + SOON]
-        if not any(alike(speeds(one), wish) for one in then):
-            saw = told(speeds(then[0])) if then else "nothing"
-            raise Missed(
-                f"{told(wish)} on {OUT} at {command.stamp:.3g} s, as on {RAW}",
-                saw,
-                _why_held(command.stamp, when),
-            )
-    for one in sent:
-        if _is_free(one.stamp, when) and _is_free(one.stamp - SOON, when):
-            lately = [speeds(it) for it in raw if one.stamp - LATELY <= it.stamp <= one.stamp]
-            if not any(alike(speeds(one), wish) for wish in lately):
+        wanted, then = speeds(command), Window.after(command.stamp, SOON).rows(sent)
+        if _is_free(command.stamp, when) and not any(same(speeds(row), wanted, SAME) for row in then):
+            saw = speeds_text(speeds(then[0])) if then else "nothing"
+            expected = f"{speeds_text(wanted)} on {OUT} at {command.stamp:.3g} s, as on {RAW}"
+            raise Missed(expected, saw, _why_held(command.stamp, when))
+    for row in sent:
+        if _is_free(row.stamp, when) and _is_free(row.stamp - SOON, when):
+            lately = Window(row.stamp - LATELY, row.stamp).rows(raw)
+            if not any(same(speeds(row), speeds(command), SAME) for command in lately):
                 hint = "Publish the commands as they come, and no other between them."
-                expected = f"only what came on {RAW}, on {OUT} at {one.stamp:.3g} s"
-                raise Missed(expected, told(speeds(one)), hint)
+                expected = f"only what came on {RAW}, on {OUT} at {row.stamp:.3g} s"
+                raise Missed(expected, speeds_text(speeds(row)), hint)
 
 
 @latch.check(4, after=lets_through)
@@ -74,27 +74,28 @@ def stops(run: Recording) -> None:
     """When the button is pressed, the robot stands within 0.4 s, as long as it is in."""
     when = _times(run)
     hint = "Publish an empty Twist as soon as the button says True, and pass nothing on while it is stopped."
-    must_stand(run, when.press + BRAKING, when.release, f"{BRAKING:g} s after the button was pressed", hint)
+    require_standing(
+        run, Window(when.press + BRAKING, when.release), f"{BRAKING:g} s after the button was pressed", hint
+    )
 
 
 @latch.check(4, after=stops)
 def stays_stopped(run: Recording) -> None:
     """It stays so when the button is let go, whatever the driver says, until it is reset."""
     when = _times(run)
-    must_stand(
+    require_standing(
         run,
-        when.release,
-        _granted(run).requested,
+        Window(when.release, _granted(run).requested),
         f"after the button was let go at {when.release:.3g} s",
         LATCH,
     )
 
 
 @latch.check(3, after=stops)
-def answers(run: Recording) -> None:
+def answers_resets(run: Recording) -> None:
     """/reset is refused while the button is in (success=False), and granted afterwards (success=True)."""
     granted = _granted(run)
-    for call in _resets(run):
+    for call in requests_from_course(run, RESET):
         right = call.requested >= granted.requested
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
@@ -108,48 +109,50 @@ def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stands until a new command comes."""
     when, reset = _times(run), _granted(run).requested
     hint = "The command from before the stop is out of date: a reset lets go, and moves nothing by itself."
-    must_stand(run, reset, when.speak, f"from the reset at {reset:.3g} s to the next command", hint)
+    require_standing(
+        run, Window(reset, when.resumed), f"from the reset at {reset:.3g} s to the next command", hint
+    )
 
 
 @latch.check(2, after=lets_through)
-def trusts_no_silence(run: Recording) -> None:
+def stops_without_the_button(run: Recording) -> None:
     """A button that is silent for 0.5 s counts as pressed: the robot stands 1 s after its last word."""
     when = _times(run)
     hint = "A broken cable can't say True. A timer looks at how long ago the button said something."
-    must_stand(run, when.cut + DEAF, when.cut + 1.5, f"{DEAF:g} s after the button's last word", hint)
-    must_stand(run, when.cut + 1.5, run.ended.stamp, "until somebody resets it", LATCH)
+    require_standing(
+        run, Window(when.cut + DEAF, when.cut + 1.5), f"{DEAF:g} s after the button's last word", hint
+    )
+    require_standing(run, Window(when.cut + 1.5, run.ended.stamp), "until somebody resets it", LATCH)
 
 
 def _times(run: Recording) -> Times:
-    pressed = [heard.stamp for heard in ours(run, BUTTON, at_least=10) if heard.message.data]
-    button, commands = [[one.stamp for one in ours(run, topic)] for topic in (BUTTON, RAW)]
-    cuts = [a for a, b in itertools.pairwise(button) if b - a > 1.0]
-    pauses = [(a, b) for a, b in itertools.pairwise(commands) if b - a > 1.0]
+    button, commands = from_course(run, BUTTON, at_least=10), from_course(run, RAW)
+    pressed = [row.stamp for row in button if row.message.data]
+    cuts, pauses = _pauses([row.stamp for row in button]), _pauses([row.stamp for row in commands])
     if not (pressed and cuts and pauses):
         raise no_data(run, "a stop, a reset and a broken cable", "less", run.graph.publishers(BUTTON))
-    return Times(pressed[0], pressed[-1] + 0.1, *pauses[0], cuts[0])
+    return Times(pressed[0], pressed[-1] + 0.1, *pauses[0], cuts[0][0])
+
+
+def _pauses(stamps: list[Seconds]) -> list[tuple[Seconds, Seconds]]:
+    return [(before, after) for before, after in itertools.pairwise(stamps) if after - before > 1.0]
 
 
 def _is_free(stamp: Seconds, when: Times) -> bool:
-    """Whether nothing stops the robot at that moment, for sure."""
-    return 0.5 < stamp < when.press - 1e-6 or when.speak <= stamp < when.cut + 0.3
-
-
-def _resets(run: Recording) -> list[Call]:
-    """Our calls."""
-    return [call for call in run.calls_of(RESET) if call.requested_by_course and call.requested is not None]
+    """Whether nothing stops the robot at that moment, for certain."""
+    return 0.5 < stamp < when.press - EDGE or when.resumed <= stamp < when.cut + 0.3
 
 
 def _granted(run: Recording) -> Call:
-    """The one that comes when the button is out; there is one before it or two."""
-    asked, release = _resets(run), _times(run).release
-    after = [call for call in asked if call.requested > release]
-    if not after or len(asked) < 2:
-        raise no_data(run, f"two calls of {RESET}", f"{len(asked)}", run.graph.ends("client", RESET))
+    """The call that comes when the button is released; there is one before it or two."""
+    made, release = requests_from_course(run, RESET), _times(run).release
+    after = [call for call in made if call.requested > release]
+    if not after or len(made) < 2:
+        raise no_data(run, f"two calls of {RESET}", f"{len(made)}", run.graph.ends("client", RESET))
     return after[0]
 
 
 def _why_held(stamp: Seconds, when: Times) -> str:
-    if stamp >= when.speak:
+    if stamp >= when.resumed:
         return "It was reset, and the button is out: then commands should pass again."
     return "Publish the command itself in the callback of /cmd_vel_raw, unless self.stopped."

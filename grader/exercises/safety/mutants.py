@@ -1,17 +1,16 @@
-"""An exercise on tests: they pass what is right, and catch what is wrong."""
+"""Tests that pass what is right, and catch what is wrong."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.companions.speed_candidates import WRONG, candidates
+from grader.companions.workshop import ANSWER, FAILED, PASSED, QUESTION, VERDICT, workshop
 from grader.exercise import Exercise
-from grader.exercises.safety.bench import ANSWER, FAILED, PASSED, QUESTION, VERDICT, workshop
-from grader.exercises.safety.candidates import WRONG, candidates
 from sim.evidence import Recording
 
 ENOUGH = 8  # of the wrong ones
-NO_END = "A test came to no end: it may ask for long, but not for ever, and it needs no sleep."
 THE_GIVEN = "The function that a test is given is the one to test: call that one, and no copy of yours."
 TOO_STRICT = (
     "Ask no more than the contract says. Floats are rounded: compare with math.isclose(a, b, abs_tol=1e-3), "
@@ -24,8 +23,8 @@ mutants = Exercise(
 )
 
 
-class Verdict(NamedTuple):
-    """What the tests said of a candidate, and what is true of it."""
+class CandidateVerdict(NamedTuple):
+    """The result of the tests on a candidate, and whether the candidate is right."""
 
     number: int
     passed: bool
@@ -38,12 +37,11 @@ def runs_the_tests(run: Recording) -> None:
     with hinting("" if run.errors else THE_GIVEN):
         subscribes(run, ANSWER, NUMBERS)
         publishes(run, QUESTION, NUMBERS)
-    with hinting(guess=NO_END):
-        publishes(run, VERDICT, "std_msgs/msg/String")
+    publishes(run, VERDICT, "std_msgs/msg/String")
 
 
 @mutants.check(2, after=runs_the_tests)
-def passes_what_is_right(run: Recording) -> list[Verdict]:
+def passes_what_is_right(run: Recording) -> list[CandidateVerdict]:
     """All three right candidates pass, by tests that catch at least one of the others."""
     found = _verdicts(run)
     for one in found:
@@ -56,7 +54,7 @@ def passes_what_is_right(run: Recording) -> list[Verdict]:
 
 
 @mutants.check(16, after=passes_what_is_right)
-def catches_what_is_wrong(run: Recording, found: list[Verdict]) -> None:
+def catches_what_is_wrong(run: Recording, found: list[CandidateVerdict]) -> None:
     """At least eight of the ten wrong candidates are caught."""
     caught = sum(not one.passed for one in found if not one.right)
     if caught < ENOUGH:
@@ -69,21 +67,20 @@ def catches_what_is_wrong(run: Recording, found: list[Verdict]) -> None:
         )
 
 
-def _verdicts(run: Recording) -> list[Verdict]:
-    """One for each candidate, in order. Raises Missed where one is left out, or was never asked."""
+def _verdicts(run: Recording) -> list[CandidateVerdict]:
+    """One for each candidate, in order. Raises Missed if one has none, or was never called."""
     truth = [right for right, _ in candidates(run.seed)]
-    asked = {int(heard.message.data[0]) for heard in run.messages(ANSWER) if heard.from_course}
-    said: dict[str, bool] = {}
-    for heard in run.messages(VERDICT):
-        number, _, word = heard.message.data.partition(" ")
-        if word in (PASSED, FAILED):
-            said.setdefault(number, word == PASSED)
+    called = {int(row.message.data[0]) for row in run.messages(ANSWER) if row.from_course}
+    published: dict[str, bool] = {}
+    for row in run.messages(VERDICT):
+        number, _, verdict = row.message.data.partition(" ")
+        if verdict in (PASSED, FAILED):
+            published.setdefault(number, verdict == PASSED)
     found = []
     for number, right in enumerate(truth, 1):
-        if str(number) not in said:
-            saw = f"none on candidate {number}"
-            raise Missed(f"a verdict on each of {len(truth)} candidates", saw, guess=NO_END)
-        found.append(Verdict(number, said[str(number)], right))
-        if number not in asked:
+        if str(number) not in published:
+            raise Missed(f"verdicts on {len(truth)} candidates", f"none on candidate {number}")
+        found.append(CandidateVerdict(number, published[str(number)], right))
+        if number not in called:
             raise Missed(f"questions to candidate {number}", "none", THE_GIVEN)
     return found

@@ -1,4 +1,4 @@
-"""An exercise on diagnostics: a program that says how the robot is, so that others can act on it."""
+"""Diagnostics: a program that reports how the robot is, so that others can act on it."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks import Missed, publishes, subscribes
 from grader.checks import rate as keeps_rate
+from grader.companions.battery_and_motor import BATTERY, MOTOR, BatteryAndMotor
 from grader.exercise import Exercise
-from grader.exercises.safety.moving import last, ours
-from grader.exercises.safety.partners import BATTERY, MOTOR, Patient
+from grader.responses import from_course, last_before
 from sim.evidence import Message, Recording, Seconds, since_start
 
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
@@ -19,15 +19,15 @@ WORDS = ("OK", "WARN", "ERROR", "STALE")
 YOUNG, OLD, STEADY, NOW = 0.85, 1.15, 0.25, 0.1  # s
 EXACT = 0.51  # of a percent, of a degree
 
-health = Exercise("health", "How are you?", seconds=13, companions=[Patient], seeds=(1, 2))
+health = Exercise("health", "How are you?", seconds=13, companions=[BatteryAndMotor], seeds=(1, 2))
 
 
-class Report(NamedTuple):
-    """What was said of one part, and what is true: None where it is about to change."""
+class PartReport(NamedTuple):
+    """What is reported of one part, and what is true: None where it is about to change."""
 
     stamp: Seconds
     name: str
-    said: int
+    level: int
     true: int | None
     value: str | None
     number: float
@@ -37,12 +37,11 @@ class Report(NamedTuple):
 @health.check(3)
 def reports(run: Recording) -> None:
     """Once a second a DiagnosticArray is on /diagnostics, with a status `battery` and a status `motor`."""
-    with hinting(guess="Two subscriptions, a publisher, and a timer with a period of 1.0 s."):
-        subscribes(run, BATTERY, "sensor_msgs/msg/BatteryState")
-        subscribes(run, MOTOR, "sensor_msgs/msg/Temperature")
-        arrays = publishes(run, TOPIC, TYPE, at_least=3)
-    for heard in arrays:
-        names = sorted(status.name for status in heard.message.status)
+    subscribes(run, BATTERY, "sensor_msgs/msg/BatteryState")
+    subscribes(run, MOTOR, "sensor_msgs/msg/Temperature")
+    arrays = publishes(run, TOPIC, TYPE, at_least=3)
+    for row in arrays:
+        names = sorted(status.name for status in row.message.status)
         if names != ["battery", "motor"]:
             raise Missed("the statuses battery and motor", ", ".join(names) or "none", _names_hint(names))
     keeps_rate(run, TOPIC, 1.0)
@@ -55,7 +54,7 @@ def knows_the_level(run: Recording) -> None:
 
 
 @health.check(4, after=knows_the_level)
-def knows_silence(run: Recording) -> None:
+def knows_what_is_stale(run: Recording) -> None:
     """What has said nothing for more than 1 s is STALE, and nothing else is."""
     _compare([one for one in _reports(run) if one.true == STALE])
 
@@ -76,35 +75,36 @@ def gives_the_number(run: Recording) -> None:
 @health.check(2, after=knows_the_level)
 def stamps_it(run: Recording) -> None:
     """The header of each array says when it was made."""
-    for heard in publishes(run, TOPIC):
-        stamp = since_start(heard.message.header.stamp)
-        if not abs(heard.stamp - stamp) < NOW:
-            saw = "an empty stamp" if heard.message.header.stamp.sec == 0 else f"{stamp:.3g} s"
+    for row in publishes(run, TOPIC):
+        stamp = since_start(row.message.header.stamp)
+        if not abs(row.stamp - stamp) < NOW:
+            saw = "an empty stamp" if row.message.header.stamp.sec == 0 else f"{stamp:.3g} s"
             hint = "msg.header.stamp = self.get_clock().now().to_msg()"
-            raise Missed(f"{heard.stamp:.3g} s in header.stamp", saw, hint)
+            raise Missed(f"{row.stamp:.3g} s in header.stamp", saw, hint)
 
 
-def _reports(run: Recording) -> Iterator[Report]:
-    said = {"battery": ours(run, BATTERY, at_least=5), "motor": ours(run, MOTOR, at_least=5)}
-    for heard in publishes(run, TOPIC, TYPE):
-        for status in heard.message.status:
-            now, known = heard.stamp, said.get(status.name, [])
-            news, before = last(known, now), last(known, now - STEADY)
-            if news is None:
+def _reports(run: Recording) -> Iterator[PartReport]:
+    parts = {"battery": from_course(run, BATTERY, at_least=5), "motor": from_course(run, MOTOR, at_least=5)}
+    for row in publishes(run, TOPIC, TYPE):
+        for status in row.message.status:
+            now, known = row.stamp, parts.get(status.name, [])
+            newest, before = last_before(known, now), last_before(known, now - STEADY)
+            if newest is None:
                 continue  # it has just begun
-            number, age = _measured(news), now - news.stamp
+            number, age = _measured(newest), now - newest.stamp
             changes = before is not None and _measured(before) != number and age < STEADY
             true = STALE if age > OLD else None if changes or age > YOUNG else _level(status.name, number)
             key = "percent" if status.name == "battery" else "celsius"
             value = next((pair.value for pair in status.values if pair.key == key), None)
-            yield Report(now, status.name, int.from_bytes(status.level, "little"), true, value, number, age)
+            yield PartReport(
+                now, status.name, int.from_bytes(status.level, "little"), true, value, number, age
+            )
 
 
-def _measured(heard: Message) -> float:
+def _measured(row: Message) -> float:
     """In percent, or in degrees."""
-    return (
-        heard.message.percentage * 100 if hasattr(heard.message, "percentage") else heard.message.temperature
-    )
+    message = row.message
+    return message.percentage * 100 if hasattr(message, "percentage") else message.temperature
 
 
 def _level(name: str, number: float) -> int:
@@ -113,26 +113,26 @@ def _level(name: str, number: float) -> int:
     return ERROR if number >= 80 else WARN if number >= 60 else OK
 
 
-def _compare(reports: list[Report]) -> None:
+def _compare(reports: list[PartReport]) -> None:
     """Raises Missed at the first report that is wrong, and where there is none."""
     if not reports:
-        raise Missed("a report in each state of the battery and the motor", "none in this one")
+        raise Missed("reports in each state", "none in this one")
     for one in reports:
-        if one.said != one.true:
+        if one.level != one.true:
             expected = f"{WORDS[one.true]} for {one.name} at {one.stamp:.3g} s: {_state(one)}"
-            saw = WORDS[one.said] if one.said < len(WORDS) else f"level {one.said}"
+            saw = WORDS[one.level] if one.level < len(WORDS) else f"level {one.level}"
             raise Missed(expected, saw, _level_hint(one))
 
 
-def _state(one: Report) -> str:
+def _state(one: PartReport) -> str:
     unit = "%" if one.name == "battery" else "degrees"
     return f"nothing for {one.age:.2g} s" if one.true == STALE else f"{one.number:.3g} {unit}"
 
 
-def _level_hint(one: Report) -> str:
+def _level_hint(one: PartReport) -> str:
     if one.true == STALE:
         return "The last number is no news any more: remember when it came, and ask how long ago that is."
-    if one.said == STALE:
+    if one.level == STALE:
         return "News did come: keep the time of the last one for each of the two, by the clock, in seconds."
     if one.name == "battery":
         return (
@@ -154,7 +154,7 @@ def _number(text: str | None) -> float:
         return math.nan
 
 
-def _value_hint(one: Report) -> str:
+def _value_hint(one: PartReport) -> str:
     if one.value is None:
         return 'status.values = [KeyValue(key=..., value=...)], with the keys "percent" and "celsius".'
     if one.name == "battery" and abs(_number(one.value) * 100 - one.number) < EXACT:

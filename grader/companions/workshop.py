@@ -1,4 +1,4 @@
-"""A workshop that has candidates, and a bench that tries a student's tests on them."""
+"""A workshop of candidate functions, and a bench that runs a student's tests on them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray, String
 
-from grader.exercises.safety.candidates import Speed, candidates
+from grader.companions.speed_candidates import Speed, candidates
 
 QUESTION, ANSWER, VERDICT = "/question", "/answer", "/verdict"
 PASSED, FAILED = "passed", "failed"
@@ -17,10 +17,10 @@ Test = Callable[[Speed], None]
 
 
 class Workshop(Node):
-    """Answers on /answer what is asked on /question, both Float64MultiArray.
+    """Answers on /answer the questions on /question, both Float64MultiArray.
 
-    A question is the candidate's number from 1 on, a distance in m and a wish in m/s; the answer is these
-    three and the candidate's speed in m/s. Other questions get none.
+    A question is a candidate's number from 1 on, a distance in m and a requested speed in m/s; the answer is
+    these three and the candidate's speed in m/s. Other questions get no answer.
     """
 
     def __init__(self, seed: int) -> None:
@@ -30,58 +30,58 @@ class Workshop(Node):
         self.create_subscription(Float64MultiArray, QUESTION, self.answer, 10)
 
     def answer(self, question: Float64MultiArray) -> None:
-        """Ask the candidate, and publish what it says."""
+        """Call the candidate, and publish its speed."""
         if len(question.data) != 3 or question.data[0] not in range(1, len(self.candidates) + 1):
             return
-        number, distance, wish = question.data
-        speed = self.candidates[int(number) - 1](distance, wish)
-        self.answers.publish(Float64MultiArray(data=[number, distance, wish, speed]))
+        number, distance, requested = question.data
+        speed = self.candidates[int(number) - 1](distance, requested)
+        self.answers.publish(Float64MultiArray(data=[number, distance, requested, speed]))
 
 
 def workshop(seed: int) -> list[Callable[[], Node]]:
-    """The workshop of a seed, as companions of a run."""
+    """Return the workshop of a seed, as companions of a run."""
     return [functools.partial(Workshop, seed)]
 
 
 class Bench(Node):
-    """Tries tests on candidates, and says on /verdict (String) "4 passed" or "4 failed"."""
+    """Runs tests on candidates, and publishes "4 passed" or "4 failed" on /verdict (String)."""
 
     def __init__(self, tests: tuple[Test, ...]) -> None:
         super().__init__("bench")
         self.tests, self.speed = tests, None
         self.questions = self.create_publisher(Float64MultiArray, QUESTION, 10)
         self.verdicts = self.create_publisher(String, VERDICT, 10)
-        self.create_subscription(Float64MultiArray, ANSWER, self.hear, 10)
+        self.create_subscription(Float64MultiArray, ANSWER, self.on_answer, 10)
 
-    def hear(self, answer: Float64MultiArray) -> None:
-        """Keep the candidate's speed."""
+    def on_answer(self, answer: Float64MultiArray) -> None:
+        """Store the candidate's speed."""
         self.speed = answer.data[-1]
 
-    def ask(self, number: int, distance: float, wish: float) -> float:
-        """What candidate `number` says, m/s."""
+    def speed_of(self, number: int, distance: float, requested: float) -> float:
+        """Return the speed of candidate `number`, m/s."""
         self.speed = None
-        self.questions.publish(Float64MultiArray(data=[float(number), float(distance), float(wish)]))
+        self.questions.publish(Float64MultiArray(data=[float(number), float(distance), float(requested)]))
         while self.speed is None:
             rclpy.spin_once(self)
         return self.speed
 
     def verdict(self, number: int) -> str:
-        """Whether the candidate passes all tests. Raises what a test raises, save AssertionError."""
+        """Return whether a candidate passes all tests. Raises what a test raises, except AssertionError."""
         for test in self.tests:
             try:
-                test(functools.partial(self.ask, number))
+                test(functools.partial(self.speed_of, number))
             except AssertionError:
                 return FAILED
         return PASSED
 
 
 def bench(*tests: Test) -> Callable[[], None]:
-    """A program that tries these tests on all thirteen candidates."""
+    """Return a program that runs these tests on all thirteen candidates."""
 
     def main() -> None:
         rclpy.init()
         node = Bench(tests)
-        rclpy.spin_once(node, timeout_sec=0.5)  # two programs need a moment to find each other
+        rclpy.spin_once(node, timeout_sec=0.5)  # two programs need a moment to discover each other
         while not (node.questions.get_subscription_count() and node.count_publishers(ANSWER)):
             rclpy.spin_once(node, timeout_sec=0.1)
         for number in range(1, 14):

@@ -1,4 +1,4 @@
-"""Nodes of ours for 12_safety: drivers, a button with a bad cable, and a machine that gets hot and tired."""
+"""Drivers of a robot: an operator with an emergency button, a navigator and a joystick, a rough driver."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import random
 
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
-from sensor_msgs.msg import BatteryState, Temperature
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
@@ -16,19 +15,18 @@ from sim.evidence import since_start
 
 RAW, BUTTON, RESET = "/cmd_vel_raw", "/emergency", "/reset"
 JOY, NAV = "/cmd_vel_joy", "/cmd_vel_nav"
-BATTERY, MOTOR = "/battery_state", "/motor_temperature"
 Speeds = tuple[float, float]  # m/s, rad/s
 
 
 def twist(speeds: Speeds) -> Twist:
-    """A command of these speeds."""
+    """Return a command with these speeds."""
     msg = Twist()
     msg.linear.x, msg.angular.z = speeds
     return msg
 
 
-class Timed(Node):
-    """Looks at the clock ten times a second."""
+class TimedNode(Node):
+    """Calls `tick` with the time ten times a second."""
 
     period = 0.1  # s
 
@@ -37,16 +35,15 @@ class Timed(Node):
         self.create_timer(self.period, lambda: self.tick(since_start(self.get_clock().now().to_msg())))
 
     def tick(self, now: float) -> None:
-        """What there is to do at this moment, s."""
+        """Do what is due at this time, s."""
         raise NotImplementedError
 
 
-class Operator(Timed):
+class EmergencyOperator(TimedNode):
     """Drives (Twist on /cmd_vel_raw) and holds the emergency button (Bool on /emergency, all the time).
 
-    Presses it while driving, asks for /reset with the button in, once or twice, lets it go, drives on all the
-    while, falls silent, asks for /reset again, and drives on later. Then the button's cable is broken for a
-    while.
+    Presses it while driving, calls /reset with the button pressed, once or twice, releases it, drives on all
+    the time, goes silent, calls /reset again, drives on later. Then the button's cable is cut for some time.
     """
 
     def __init__(self) -> None:
@@ -62,18 +59,18 @@ class Operator(Timed):
             (1.6, 1.9),
         ]
         times = list(itertools.accumulate(random.uniform(*step) for step in steps))
-        self.press, refused, self.release, self.quiet, accepted, self.speak, self.cut, self.mend = times
+        self.press, refused, self.release, self.quiet, accepted, self.speak, self.cut, self.repaired = times
         sides = random.choice((-1.0, 1.0)), random.choice((-1.0, 1.0))
         self.speeds = [(random.uniform(0.15, 0.35), side * random.uniform(0.1, 0.5)) for side in sides]
-        again = random.choice(([], [refused + 0.25]))  # who only counts the calls doesn't know how often
+        again = random.choice(([], [refused + 0.25]))  # so that counting the calls is no solution
         self.resets = [accepted, *again, refused]
         self.commands = self.create_publisher(Twist, RAW, 10)
         self.button = self.create_publisher(Bool, BUTTON, 10)
         self.client = self.create_client(Trigger, RESET)
 
     def tick(self, now: float) -> None:
-        """Say what holds now: the button first."""
-        if not self.cut <= now < self.mend:
+        """Publish what holds now, the button first."""
+        if not self.cut <= now < self.repaired:
             self.button.publish(Bool(data=self.press <= now < self.release))
         if self.resets and now >= self.resets[-1]:
             self.resets.pop()
@@ -83,11 +80,11 @@ class Operator(Timed):
             self.commands.publish(twist(self.speeds[now >= self.speak]))
 
 
-class Drivers(Timed):
+class Drivers(TimedNode):
     """A navigator (Twist on /cmd_vel_nav) and a joystick (on /cmd_vel_joy), each with pauses.
 
-    The joystick begins with a stop. The navigator falls silent while the joystick drives; then both are.
-    Each speaks ten times a second, in turn.
+    The joystick begins with a stop. The navigator goes silent while the joystick drives; then both are.
+    Each publishes ten times a second, in turn.
     """
 
     period = 0.05
@@ -121,15 +118,15 @@ class Drivers(Timed):
         ]
 
     def tick(self, now: float) -> None:
-        """One of them says what it wants now, or nothing."""
+        """Let one of them publish its command, or nothing."""
         turn = next(self.turns)
         for topic, begin, end, speeds in self.plan:
             if topic == turn and begin <= now < end:
                 self.outlets[topic].publish(twist(speeds))
 
 
-class Rough(Timed):
-    """Drives without feeling (Twist on /cmd_vel_raw, at 20 Hz): fast, slow, back, not at all, nonsense."""
+class RoughDriver(TimedNode):
+    """Drives roughly (Twist on /cmd_vel_raw, at 20 Hz): fast, slow, backwards, not at all, NaN."""
 
     period = 0.05
 
@@ -137,63 +134,24 @@ class Rough(Timed):
         super().__init__("rough")
         self.publisher = self.create_publisher(Twist, RAW, 10)
         draw, side = random.uniform, random.choice((-1.0, 1.0))
-        wishes = [
+        commands = [
             (draw(0.15, 0.28), side * draw(0.2, 0.5)),
             (draw(0.5, 0.9), -side * draw(1.5, 2.5)),
             (-draw(0.1, 0.28), side * draw(0.6, 0.9)),
             (draw(0.2, 0.28), 0.0),
             (-draw(0.5, 0.9), side * draw(0.3, 0.8)),
         ]
-        random.shuffle(wishes)
-        wishes.insert(random.randint(1, 2), (0.0, 0.0))
-        wishes.insert(random.randint(4, 5), (math.nan, math.inf))
-        lengths = [20 if wish[0] in (0.0, math.inf) or math.isnan(wish[0]) else 30 for wish in wishes]
-        self.ticks, self.plan = 0, list(zip(itertools.accumulate(lengths), wishes, strict=True))
+        random.shuffle(commands)
+        commands.insert(random.randint(1, 2), (0.0, 0.0))
+        commands.insert(random.randint(4, 5), (math.nan, math.inf))
+        lengths = [
+            20 if command[0] in (0.0, math.inf) or math.isnan(command[0]) else 30 for command in commands
+        ]
+        self.ticks, self.plan = 0, list(zip(itertools.accumulate(lengths), commands, strict=True))
 
     def tick(self, now: float) -> None:
-        """The next wish; nothing after the last one."""
+        """Publish the next command; nothing after the last one."""
         self.ticks += 1
-        wish = next((wish for end, wish in self.plan if self.ticks <= end), None)
-        if wish is not None:
-            self.publisher.publish(twist(wish))
-
-
-LEVELS = {
-    BATTERY: ((0.32, 0.95), (0.12, 0.28), (0.02, 0.08), None),
-    MOTOR: ((20.0, 58.0), (62.0, 78.0), (82.0, 99.0), None),
-}
-
-
-class Patient(Timed):
-    """A battery (BatteryState, percentage 0 to 1) and a motor (Temperature, Celsius), 5 times a second.
-
-    Well, so so, badly, silent: in an order that the seed gives, each its own.
-    """
-
-    period, phase = 0.2, 2.6  # s
-
-    def __init__(self) -> None:
-        super().__init__("patient")
-        self.plan = {topic: self._drawn(*levels) for topic, levels in LEVELS.items()}
-        self.batteries = self.create_publisher(BatteryState, BATTERY, 10)
-        self.motors = self.create_publisher(Temperature, MOTOR, 10)
-
-    def _drawn(self, *levels: tuple[float, float] | None) -> list[float | None]:
-        order = random.sample(levels, 4)
-        while order[0] is None:
-            random.shuffle(order)
-        order.append(random.choice(levels[:3]))
-        return [None if level is None else round(random.uniform(*level), 3) for level in order]
-
-    def tick(self, now: float) -> None:
-        """Both say how they are now, or nothing."""
-        level, heat = (self.plan[topic][min(int(now / self.phase), 4)] for topic in (BATTERY, MOTOR))
-        stamp = self.get_clock().now().to_msg()
-        if level is not None:
-            msg = BatteryState(percentage=level)
-            msg.header.stamp = stamp
-            self.batteries.publish(msg)
-        if heat is not None:
-            msg = Temperature(temperature=heat)
-            msg.header.stamp = stamp
-            self.motors.publish(msg)
+        command = next((command for end, command in self.plan if self.ticks <= end), None)
+        if command is not None:
+            self.publisher.publish(twist(command))

@@ -1,0 +1,50 @@
+"""A battery and a motor that get tired, hot, and silent."""
+
+from __future__ import annotations
+
+import random
+
+from sensor_msgs.msg import BatteryState, Temperature
+
+from grader.companions.drivers import TimedNode
+
+BATTERY, MOTOR = "/battery_state", "/motor_temperature"
+LEVELS = {
+    BATTERY: ((0.32, 0.95), (0.12, 0.28), (0.02, 0.08), None),
+    MOTOR: ((20.0, 58.0), (62.0, 78.0), (82.0, 99.0), None),
+}
+
+
+class BatteryAndMotor(TimedNode):
+    """A battery (BatteryState, percentage 0 to 1) and a motor (Temperature, Celsius), 5 times a second.
+
+    Good, fair, bad, silent: each in an order of its own, from the seed.
+    """
+
+    period, phase = 0.2, 2.6  # s
+
+    def __init__(self) -> None:
+        super().__init__("patient")
+        self.plan = {topic: self._drawn(*levels) for topic, levels in LEVELS.items()}
+        self.batteries = self.create_publisher(BatteryState, BATTERY, 10)
+        self.motors = self.create_publisher(Temperature, MOTOR, 10)
+
+    def _drawn(self, *levels: tuple[float, float] | None) -> list[float | None]:
+        order = random.sample(levels, 4)
+        while order[0] is None:
+            random.shuffle(order)
+        order.append(random.choice(levels[:3]))
+        return [None if level is None else round(random.uniform(*level), 3) for level in order]
+
+    def tick(self, now: float) -> None:
+        """Publish the state of both, unless silent."""
+        level, heat = (self.plan[topic][min(int(now / self.phase), 4)] for topic in (BATTERY, MOTOR))
+        stamp = self.get_clock().now().to_msg()
+        if level is not None:
+            msg = BatteryState(percentage=level)
+            msg.header.stamp = stamp
+            self.batteries.publish(msg)
+        if heat is not None:
+            msg = Temperature(temperature=heat)
+            msg.header.stamp = stamp
+            self.motors.publish(msg)

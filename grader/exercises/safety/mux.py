@@ -1,0 +1,120 @@
+"""A velocity mux: two drivers, one robot."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.no_data import no_data
+from grader.checks.twists import OUT, SAME, TWIST, Speeds, speeds, speeds_text
+from grader.companions.drivers import JOY, NAV, Drivers
+from grader.exercise import Exercise
+from grader.responses import Window, from_course, last_before, require_standing, same
+from sim.evidence import Message, Recording, Seconds
+
+OLD, BRAKING = 0.68, 1.0  # s: certainly older than the time-out; to stop
+STEP, STEADY, BEGIN, SILENT = 0.1, 0.25, 0.5, 0.3  # s
+ZERO = "A 0 of the joystick is a command, too: ask how old it is, not how fast."
+FIRST = "Look at the joystick first: while it is young, the navigator has to wait."
+
+mux = Exercise("mux", "Two drivers, one robot", world="yard", seconds=15, companions=[Drivers], seeds=(1, 2))
+
+
+class Sample(NamedTuple):
+    """What each driver wants at a moment, and what the robot is commanded.
+
+    A driver is None where its command is old, or has just changed.
+    """
+
+    stamp: Seconds
+    joy: Speeds | None
+    nav: Speeds | None
+    joy_is_old: bool
+    sent: Speeds | None
+
+    def wanted(self, topic: str) -> Speeds:
+        """What the driver on this topic wants."""
+        return (self.joy if topic == JOY else self.nav) or (0.0, 0.0)
+
+
+@mux.check(3)
+def stands_between(run: Recording) -> None:
+    """The node hears /cmd_vel_joy and /cmd_vel_nav, and publishes Twist messages on /cmd_vel."""
+    with hinting(guess="Two subscriptions, one for each driver, and a publisher for the robot."):
+        for topic in (JOY, NAV):
+            subscribes(run, topic, TWIST)
+        publishes(run, OUT, TWIST, at_least=10)
+
+
+@mux.check(5, after=stands_between)
+def passes_the_navigator(run: Recording) -> None:
+    """Before anybody touches the joystick, the robot does as the navigator says."""
+    first = from_course(run, JOY)[0].stamp
+    samples = [sample for sample in _samples(run) if sample.nav and sample.stamp < first]
+    hint = "Remember the navigator's last command and when it came; younger than 0.5 s, and it goes out."
+    _compare(run, samples, NAV, hint)
+
+
+@mux.check(6, after=passes_the_navigator)
+def joystick_wins(run: Recording) -> None:
+    """While the joystick speaks, it alone counts, also where it says 0."""
+    samples = [sample for sample in _samples(run) if sample.joy]
+    _compare(run, [sample for sample in samples if sample.joy != (0.0, 0.0)], JOY, FIRST)
+    _compare(run, [sample for sample in samples if sample.joy == (0.0, 0.0)], JOY, ZERO)
+
+
+@mux.check(3, after=joystick_wins)
+def gives_back(run: Recording) -> None:
+    """When the joystick has said nothing for 0.5 s, the navigator drives again."""
+    first = from_course(run, JOY)[0].stamp
+    samples = [sample for sample in _samples(run) if sample.nav and sample.joy_is_old]
+    hint = "The joystick's last command never gets old: compare the time since it came with 0.5 s."
+    _compare(run, [sample for sample in samples if sample.stamp > first], NAV, hint)
+
+
+@mux.check(5, after=passes_the_navigator)
+def stands_without_both(run: Recording) -> None:
+    """When both have fallen silent, the robot stands within 1 s, until one of them speaks again."""
+    sent = sorted(row.stamp for topic in (JOY, NAV) for row in from_course(run, topic))
+    hint = (
+        "Commands get old, those of both drivers. Look at their ages each time, by the clock, and send an "
+        "empty Twist where none is younger than 0.5 s."
+    )
+    for begin, end in zip(sent, [*sent[1:], run.ended.stamp], strict=True):
+        if end - begin > BRAKING:
+            why = f"{BRAKING:g} s after the last command, at {begin:.3g} s"
+            require_standing(run, Window(begin + BRAKING, end), why, hint)
+
+
+def _compare(run: Recording, samples: list[Sample], topic: str, hint: str) -> None:
+    """Raises Missed at the first moment at which the robot is not commanded what this driver wants."""
+    if not samples:
+        raise no_data(run, f"commands on {topic}", "none at that time", run.graph.publishers(topic))
+    for sample in samples:
+        if sample.sent is None or not same(sample.sent, sample.wanted(topic), SAME):
+            saw = f"no command for {SILENT:g} s" if sample.sent is None else speeds_text(sample.sent)
+            expected = f"{speeds_text(sample.wanted(topic))} at {sample.stamp:.3g} s, as on {topic}"
+            raise Missed(expected, saw, hint, picture="topics")
+
+
+def _samples(run: Recording) -> list[Sample]:
+    """Ten a second, and one for each command: a wrong one among right ones moves the robot."""
+    joy, nav, sent = from_course(run, JOY), from_course(run, NAV), publishes(run, OUT, TWIST)
+    # Those of a tenth are beside the moments at which timers fire.
+    times = [index * STEP + 0.07 for index in range(round(BEGIN / STEP), int(run.ended.stamp / STEP))]
+    looks = [(now, last_before(sent, now)) for now in times]
+    looks += [(row.stamp, row) for row in sent if row.stamp >= BEGIN]
+    found = []
+    for now, out in sorted(looks, key=lambda look: look[0]):
+        newest = last_before(joy, now)
+        is_old = newest is None or now - newest.stamp > OLD
+        command = speeds(out) if out and now - out.stamp < SILENT else None
+        found.append(Sample(now, _steady(joy, now), _steady(nav, now), is_old, command))
+    return found
+
+
+def _steady(sent: list[Message], now: Seconds) -> Speeds | None:
+    """What a driver wants for certain: fresh, and the same for a while."""
+    rows = Window(now - STEADY, now).rows(sent)
+    wanted = {speeds(row) for row in rows}
+    return wanted.pop() if len(rows) >= 2 and len(wanted) == 1 else None
