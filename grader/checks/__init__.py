@@ -9,7 +9,7 @@ from grader.checks.actions import (
     sends_goals,
     serves_action,
 )
-from grader.checks.check import Check, Missed, check, hinting, otherwise
+from grader.checks.check import Check, Missed, check, hinting, otherwise, tenths
 from grader.checks.control import (
     fell_at,
     keeps_deadline,
@@ -32,6 +32,7 @@ from grader.checks.motion import (
     keeps_clear,
     passes,
     stands_still,
+    touches_nothing,
     travelled,
     until_a_touch,
 )
@@ -98,8 +99,10 @@ __all__ = [
     "stands_still",
     "still_stands",
     "subscribes",
+    "tenths",
     "tip_at",
     "tip_path",
+    "touches_nothing",
     "travelled",
     "until_a_touch",
     "usual_mistake",

@@ -179,3 +179,8 @@ def fraction(value: Any) -> float:
     if not 0.0 <= number <= 1.0:
         raise ValueError(f"a credit is the earned fraction, from 0 to 1; this one is {value!r}")
     return number
+
+
+def tenths(credit: float) -> float:
+    """Return a credit in whole tenths, from 0 to 1, so that points are easy to read."""
+    return min(max(math.floor(credit * 10 + 1e-9) / 10, 0.0), 1.0)

@@ -12,6 +12,7 @@ from grader.diagnosis.driving import STOP, last_command_that_moves
 from sim.evidence import Pose, Recording, Seconds
 
 Point = tuple[float, float]
+_SHARES = (0.13, 0.37, 0.71, 1.0)  # of a time to look back; uneven, because a circle returns to its start
 
 
 SLOW_DOWN = "Slow down or turn away earlier: /scan says how far it is to the next wall."
@@ -30,6 +31,42 @@ def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:
             picture="path",
             unsafe=True,
         )
+
+
+def touches_nothing(
+    recording: Recording, hint: str = "", expected: str = "no contact with walls or boxes"
+) -> None:
+    """Raise Missed, as unsafe, with where the robot first touched something."""
+    if recording.contacts:
+        touch = recording.contacts[0]
+        saw = f"a {touch.what} touched at {touch.stamp:.3g} s, at ({touch.x:.2f}, {touch.y:.2f}) m"
+        raise Missed(expected, saw, hint, picture="path", unsafe=True)
+
+
+def stood_still(recording: Recording, seconds: Seconds) -> bool:
+    """Return whether the robot has not moved for so long; called often, so it compares a few poses only."""
+    path = recording.path
+    if path[-1].stamp < seconds:
+        return False
+    back = (round(len(path) / path[-1].stamp * seconds * share) for share in _SHARES)
+    return all(math.dist(path[-1][1:3], path[max(-1 - steps, -len(path))][1:3]) < 1e-3 for steps in back)
+
+
+def is_hopeless(recording: Recording, patience: Seconds) -> bool:
+    """Return whether a run can end early: the robot never moves, or it touched something long ago.
+
+    patience: seconds after a touch in which it may still get on.
+    """
+    touched = recording.contacts and recording.stamp > recording.contacts[0].stamp + patience
+    return bool(touched) or stood_still(recording, 20.0)
+
+
+def after_a_touch(recording: Recording) -> str:
+    """Return why a robot loses its way that has touched something; "" where it hasn't."""
+    if not recording.contacts:
+        return ""
+    touch = recording.contacts[0]
+    return f"It drove into a {touch.what} at {touch.stamp:.3g} s, and its odometry has been wrong since."
 
 
 def arrives(recording: Recording, goal: Point | None = None, *, tolerance: float = 0.1) -> float:

@@ -22,7 +22,7 @@ class PlannedGoal(NamedTuple):
     patience: float | None = None
 
 
-class GoalSender(Node):
+class ActionGoalSender(Node):
     """Sends its goals one after the other: the next one when the one before has ended."""
 
     name, action, type = "goal_sender", "/fibonacci", Fibonacci
@@ -90,7 +90,7 @@ def words(message: Any) -> str:
     return message.error_msg and f"({message.error_msg})"
 
 
-class Mathematician(GoalSender):
+class Mathematician(ActionGoalSender):
     """Sends two goals with an order of 3 to 20 to /fibonacci, which come from the seed of the run."""
 
     name = "mathematician"
@@ -100,7 +100,7 @@ class Mathematician(GoalSender):
         return [PlannedGoal(Fibonacci.Goal(order=order)) for order in random.sample(range(3, 21), 2)]
 
 
-class Examiner(GoalSender):
+class Examiner(ActionGoalSender):
     """Sends goals with good and bad orders to /fibonacci, some of them just at the limits 1 and 20."""
 
     name = "examiner"
@@ -111,7 +111,7 @@ class Examiner(GoalSender):
         return [PlannedGoal(Fibonacci.Goal(order=order)) for order in orders]
 
 
-class Impatient(GoalSender):
+class Impatient(ActionGoalSender):
     """Sends a long goal to /fibonacci, cancels it on the way, and then sends a short one."""
 
     name = "impatient"
@@ -124,7 +124,7 @@ class Impatient(GoalSender):
         ]
 
 
-class Captain(GoalSender):
+class Captain(ActionGoalSender):
     """Sends four goals to /spin: to the left, to the right, by more than half a turn, and one it cancels.
 
     The angles come from the seed of the run.

@@ -17,7 +17,7 @@ import nbformat
 
 from grader.checks import travelled
 from grader.exercises import navigator
-from grader.exercises.navigator.ground import shortest
+from grader.geometry.ground import shortest
 from sim import run
 from sim.evidence import Recording
 from sim.world import World

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from grader.checks import Missed, nearest_person, shift, travelled
+from grader.checks.motion import after_a_touch, stood_still
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
 from grader.exercises.delivery.warehouses import FAIR, warehouse
-from grader.exercises.navigator.measures import after_a_touch, stood_still
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 

@@ -10,7 +10,7 @@ import random
 
 import numpy as np
 
-from grader.exercises.navigator.ground import Point, drivable, shortest
+from grader.geometry.ground import Point, drivable, shortest
 from sim.world import MovableBox, World
 from sim.world.clearance import clearance
 

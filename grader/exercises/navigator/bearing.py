@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, lasts, publishes, series, usual_mistake
+from grader.companions.blind_drivers import Wanderer
 from grader.exercise import Exercise
-from grader.exercises.navigator.partners import Wanderer
 from sim.evidence import Recording, Seconds
 
 GOAL = (5.0, 5.0)

@@ -14,10 +14,10 @@ from grader.checks import (
     stands_still,
     travelled,
 )
+from grader.checks.check import tenths
 from grader.exercise import Exercise
 from grader.exercises.navigator.bearing import GOAL
-from grader.exercises.navigator.measures import tenths
-from grader.exercises.navigator.worlds import yard_from
+from grader.worlds.rooms import yard_from
 from sim.evidence import Pose, Recording
 
 TWIST = "geometry_msgs/msg/Twist"

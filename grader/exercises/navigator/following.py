@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, ends_with_a_stop, publishes, series, stands_still, until_a_touch
-from grader.checks.motion import distances_to_line
+from grader.checks.check import tenths
+from grader.checks.motion import distances_to_line, is_hopeless, stood_still
+from grader.checks.motion import touches_nothing as keeps_off
+from grader.companions.goals import Planner
+from grader.companions.maps import Localization, made_for
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.ground import drivable
-from grader.exercises.navigator.measures import is_hopeless, keeps_off, stood_still, tenths
-from grader.exercises.navigator.partners import Localization, Planner, made_for
-from grader.exercises.navigator.worlds import world_of
+from grader.geometry.ground import drivable
+from grader.worlds.rooms import world_of
 from sim.evidence import Recording
 
 TWIST = "geometry_msgs/msg/Twist"

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from grader.checks import Missed, hinting, publishes, subscribes, usual_mistake
+from grader.checks.check import tenths
 from grader.checks.no_data import no_data
+from grader.companions.maps import MapServer, PointClicker, made_for
 from grader.exercise import Exercise
-from grader.exercises.navigator.ground import Point
-from grader.exercises.navigator.measures import cells_of, tenths
-from grader.exercises.navigator.partners import MapServer, PointClicker, made_for
-from grader.exercises.navigator.worlds import world_of
+from grader.geometry.ground import Point
+from grader.geometry.occupancy import cells_of
+from grader.worlds.rooms import world_of
 from sim.evidence import Message, Recording, Seconds
 
 GRID, POINT = "nav_msgs/msg/OccupancyGrid", "geometry_msgs/msg/PointStamped"

@@ -7,9 +7,12 @@ import math
 from typing import Any
 
 from grader.checks import Missed, cancels, series, serves_action, travelled
+from grader.checks.check import tenths
+from grader.checks.motion import after_a_touch, is_hopeless
+from grader.checks.motion import touches_nothing as keeps_off
+from grader.companions.goals import GoalClient
+from grader.companions.maps import bringup, made_for
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.measures import after_a_touch, is_hopeless, keeps_off, tenths
-from grader.exercises.navigator.partners import GoalClient, bringup, made_for
 from grader.exercises.navigator.progress import (
     ACTION,
     TYPE,
@@ -20,7 +23,7 @@ from grader.exercises.navigator.progress import (
     wrong_distance,
     wrong_pose,
 )
-from grader.exercises.navigator.worlds import blocked, world_of
+from grader.worlds.rooms import blocked, world_of
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 from sim.world import World
 

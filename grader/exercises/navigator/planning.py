@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 
 from grader.checks import Missed, hinting, publishes
+from grader.checks.check import tenths
 from grader.checks.no_data import no_data
+from grader.companions.goals import GoalSender
+from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.ground import Point, ground
-from grader.exercises.navigator.measures import cells_of, tenths
-from grader.exercises.navigator.partners import CostmapServer, GoalSender, Localization, made_for
-from grader.exercises.navigator.worlds import world_of
+from grader.geometry.ground import Point, ground
+from grader.geometry.occupancy import cells_of
+from grader.worlds.rooms import world_of
 from sim.evidence import Recording, Seconds
 from sim.world import World
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from grader.checks import Missed
-from grader.exercises.navigator.ground import ground, shortest
-from grader.exercises.navigator.measures import cells_of
+from grader.geometry.ground import ground, shortest
+from grader.geometry.occupancy import cells_of
 from sim.evidence import Goal, Message, Pose, Recording, Seconds
 from sim.nanoseconds import in_seconds
 from sim.world import World

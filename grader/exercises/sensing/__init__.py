@@ -1,20 +1,14 @@
 """The exercises of 05_sensing, from a stop in one line to a guard between a driver and the robot."""
 
+from grader.companions.blind_drivers import CarelessDriver, Circling, CrashingDriver, LateStarter
+from grader.companions.radio_link import BadRadio, Radio
+from grader.companions.strange_lidar import StrangeLidar
 from grader.exercises.sensing.driving import avoid, stop
 from grader.exercises.sensing.guarding import guard
 from grader.exercises.sensing.looking import sectors
-from grader.exercises.sensing.partners import (
-    BadRadio,
-    CarelessDriver,
-    Circling,
-    CrashingDriver,
-    LateStarter,
-    Radio,
-    StrangeLidar,
-)
-from grader.exercises.sensing.places import furnished_room, gallery, hall, long_hall
 from grader.exercises.sensing.turning import gyro, heading
 from grader.exercises.sensing.walls import wall
+from grader.worlds.rooms import furnished_room, gallery, hall, long_hall
 
 __all__ = [
     "BadRadio",

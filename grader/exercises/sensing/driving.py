@@ -14,7 +14,7 @@ from grader.checks import (
     until_a_touch,
 )
 from grader.exercise import Exercise
-from grader.exercises.sensing.places import furnished_room, hall
+from grader.worlds.rooms import furnished_room, hall
 from sim.evidence import Recording
 
 TWIST = "geometry_msgs/msg/Twist"

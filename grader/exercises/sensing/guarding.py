@@ -6,6 +6,8 @@ import itertools
 import math
 
 from grader.checks import Missed, hinting, keeps_clear, lasts, publishes, subscribes
+from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
+from grader.companions.radio_link import BadRadio, Radio
 from grader.exercise import Exercise, Scenario
 from grader.exercises.sensing.evidence import (
     BLOCKED,
@@ -20,8 +22,7 @@ from grader.exercises.sensing.evidence import (
     moments_of,
     silences,
 )
-from grader.exercises.sensing.partners import BadRadio, CarelessDriver, CrashingDriver, Radio
-from grader.exercises.sensing.places import free_start, long_hall
+from grader.worlds.rooms import free_start, long_hall
 from sim import Process
 from sim.evidence import Pose, Recording
 

@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from grader.checks import Missed, hinting, lasts, publishes, subscribes
+from grader.companions.blind_drivers import Circling
+from grader.companions.strange_lidar import StrangeLidar
 from grader.exercise import Exercise, Scenario
-from grader.exercises.sensing.partners import Circling, StrangeLidar
-from grader.exercises.sensing.places import furnished_room
+from grader.worlds.rooms import furnished_room
 from sim.evidence import Message, Recording, Seconds, stamps
 
 SCAN, FLOAT64 = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 from grader.checks import Missed, lasts, publishes, series, subscribes, usual_mistake
 from grader.checks.no_data import no_data
+from grader.companions.blind_drivers import Circling, LateStarter
 from grader.exercise import Exercise
-from grader.exercises.sensing.partners import Circling, LateStarter
 from sim.evidence import Recording, Seconds
 
 FLOAT64 = "std_msgs/msg/Float64"

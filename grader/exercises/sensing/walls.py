@@ -9,7 +9,7 @@ import statistics
 from grader.checks import Missed, keeps_clear, passes, publishes, travelled, until_a_touch
 from grader.diagnosis.driving import refused_command
 from grader.exercise import Exercise
-from grader.exercises.sensing.places import MARGIN, gallery
+from grader.worlds.rooms import MARGIN, gallery
 from sim.evidence import Pose, Recording
 
 NEAR, FAR = 0.3, 0.8  # metres from the wall

@@ -1,4 +1,4 @@
-"""The floor of a world as a grid: what is solid, how far one has to go, and a way that can be driven."""
+"""The floor of a world as a grid: what is solid, how far the goal is, and a path that can be driven."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ import math
 
 import numpy as np
 
+from grader.geometry.pose import Point
 from sim.world import World
 from sim.world.clearance import clearance
 
-Point = tuple[float, float]
 Cell = tuple[int, int]  # (column, row)
 
 RESOLUTION = 0.05  # metres; a cell's width
-# Metres around the world's bounds, where nobody knows what is there. It is no whole number of cells, and
-# less than walls are inflated by: who doesn't look where the map ends is told so.
+# Metres of unknown cells around the world's bounds. It is no whole number of cells, and less than walls are
+# inflated by: so a program that does not check where the map ends fails.
 MARGIN = 0.12
-# Straight and diagonal steps, and those of a chess knight: with them a way is at most 3 % too long.
+# Straight and diagonal steps, and those of a chess knight: with them a path is at most 3 % too long.
 _STEPS = [(dx, dy) for dx in range(-2, 3) for dy in range(-2, 3) if (dx or dy) and math.gcd(dx, dy) == 1]
 
 
 class Ground:
-    """The cells of a world; arrays have the shape (rows, columns), row 0 is the lowest.
+    """The cells of a world; arrays have the shape (rows, columns), row 0 has the lowest y.
 
     origin: the map's lower left corner (m). clearance: how far each cell's middle is from everything solid
-    (m), 0 inside of it. known: whether the cell lies within the world's bounds.
+    (m), 0 inside of it. known: whether the cell is within the world's bounds.
     """
 
     def __init__(self, world: World) -> None:
@@ -48,27 +48,27 @@ class Ground:
         return self.known & (self.clearance < RESOLUTION * math.sqrt(0.5))
 
     def cell(self, point: Point) -> Cell:
-        """The cell that holds a point, cut to the map."""
+        """Return the cell that holds a point; for a point outside the map, the nearest one."""
         column, row = (
             math.floor((value - low) / RESOLUTION) for value, low in zip(point, self.origin, strict=True)
         )
         return min(max(column, 0), self.columns - 1), min(max(row, 0), self.rows - 1)
 
     def middle(self, cell: Cell) -> Point:
-        """The middle of a cell (m)."""
+        """Return the middle of a cell (m)."""
         return float(self.x[cell[1], cell[0]]), float(self.y[cell[1], cell[0]])
 
     def free(self, radius: float) -> np.ndarray:
-        """The cells in whose middle a disc of this radius (m) touches nothing."""
+        """Return the cells in whose middle a disc of this radius (m) touches nothing."""
         return self.known & (self.clearance > radius)
 
-    @functools.cache  # noqa: B019  (grounds are few, and kept)
+    @functools.cache  # noqa: B019  (grounds are few, and stay cached)
     def to_goal(self) -> np.ndarray:
-        """How far it is from each cell to the world's goal for the robot (m); inf where there is no way."""
+        """Return the robot's distance from each cell to the world's goal (m); inf where there is no path."""
         return self.lengths(self.free(0.1), self._goal)
 
     def lengths(self, free: np.ndarray, goal: Point) -> np.ndarray:
-        """How far it is from each cell to the goal over free cells (m); inf where there is no way."""
+        """Return the distance from each cell to the goal over free cells (m); inf where there is no path."""
         width = self.columns + 4  # with two closed cells around, so that no step leaves the array
         open_ = np.zeros((self.rows + 4, width), bool)
         open_[2:-2, 2:-2] = free
@@ -80,7 +80,7 @@ class Ground:
         steps = np.array([[dy * width + dx] for dx, dy in _STEPS])
         costs = np.array([[math.hypot(dx, dy) * RESOLUTION] for dx, dy in _STEPS])
         while reached.size:
-            # No step is shorter than a cell: to what is that near to the nearest there is no shorter way.
+            # No step is shorter than a cell: cells this near to the nearest one have no shorter path.
             near = flat[reached] < flat[reached].min() + RESOLUTION
             there, length = reached[near] + steps, flat[reached[near]] + costs
             shorter = flat_open[there] & (length < flat[there])
@@ -92,13 +92,13 @@ class Ground:
 
 @functools.lru_cache(maxsize=64)
 def ground(world: World) -> Ground:
-    """The ground of a world; worked out once."""
+    """Return the ground of a world; computed once."""
     return Ground(world)
 
 
 @functools.lru_cache(maxsize=64)
 def shortest(world: World, radius: float = 0.12) -> float:
-    """The length of the shortest way from the world's start to its goal for a disc (m); inf without one."""
+    """Return the length of the shortest path from start to goal for a disc (m); inf without one."""
     floor = ground(world)
     column, row = floor.cell(world.start[:2])
     return float(floor.lengths(floor.free(radius), world.goal)[row, column])
@@ -106,9 +106,9 @@ def shortest(world: World, radius: float = 0.12) -> float:
 
 @functools.lru_cache(maxsize=64)
 def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
-    """A smooth way from start to goal, a point every few centimetres, that keeps `radius` (m) from all.
+    """Return a smooth path from start to goal, a point every few centimetres, `radius` (m) from everything.
 
-    Where that is too much to ask, it keeps less. Raises ValueError when there is no way for the robot.
+    Where there is none it comes closer. Raises ValueError when the robot does not fit through.
     """
     floor = ground(world)
     for gap in (radius, 0.2, 0.15, 0.12):
@@ -118,15 +118,14 @@ def drivable(world: World, radius: float = 0.25) -> tuple[Point, ...]:
             break
     else:
         raise ValueError(f"world {world.name}: there is no way from start to goal")
-    way = [world.start[:2]]
+    path = [world.start[:2]]
     while lengths[here[1], here[0]] > 0:
         here = min(
             ((here[0] + dx, here[1] + dy) for dx, dy in _STEPS),
             key=lambda cell, at=here: lengths[cell[1], cell[0]] + math.dist(cell, at) * RESOLUTION,
         )
-        way.append(floor.middle(here))
-    way.append(world.goal)
-    smooth = np.array(way)
+        path.append(floor.middle(here))
+    smooth = np.array([*path, world.goal])
     for _ in range(3):
         smooth[1:-1] = (smooth[:-2] + smooth[1:-1] + smooth[2:]) / 3
     return tuple((float(x), float(y)) for x, y in smooth)

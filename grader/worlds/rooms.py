@@ -1,0 +1,120 @@
+"""Rooms, halls and mazes, drawn from a seed; one with a box in the way that is in no map."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+
+from grader.geometry import rectangle
+from grader.geometry.ground import drivable, shortest
+from sim.world import Box, Circle, LidarModel, World
+from sim.world.lidar import Lidar
+
+MARGIN = 0.5
+"""How far (m) from the wall a wall follower starts, and should stay."""
+
+FREE_AHEAD, BESIDE = 1.5, 60  # metres that are free at the start, within so many degrees of straight ahead
+BLOCK = 0.8  # metres; the side of the box in the way
+CHEAP = LidarModel(noise=0.03, dropouts=0.05)
+GAP = 0.15  # metres; how far from everything there is still a path past the box
+
+Bounds = tuple[float, float, float, float]
+Start = tuple[float, float, float]  # x and y in metres, yaw in rad
+
+
+def hall(seed: int) -> World:
+    """Return a wide hall: the wall ahead of the robot is 3 m to 5 m away, those beside it 2 m."""
+    ahead = random.Random(f"hall {seed}").uniform(3.0, 5.0)
+    return _walled(f"hall_{seed}", (-2.5, -2.0, round(ahead, 2), 2.0), "An empty hall.")
+
+
+def long_hall(seed: int) -> World:
+    """Return a hall of 18 m, for long drives straight ahead."""
+    left = round(-1.0 - random.Random(f"long_hall {seed}").uniform(0.0, 0.5), 2)
+    card = "A hall of 18 m, without anything in it."
+    return _walled(f"long_hall_{seed}", (left, -1.5, 17.0, 1.5), card)
+
+
+def gallery(seed: int) -> World:
+    """Return a room with a pillar in its middle. The robot starts with the lower wall on its right."""
+    draw = random.Random(f"gallery {seed}")
+    width, height = round(draw.uniform(3.6, 5.0), 2), round(draw.uniform(3.2, 4.2), 2)
+    start = (round(draw.uniform(0.9, width - 1.9), 2), MARGIN, 0.0)
+    card = "A room with a round pillar in its middle."
+    world = _walled(f"gallery_{seed}", (0.0, 0.0, width, height), card, start)
+    return replace(world, circles=(Circle(width / 2, height / 2, 0.3),))
+
+
+def furnished_room(seed: int) -> World:
+    """Return a room with boxes and pillars."""
+    return World.generate("room", seed=seed, boxes=3, circles=2)
+
+
+def free_start(seed: int) -> World:
+    """Return a furnished room in which 1.5 m ahead of the robot are free, so that a driver can begin."""
+    chance = random.Random(f"free_start {seed}")
+    for drawn in itertools.chain([seed], iter(lambda: chance.randrange(2**31), None)):
+        world = furnished_room(drawn)
+        x, y, yaw = world.start
+        for turned in (yaw, *(math.radians(degrees) for degrees in range(-180, 180, 15))):
+            if _free_ahead(world, turned) >= FREE_AHEAD:
+                return replace(world, start=(x, y, round(turned, 2)))
+
+
+@functools.lru_cache(maxsize=64)
+def world_of(kind: str, seed: int) -> World:
+    """Return a room, a field of clutter or a maze, with start and goal. The maze is of 5 by 5 cells.
+
+    kind: room, clutter, maze; noisy: a room whose lidar is as bad as a cheap one.
+    """
+    if kind == "maze":
+        return World.generate("maze", seed=seed, columns=5, rows=5, loops=0.1)
+    if kind == "noisy":
+        return replace(World.generate("room", seed=seed), lidar=CHEAP, name=f"noisy_{seed}")
+    return World.generate(kind, seed=seed)
+
+
+@functools.lru_cache(maxsize=64)
+def blocked(seed: int) -> tuple[World, World]:
+    """Return a room with a box in the way, and the same room as the map shows it: without the box.
+
+    The robot's lidar is mounted a little off its middle, and turned.
+    """
+    draw = random.Random(f"lidar {seed}")
+    turn = draw.choice((-1.0, 1.0)) * round(draw.uniform(1.2, math.pi), 2)
+    lidar = replace(CHEAP, x=round(draw.uniform(-0.06, 0.06), 2), y=0.05, yaw=turn)
+    for attempt in range(100):
+        known = World.generate("room", seed=(seed + attempt * 7919) % 2**32, boxes=3)
+        known = replace(known, name=f"blocked_{seed}")
+        path = drivable(known)
+        box = Box(*path[len(path) // 2], known.start[2], BLOCK, BLOCK)
+        real = replace(known, boxes=(*known.boxes, box), lidar=lidar)
+        if shortest(real, GAP) < 1.5 * shortest(known, GAP):
+            return real, known
+    raise ValueError(f"seed {seed}: no room could be blocked so that a way is left")
+
+
+@functools.lru_cache(maxsize=64)
+def yard_from(seed: int) -> World:
+    """Return the yard, for a robot that starts where its odometry says. With seed 1, at 0."""
+    yard, draw = World.load("yard"), random.Random(f"yard {seed}")
+    drawn = [round(draw.uniform(low, high), 2) for low, high in ((-2.5, 2.0), (-2.5, 2.0), (-3.0, 3.0))]
+    start = (0.0, 0.0, 0.0) if seed == 1 else tuple(drawn)
+    return replace(yard, start=start, robot=replace(yard.robot, odometry=start))
+
+
+def _free_ahead(world: World, yaw: float) -> float:
+    """The distance (m) that is free ahead of the robot at its start, were it turned like this."""
+    distances = Lidar(world.lidar, world.segments(), world.discs()).distances(*world.start[:2], yaw)
+    return float(np.min(np.roll(distances, BESIDE)[: 2 * BESIDE + 1]))
+
+
+def _walled(name: str, bounds: Bounds, picture: str, start: Start = (0.0, 0.0, 0.0)) -> World:
+    """A rectangle with walls all round."""
+    card, walls = f"Picture: {picture}", rectangle(*bounds)
+    return World(name=name, card=card, bounds=bounds, start=start, walls=walls)
