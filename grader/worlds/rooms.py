@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from grader.geometry import rectangle
 from grader.geometry.ground import drivable, shortest
+from grader.worlds.walled import walled
 from sim.world import Box, Circle, LidarModel, World
 from sim.world.lidar import Lidar
 
@@ -23,21 +23,18 @@ BLOCK = 0.8  # metres; the side of the box in the way
 CHEAP = LidarModel(noise=0.03, dropouts=0.05)
 GAP = 0.15  # metres; how far from everything there is still a path past the box
 
-Bounds = tuple[float, float, float, float]
-Start = tuple[float, float, float]  # x and y in metres, yaw in rad
-
 
 def hall(seed: int) -> World:
     """Return a wide hall: the wall ahead of the robot is 3 m to 5 m away, those beside it 2 m."""
     ahead = random.Random(f"hall {seed}").uniform(3.0, 5.0)
-    return _walled(f"hall_{seed}", (-2.5, -2.0, round(ahead, 2), 2.0), "An empty hall.")
+    return walled("hall", seed, (-2.5, -2.0, round(ahead, 2), 2.0), "An empty hall.", start=(0.0, 0.0, 0.0))
 
 
 def long_hall(seed: int) -> World:
     """Return a hall of 18 m, for long drives straight ahead."""
     left = round(-1.0 - random.Random(f"long_hall {seed}").uniform(0.0, 0.5), 2)
     card = "A hall of 18 m, without anything in it."
-    return _walled(f"long_hall_{seed}", (left, -1.5, 17.0, 1.5), card)
+    return walled("long_hall", seed, (left, -1.5, 17.0, 1.5), card, start=(0.0, 0.0, 0.0))
 
 
 def gallery(seed: int) -> World:
@@ -45,9 +42,8 @@ def gallery(seed: int) -> World:
     draw = random.Random(f"gallery {seed}")
     width, height = round(draw.uniform(3.6, 5.0), 2), round(draw.uniform(3.2, 4.2), 2)
     start = (round(draw.uniform(0.9, width - 1.9), 2), MARGIN, 0.0)
-    card = "A room with a round pillar in its middle."
-    world = _walled(f"gallery_{seed}", (0.0, 0.0, width, height), card, start)
-    return replace(world, circles=(Circle(width / 2, height / 2, 0.3),))
+    card, pillar = "A room with a round pillar in its middle.", Circle(width / 2, height / 2, 0.3)
+    return walled("gallery", seed, (0.0, 0.0, width, height), card, start=start, circles=(pillar,))
 
 
 def furnished_room(seed: int) -> World:
@@ -112,9 +108,3 @@ def _free_ahead(world: World, yaw: float) -> float:
     """The distance (m) that is free ahead of the robot at its start, were it turned like this."""
     distances = Lidar(world.lidar, world.segments(), world.discs()).distances(*world.start[:2], yaw)
     return float(np.min(np.roll(distances, BESIDE)[: 2 * BESIDE + 1]))
-
-
-def _walled(name: str, bounds: Bounds, picture: str, start: Start = (0.0, 0.0, 0.0)) -> World:
-    """A rectangle with walls all round."""
-    card, walls = f"Picture: {picture}", rectangle(*bounds)
-    return World(name=name, card=card, bounds=bounds, start=start, walls=walls)
