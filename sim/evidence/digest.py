@@ -5,13 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import asdict, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sim.evidence.exchanges import Call, Goal
 from sim.evidence.rows import Message
-
-if TYPE_CHECKING:
-    from sim.evidence.recording import Recording
+from sim.evidence.run_data import RunData
 
 # Names that have changed since digests were first stored: an old run keeps its digest.
 _NAMES = {
@@ -23,7 +21,7 @@ _NAMES = {
 }
 
 
-def digest_of(recording: Recording) -> str:
+def digest_of(recording: RunData) -> str:
     """Return one hex string; equal runs have equal digests.
 
     Printed text is left out, because it may contain memory addresses, which differ each time.
@@ -52,7 +50,7 @@ def _text_of(row: Any) -> str:
     return f"{_NAMES.get(type(row).__name__, type(row).__name__)}({', '.join(values)})"
 
 
-def _evidence(recording: Recording) -> dict[str, Any]:
+def _evidence(recording: RunData) -> dict[str, Any]:
     of_network = {}
     if recording.network is not None:
         of_network |= {"network": recording.network.to_data(), "hosts": recording.hosts}

@@ -1,4 +1,4 @@
-"""A recording: all that one run left behind, and what can be asked of it."""
+"""`Recording`: the record of one run, and what can be computed from it."""
 
 from __future__ import annotations
 
@@ -6,74 +6,28 @@ import bisect
 import functools
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 from sim.evidence.by_topic import ByTopic
-from sim.evidence.crossings import Crossing
 from sim.evidence.digest import digest_of
 from sim.evidence.exchanges import Call, Goal, is_node_service
-from sim.evidence.graph import Graph
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
-    STILL_RUNNING,
-    BusyLoop,
-    CallbackError,
-    CallbackRun,
-    Ended,
-    LogLine,
     Message,
-    ParameterName,
     Pose,
     Seconds,
-    UndeliveredMessage,
 )
-from sim.network import Network
-from sim.world import Body, Contact, PenDrawing, World
+from sim.evidence.run_data import RunData
+from sim.world import Body
 
 
-@dataclass
-class Recording:
-    """Everything one run left behind. `until` sees it while it grows; checks see it when it is complete."""
+class Recording(RunData):
+    """The record of one run. `until` sees it while it grows; checks see it when it is complete."""
 
     # What `replay` returns. The package `sim` sets it, so that evidence does not import the view.
     player: ClassVar[Callable[..., Any]]
-
-    world: World | None = None  # None for a run without a robot
-    seconds: Seconds = 0.0
-    seed: int = 0
-    stamp: Seconds = 0.0  # how far the run has come
-    published: list[Message] = field(default_factory=list)
-    calls: list[Call] = field(default_factory=list)  # of services, in the order of their requests
-    goals: list[Goal] = field(default_factory=list)  # of actions, in the order of their requests
-    path: list[Pose] = field(default_factory=list)
-    # the same of everything else that moves, by the name of its `Body`: other robots, boxes, links
-    tracks: dict[str, list[Pose]] = field(default_factory=dict)
-    contacts: list[Contact] = field(default_factory=list)
-    # the same of the robots beside the first, by name
-    other_contacts: dict[str, list[Contact]] = field(default_factory=dict)
-    drawing: PenDrawing | None = None  # what pens drew; None without a pen
-    logs: list[LogLine] = field(default_factory=list)
-    errors: list[CallbackError] = field(default_factory=list)
-    callbacks: list[CallbackRun] = field(default_factory=list)
-    busy_loops: list[BusyLoop] = field(default_factory=list)
-    undelivered: list[UndeliveredMessage] = field(default_factory=list)  # the first of each node and topic
-    parameters: list[ParameterName] = field(default_factory=list)  # that nodes are given, or declare
-    prints: list[tuple[Seconds, str]] = field(default_factory=list)  # what went to stdout
-    stderr: str = ""  # what went there, other than log lines
-    graph: Graph = field(default_factory=Graph)
-    ended: Ended = STILL_RUNNING
-    # when the last of the student's programs had exited; None if one was running at the end
-    all_exited_at: Seconds | None = None
-    begin: Seconds = 0.0  # later than 0 in what `during` gives
-    # full names of the course's nodes: the robot, the world, the companions of a scenario
-    course_nodes: set[str] = field(default_factory=set)
-    shared: set[str] = field(default_factory=set)  # names that a course node and a student's node both have
-    course_errors: list[CallbackError] = field(default_factory=list)  # raised in programs of the course
-    network: Network | None = None  # between hosts; None where all programs run on one
-    hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
-    crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
 
     def during(self, begin: Seconds, end: Seconds = math.inf) -> Recording:
         """What happened from `begin` on and before `end`, as a recording: every measure can look at it.

@@ -14,19 +14,18 @@ from dataclasses import astuple
 from io import BytesIO
 from pathlib import Path
 from types import UnionType
-from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_origin, get_type_hints
+from typing import Any, ClassVar, TypeVar, get_args, get_origin, get_type_hints
 
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
+from sim.evidence.digest import digest_of
 from sim.evidence.rows import Message
+from sim.evidence.run_data import RunData
 from sim.nanoseconds import EPOCH, SECOND
 from sim.network import Network
 from sim.ros.messages.definitions import definition
 from sim.world import World, WorldError
-
-if TYPE_CHECKING:
-    from sim.evidence.recording import Recording
 
 ATTACHMENT = "recording.json"
 FORMAT = 13  # of the attachment; raise it when what is in there changes
@@ -38,6 +37,7 @@ _KEYS = {
     "course_errors": "failures",
 }
 _YES = {True: "yes", False: "no"}
+_D = TypeVar("_D", bound=RunData)
 PLAIN = (float, int, str, bool, bytes, Any)
 
 
@@ -45,10 +45,10 @@ class StorageError(Exception):
     """A file that isn't a recording of this course."""
 
 
-def write(recording: Recording, path: Path) -> Path:
+def write(recording: RunData, path: Path) -> Path:
     """Write a recording to a file."""
     rest = {_KEYS.get(name, name): getattr(recording, name) for name in _rest(type(recording))}
-    rest |= {"format": FORMAT, "digest": recording.digest}
+    rest |= {"format": FORMAT, "digest": digest_of(recording)}
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="sim")
@@ -89,7 +89,7 @@ def _write_messages(writer: Writer, messages: list[Message]) -> None:
         writer.add_message(channels[key], nanoseconds, raw, nanoseconds, number)
 
 
-def read(path: Path, kind: type[Recording]) -> Recording:
+def read(path: Path, kind: type[_D]) -> _D:
     """Read a recording. Raises StorageError with one sentence if the file isn't one."""
     try:
         data = path.read_bytes()
@@ -105,7 +105,7 @@ def read(path: Path, kind: type[Recording]) -> Recording:
         raise StorageError(f"{path} is not an MCAP file, or it is damaged ({error}).") from None
 
 
-def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
+def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
     reader = make_reader(BytesIO(data), validate_crcs=True)
     attachments = {item.name: item.data for item in reader.iter_attachments()}
     if ATTACHMENT not in attachments:
@@ -131,7 +131,7 @@ def _parse(path: Path, data: bytes, kind: type[Recording]) -> Recording:
     ]
     restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in _rest(kind).items()}
     recording = kind(published=published, **restored)
-    if recording.digest != rest["digest"]:
+    if digest_of(recording) != rest["digest"]:
         raise ValueError("its digest is another")
     return recording
 
