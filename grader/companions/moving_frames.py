@@ -20,7 +20,7 @@ PERIOD, SPEED = 0.1, 0.4  # s, m/s: of the robot with odometry
 SWERVE = 0.04  # m, from one moment to the next
 
 
-class Wheels(Node):
+class WheelOdometry(Node):
     """Publishes the odometry of a robot that drives a curve on /wheels/odom, a little late.
 
     The run's seed decides on the curve, and how old each measurement is.

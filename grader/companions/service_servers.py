@@ -62,7 +62,7 @@ class SlowAdder(Node):
         return response
 
 
-class Wheels(Node):
+class WheelEncoders(Node):
     """Counts the ticks of two wheels that turn: Int64 on /ticks/left and /ticks/right, 5 times a second."""
 
     def __init__(self) -> None:

@@ -1,7 +1,7 @@
 """The exercises of 09_frames, from the place of a lidar to a follower, and transforms that come late."""
 
 from grader.companions.lidar_mount import Mechanic
-from grader.companions.moving_frames import SlowLocalization, Wheels
+from grader.companions.moving_frames import SlowLocalization, WheelOdometry
 from grader.companions.sightings import Team
 from grader.companions.tower_watcher import Watcher
 from grader.companions.transforms import localization
@@ -18,7 +18,7 @@ __all__ = [
     "SlowLocalization",
     "Team",
     "Watcher",
-    "Wheels",
+    "WheelOdometry",
     "behind",
     "convoy",
     "delayed",

@@ -9,7 +9,7 @@ from builtin_interfaces.msg import Time
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes
 from grader.checks.fields import stamp_words
 from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
-from grader.companions.moving_frames import Wheels
+from grader.companions.moving_frames import WheelOdometry
 from grader.exercise import Exercise
 from grader.geometry import Pose2D
 from grader.responses import Window, from_course, same
@@ -20,7 +20,9 @@ SOON = 0.05  # s
 EARLY = 0.3  # s; until then, a place may be right by accident
 OFTEN = 0.3  # of the odometries
 
-odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companions=[Wheels], seeds=(1, 2))
+odometry = Exercise(
+    "odometry", "From odometry to a frame", seconds=4, companions=[WheelOdometry], seeds=(1, 2)
+)
 
 
 @odometry.check(2)

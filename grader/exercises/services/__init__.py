@@ -1,7 +1,7 @@
 """The exercises of 03_services, from a service in one line to a mode manager."""
 
 from grader.companions.service_clients import Operator, Pilot, Questioner, Technician, Tuner
-from grader.companions.service_servers import Door, RawGyro, SlowAdder, Wheels
+from grader.companions.service_servers import Door, RawGyro, SlowAdder, WheelEncoders
 from grader.exercises.services.add import add
 from grader.exercises.services.arming import arming
 from grader.exercises.services.calibrate import calibrate
@@ -19,7 +19,7 @@ __all__ = [
     "SlowAdder",
     "Technician",
     "Tuner",
-    "Wheels",
+    "WheelEncoders",
     "add",
     "arming",
     "calibrate",

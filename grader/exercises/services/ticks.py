@@ -5,7 +5,7 @@ from __future__ import annotations
 from grader.checks import Missed, publishes, series
 from grader.checks.services import call_text, has_client
 from grader.checks.topics import keeps_pace
-from grader.companions.service_servers import SlowAdder, Wheels
+from grader.companions.service_servers import SlowAdder, WheelEncoders
 from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import Call, Recording
@@ -16,7 +16,9 @@ GROUPS = (
     "and the client a group of their own, a ReentrantCallbackGroup; or use a done callback."
 )
 
-ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, Wheels], seeds=(1, 2))
+ticks = Exercise(
+    "ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders], seeds=(1, 2)
+)
 
 
 @ticks.check(4)
