@@ -24,7 +24,7 @@ from sim.evidence.rows import Message
 from sim.evidence.run_data import RunData
 from sim.nanoseconds import EPOCH, SECOND
 from sim.network import Network
-from sim.ros.messages.definitions import definition
+from sim.ros.messages.type_definitions import definition
 from sim.world import World, WorldError
 
 ATTACHMENT = "recording.json"

@@ -16,7 +16,7 @@ from mcap.writer import Writer
 
 from sim.distro import DISTRO
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.messages.definitions import definition
+from sim.ros.messages.type_definitions import definition
 from sim.ros2.system import CliError, ReceivedMessage
 
 RELIABILITIES, DURABILITIES = ("", "reliable", "best_effort"), ("", "transient_local", "volatile")

@@ -61,7 +61,7 @@ def stock(rate: int) -> Counts:
     from rosgraph_msgs.msg import Clock
 
     from sim import World
-    from sim.ros.robots.robot import Robot
+    from sim.ros.robots.robot_node import Robot
     from sim.world import Simulation
     from tests.bench.avoider import Avoider
 

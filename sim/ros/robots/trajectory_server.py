@@ -14,7 +14,7 @@ from std_msgs.msg import Header
 from trajectory_msgs.msg import JointTrajectoryPoint
 
 from sim.nanoseconds import SECOND
-from sim.ros.robots.machine import MachineNode
+from sim.ros.robots.machine_node import MachineNode
 from sim.ros.robots.trajectory_goal import Goal, RejectedGoal, TrajectoryRequest, read_goal
 from sim.world.machines.trajectory import Values
 

@@ -12,7 +12,7 @@ from rclpy.validate_topic_name import validate_topic_name
 from std_srvs.srv import Empty
 from turtlesim.srv import Kill, Spawn
 
-from sim.ros.robots.turtle import TurtleEnds
+from sim.ros.robots.turtle_endpoints import TurtleEnds
 from sim.world import CommandError
 from sim.world.machines import Pond, Turtle
 

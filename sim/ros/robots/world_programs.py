@@ -31,7 +31,7 @@ def _machine(scene: Scene) -> Process:
 
 def _robot(world: World, mobile: MobileRobot) -> Process:
     def robot() -> Any:
-        from sim.ros.robots.robot import Robot
+        from sim.ros.robots.robot_node import Robot
 
         return Robot(world, mobile)
 

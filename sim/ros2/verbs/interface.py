@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from ament_index_python import get_resources
 
-from sim.ros.messages.definitions import installed_file
+from sim.ros.messages.type_definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.interface_types import KINDS, interfaces, types_in_package
 from sim.ros2.system import CliError, Output

@@ -13,7 +13,7 @@ from rcl_interfaces.srv import DescribeParameters, SetParameters
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file, parameter_value_to_python
 
 from sim.ros2.group import Group, argument, flag
-from sim.ros2.parameters import names_of, values_of
+from sim.ros2.node_parameters import names_of, values_of
 from sim.ros2.system import CliError, System, is_hidden
 from sim.suggestions import closest_match
 

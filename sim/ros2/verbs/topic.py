@@ -6,7 +6,7 @@ import json
 from argparse import Namespace
 
 from sim.evidence import Endpoint
-from sim.ros.messages.definitions import installed_file
+from sim.ros.messages.type_definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import CliError, System, suggestion
 

@@ -24,9 +24,9 @@ class MachineKind(NamedTuple):
 
 
 KINDS = (
-    MachineKind("joint", JointModel, Joint, "sim.ros.robots.joint:JointNode"),
-    MachineKind("arm", ArmModel, Arm, "sim.ros.robots.arm:ArmNode"),
-    MachineKind("cart_pole", CartPoleModel, CartPole, "sim.ros.robots.cart_pole:CartPoleNode"),
+    MachineKind("joint", JointModel, Joint, "sim.ros.robots.joint_node:JointNode"),
+    MachineKind("arm", ArmModel, Arm, "sim.ros.robots.arm_node:ArmNode"),
+    MachineKind("cart_pole", CartPoleModel, CartPole, "sim.ros.robots.cart_pole_node:CartPoleNode"),
     MachineKind("pond", PondModel, Pond, "sim.ros.robots.turtlesim:Turtlesim"),
 )
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import Recording, run
-from sim.ros.messages.definitions import definition
+from sim.ros.messages.type_definitions import definition
 from tests.sim.ros.evidence import raised, said
 from tests.students.engine import waitables
 

@@ -10,7 +10,7 @@ from std_msgs.msg import Float64MultiArray, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.ros.messages.template import STAMP, Template
-from sim.ros.robots.machine import MachineNode
+from sim.ros.robots.machine_node import MachineNode
 from sim.ros.robots.trajectory_server import TrajectoryServer
 from sim.world.machines import Arm, urdf
 

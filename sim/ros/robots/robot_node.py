@@ -14,8 +14,8 @@ from std_msgs.msg import Bool, Header
 from tf2_msgs.msg import TFMessage
 
 from sim.nanoseconds import SECOND
-from sim.ros.robots.battery import BatteryTopic
-from sim.ros.robots.imu import ImuTopic
+from sim.ros.robots.battery_topic import BatteryTopic
+from sim.ros.robots.imu_topic import ImuTopic
 from sim.ros.robots.rates import MAX_COMMAND_RATE, SENSOR_RATE
 from sim.ros.robots.sensor_messages import SensorMessages
 from sim.world import CommandError, MobileRobot, World

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from std_msgs.msg import Float64
 
-from sim.ros.robots.machine import MachineNode
+from sim.ros.robots.machine_node import MachineNode
 from sim.world.machines import Joint, urdf
 
 
