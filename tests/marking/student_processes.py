@@ -1,28 +1,45 @@
 """Students' processes for tests: without a sandbox, since what is tested here is what runs in it."""
 import socket
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 
 from grader.marking.judge.cell_outputs import CellOutputs, DisplayRegistry
-from grader.marking.judge.student_session import StudentSession
+from grader.marking.judge.student_session import StudentSession, TestRun
 from grader.marking.pool import PRELOAD
 from grader.marking.sandbox import ConfinedProcess, Sandbox
 from grader.marking.task import TimeLimits
 from grader.workspace.building import build
+from tests.patience import PATIENCE
 
-USUAL = TimeLimits()
-QUICK = TimeLimits(cell=1.0)  # for cells without end: on a busy machine, others take longer, too
-PATIENCE = 60.0  # s of wall time
+USUAL = TimeLimits(start=PATIENCE, cell=PATIENCE, test=PATIENCE, notebook=10 * PATIENCE)
+QUICK = TimeLimits(cell=0.5, test=0.5)
+
+
+class QuickSession(StudentSession):
+    """Has the quick limits in each cell with the text `quick`; in others, all the time that they need."""
+
+    def __init__(self, quick: str, sock: socket.socket, ending: Callable[[], str]) -> None:
+        super().__init__(sock, USUAL, ending, build)
+        self._quick = quick
+
+    def run(self, source: str, *more: Any) -> None:
+        self._time_limits = QUICK if self._quick in source else USUAL
+        super().run(source, *more)
+
+    def test(self, source: str, *more: Any) -> TestRun:
+        self._time_limits = QUICK if self._quick in source else USUAL
+        return super().test(source, *more)
 
 
 class StartedStudent:
-    """A student's process and what its cells have shown."""
+    """A student's process and what its cells have shown. quick: as for QuickSession."""
 
-    def __init__(self, sandbox: Sandbox, time_limits: TimeLimits, files: dict[str, bytes] | None) -> None:
+    def __init__(self, sandbox: Sandbox, quick: str, files: dict[str, bytes] | None) -> None:
         ours, theirs = socket.socketpair()
         self.process: ConfinedProcess = sandbox.start(theirs)
-        self.student = StudentSession(ours, time_limits, lambda: self.process.wait(PATIENCE).detail, build)
+        self.student = QuickSession(quick, ours, lambda: self.process.wait(PATIENCE).detail)
         self.displays = DisplayRegistry()
         self.outputs = CellOutputs(self.displays)
         if files is not None:
@@ -50,12 +67,13 @@ def plain_sandbox() -> Iterator[Sandbox]:
 
 
 @pytest.fixture
-def start_student(plain_sandbox) -> Iterator[Callable[..., StartedStudent]]:
+def start_student(plain_sandbox, monkeypatch) -> Iterator[Callable[..., StartedStudent]]:
     """Makes students' processes, and sees to it that none is left."""
     made: list[StartedStudent] = []
+    monkeypatch.setattr("grader.marking.judge.student_session.GRACE", PATIENCE)
 
-    def make(time_limits: TimeLimits = USUAL, begun: bool = True, **files: bytes) -> StartedStudent:
-        made.append(StartedStudent(plain_sandbox, time_limits, files if begun else None))
+    def make(quick: str = "no cell has this", begun: bool = True, **files: bytes) -> StartedStudent:
+        made.append(StartedStudent(plain_sandbox, quick, files if begun else None))
         return made[-1]
 
     yield make

@@ -9,11 +9,9 @@ from grader.marking.errors import UnknownTest
 from grader.marking.judge.mark_submission import mark_submission, result_text
 from grader.marking.judge.notebook_run import NOT_RUN
 from grader.marking.result import Result
-from grader.marking.task import TimeLimits
 from sim.ros.remote.events import MessagePublished
 from sim.ros.remote.leader_link import LeaderLink
 from tests.marking.assignment import GREETER, RIGHT, hand_in, release, task
-from tests.marking.student_processes import QUICK, USUAL
 
 
 @pytest.fixture
@@ -21,10 +19,10 @@ def marked(tmp_path, start_student, monkeypatch):
     """Marks a submission with these answers."""
     released = release(tmp_path / "02_two")
 
-    def do(secret: str = "", time_limits=USUAL, student: str = "ann", **answers: str) -> Result:
+    def do(secret: str = "", quick: str = "none has this", student: str = "ann", **answers: str) -> Result:
         texts = {name.replace("_", "-"): text for name, text in answers.items()}
         task = hand_in(tmp_path / student, released, texts)
-        result = mark_submission(task, secret, lambda: start_student(time_limits, begun=False).student)
+        result = mark_submission(task, secret, lambda: start_student(quick, begun=False).student)
         return Result.from_json(result_text(result))
 
     return do
@@ -110,9 +108,9 @@ def test_an_error_in_another_cell_stops_nothing(marked):
 
 
 def test_an_endless_cell_is_interrupted_and_the_rest_is_marked(marked):
-    result = marked(greeting_see="while True: pass", time_limits=QUICK)
+    result = marked(greeting_see="while True: pass", quick="while True: pass")
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 15.0}
-    assert text(result, "greeting-see") == "This cell was interrupted: it took more than 1 s.\n"
+    assert text(result, "greeting-see") == "This cell was interrupted: it took more than 0.5 s.\n"
     assert result.verdict == "marked"
 
 
@@ -141,10 +139,10 @@ def test_a_process_that_ends_within_a_test_keeps_what_was_earned_before(marked):
 
 def test_nodes_that_take_too_long_are_named_and_keep_what_was_earned_before(marked):
     slow = RIGHT["temperature"].replace("random.uniform(20.0, 25.0)", "float(sum(range(10**10)))")
-    result = marked(temperature=slow, time_limits=TimeLimits(test=4.0))
+    result = marked(temperature=slow, quick="topics.temperature.grade")
     assert points(result) == {"greeting-points": 8.0, "temperature-points": 0.0}
     assert result.reason == (
-        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 4 s."
+        "The notebook `two` stopped in its cell `temperature-points`. Its nodes took more than 0.5 s."
     )
 
 

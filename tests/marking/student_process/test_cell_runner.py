@@ -1,8 +1,10 @@
+import time
+
 import pytest
 
 from grader.marking.errors import StudentProcessGone
-from grader.marking.task import TimeLimits
-from tests.marking.student_processes import PATIENCE, QUICK
+from tests.marking.student_processes import USUAL
+from tests.patience import PATIENCE
 
 NODE = """\
 from rclpy.node import Node
@@ -132,41 +134,79 @@ def test_nobody_types_anything(student):
 
 @pytest.mark.parametrize(
     "endless",
-    ["while True: pass", "import time\ntime.sleep(600)", "import asyncio\nawait asyncio.sleep(600)"],
+    [
+        "while True: pass",
+        "import time\nwhile True: time.sleep(9)",
+        "import asyncio\nawait asyncio.get_running_loop().create_future()",
+    ],
 )
 def test_an_endless_cell_is_interrupted_and_the_next_one_runs(start_student, endless):
-    student = start_student(QUICK)
-    assert student.text(endless) == "This cell was interrupted: it took more than 1 s.\n"
+    student = start_student(quick=endless)
+    assert student.text(endless) == "This cell was interrupted: it took more than 0.5 s.\n"
     assert value(student.run("1")) == "1"
 
 
 def test_runs_without_end_in_a_cell_are_interrupted(start_student):
-    student = start_student(TimeLimits(cell=5.0))  # the imports, too, take their time on a busy machine
+    student = start_student(quick="while")
     student.run(NODE)
-    assert student.text("while True:\n    _ = run(Clock, seconds=1, quiet=True)").endswith("more than 5 s.\n")
+    text = student.text("while True:\n    _ = run(Clock, seconds=1, quiet=True)")
+    assert text.endswith("more than 0.5 s.\n")
     assert value(student.run("1")) == "1"
 
 
+# No time passes for the process until the cell says `begin.release()`: then what it says next is interrupted.
+TIME_BEGINS_LATER = """
+import threading
+from types import SimpleNamespace
+from grader.marking.student_process import interrupts
+
+begin = threading.Semaphore(0)
+
+class Event(threading.Event):
+    def wait(self, seconds):
+        begin.acquire()
+        return super().wait(0.3)
+
+    def set(self):
+        super().set()
+        begin.release()
+
+interrupts.threading = SimpleNamespace(**{**vars(threading), "Event": Event})
+"""
+CATCHES_ONCE = """
+try:
+    begin.release()
+    endless()
+except KeyboardInterrupt:
+    print('once')
+begin.release()
+endless()
+"""
+
+
 def test_code_that_catches_the_interrupt_gets_another(start_student):
-    student = start_student(QUICK)
+    student = start_student(quick=CATCHES_ONCE)
     student.run(ENDLESS)
-    text = student.text("try:\n    endless()\nexcept KeyboardInterrupt:\n    print('once')\nendless()")
-    assert text == "once\nThis cell was interrupted: it took more than 1 s.\n"
+    student.run(TIME_BEGINS_LATER)
+    said = student.text(CATCHES_ONCE)
+    assert said == "once\nThis cell was interrupted: it took more than 0.5 s.\n"
 
 
 def test_a_cell_that_cant_be_interrupted_ends_the_notebook(start_student, monkeypatch):
-    monkeypatch.setattr("grader.marking.judge.student_session.GRACE", 0.5)
-    student = start_student(QUICK)
+    monkeypatch.setattr("grader.marking.judge.student_session.GRACE", 0.1)
+    student = start_student(quick="while True:\n    try")
     student.run(ENDLESS)
     with pytest.raises(StudentProcessGone, match=r"^It did not stop when it was interrupted.$"):
         student.run("while True:\n    try:\n        endless()\n    except BaseException:\n        pass")
 
 
-def test_all_cells_together_have_their_time(start_student):
-    student = start_student(TimeLimits(cell=1.0, notebook=1.5))
-    student.run("while True: pass")
-    with pytest.raises(StudentProcessGone, match=r"^All its cells together took more than 1.5 s.$"):
-        student.run("while True: pass")
+def test_all_cells_together_have_their_time(start_student, monkeypatch):
+    student = start_student()
+    student.run("x = 1")
+    later = time.monotonic() + USUAL.notebook
+    monkeypatch.setattr("grader.marking.judge.student_session.monotonic", lambda: later)
+    with pytest.raises(StudentProcessGone, match=r"^All its cells together took more than 6000 s.$"):
+        student.run("x")
 
 
 @pytest.mark.parametrize("end", ["quit()", "exit()", "get_ipython().ask_exit()"])
