@@ -14,9 +14,10 @@ from grader.marking.result import Result
 from grader.marking.sandbox import Sandbox
 from grader.marking.task import MarkingTask, TimeLimits
 from tests.marking.assignment import hand_in, release, task
+from tests.marking.student_processes import USUAL
 from tests.marking.tiny import ROOT
+from tests.patience import PATIENCE
 
-LIMITS = TimeLimits(cell=30.0, test=60.0, notebook=90.0)
 SORRY = "This could not be marked; your instructor will look at it."
 
 
@@ -41,7 +42,7 @@ def tasks(tmp_path_factory) -> list[MarkingTask]:
 
 @pytest.fixture(scope="module")
 def pool() -> Iterator[Pool]:
-    with Pool(2, unsafe=True, secret="a secret", time_limits=LIMITS) as pool:
+    with Pool(2, unsafe=True, secret="a secret", time_limits=USUAL) as pool:
         yield pool
 
 
@@ -79,7 +80,7 @@ def test_a_class_is_marked(results):
 def test_grades_are_the_same_in_any_order_with_any_number_of_jobs_and_in_a_sandbox(
     tasks, results, jobs, unsafe
 ):
-    with Pool(jobs, unsafe=unsafe, secret="a secret", time_limits=LIMITS) as other:
+    with Pool(jobs, unsafe=unsafe, secret="a secret", time_limits=USUAL) as other:
         assert grades(other.mark(reversed(tasks))) == grades(results)
 
 
@@ -148,15 +149,22 @@ def odd_judges() -> Iterator[Sandbox]:
     [
         ("nonsense", "The judge gave no result: this is not a result of marking: 'notebooks'"),
         ("refusal", "The test cell `x` can't be marked here."),
-        ("silent", "It took more than 1 s."),
         ("crash", "The judge's process broke off. The process crashed: Aborted."),
     ],
 )
 def test_a_judge_that_gives_no_result_is_reported(pool, tasks, odd_judges, student, why, monkeypatch):
-    monkeypatch.setattr("grader.marking.pool.SPARE_S", 0.0)
-    monkeypatch.setattr(pool, "_time_limits", TimeLimits(start=0.5, notebook=0.5))
+    monkeypatch.setattr("grader.marking.pool.END_S", PATIENCE)
     monkeypatch.setattr(pool, "_judges", odd_judges)
     [result] = pool.mark([replace(tasks[0], student=student)])
+    assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
+
+
+def test_a_judge_that_says_nothing_is_given_up(pool, tasks, odd_judges, monkeypatch):
+    monkeypatch.setattr("grader.marking.pool.SPARE_S", 0.0)
+    monkeypatch.setattr(pool, "_time_limits", TimeLimits(start=0.1, notebook=0.1))
+    monkeypatch.setattr(pool, "_judges", odd_judges)
+    [result] = pool.mark([replace(tasks[0], student="silent")])
+    why = "It took more than 0.2 s."
     assert (result.verdict, result.reason, result.flags) == ("refused", f"{SORRY} {why}", [why])
 
 
@@ -169,7 +177,7 @@ def test_a_release_that_cant_be_marked_is_named(pool, tmp_path, tasks):
 
 
 def test_a_pool_that_is_closed_leaves_no_process(waiting, tasks):
-    pool = Pool(2, unsafe=True, time_limits=LIMITS)
+    pool = Pool(2, unsafe=True, time_limits=USUAL)
     results = pool.mark([waiting, tasks[0]])
     assert summary(next(results)) == ("right", "marked", 23.0)
     left = [os.pidfd_open(process.pid) for process in pool._running]
@@ -213,7 +221,7 @@ def test_a_marker_that_is_killed_leaves_no_process(staying, gate, tmp_path):
 
 
 def gone(pidfd: int) -> bool:
-    """Whether a process ends within a minute."""
-    ended = bool(select.select([pidfd], [], [], 60.0)[0])
+    """Whether a process ends."""
+    ended = bool(select.select([pidfd], [], [], PATIENCE)[0])
     os.close(pidfd)
     return ended

@@ -9,9 +9,9 @@ from grader.marking.build_process import builder
 from grader.marking.build_process.build_request import request_build
 from grader.marking.sandbox import Sandbox
 from sim.ros.remote import Wire
+from tests.patience import PATIENCE
 from tests.students.packages.greeter import RIGHT
 
-PATIENCE = 60.0  # s
 FAILED = r"colcon build (failed\.|broke off\. The process (needed|had) more than the .* that are allowed\.)"
 SETUP = "greeter/setup.py"
 ESCAPES = """

@@ -7,11 +7,11 @@ from grader.marking.pool import Pool
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import read_folder
-from grader.marking.task import MarkingTask, TimeLimits
+from grader.marking.task import MarkingTask
+from tests.marking.student_processes import USUAL
 from tests.marking.tiny import answer, grade
 from tests.students.packages import greeter
 
-LIMITS = TimeLimits(cell=30.0, test=60.0, notebook=120.0)
 SETUP = "greeter/setup.py"
 WRITES = "%%writefile ws/src/greeter/greeter/hello.py\n"
 
@@ -52,7 +52,7 @@ def results(tmp_path_factory, release) -> dict[str, Result]:
         if name == "link":
             (folder / "ws/src/greeter/more").symlink_to("/etc/passwd")
         tasks.append(MarkingTask(name, release, read_folder(folder, release), name))
-    with Pool(2, secret="a secret", time_limits=LIMITS) as pool:
+    with Pool(2, secret="a secret", time_limits=USUAL) as pool:
         return {result.student: result for result in pool.mark(tasks)}
 
 

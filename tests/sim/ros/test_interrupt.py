@@ -5,46 +5,30 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import pytest
 
 from sim import run
 from sim.ros.fibers.scheduler import active
+from tests.patience import PATIENCE
 from tests.students.engine import interrupts, mains
 
 LONG = 900_000  # simulated seconds: never over while a test waits
-
-
-@pytest.fixture
-def interrupt_soon():
-    """SIGINT after 0.3 s, and the time it took to get out must be short."""
-    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
-    handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGALRM)]
-    usual = run(mains.classic, seconds=2, quiet=True).digest
-    timer.start()
-    yield
-    timer.join()
-    assert active() is None
-    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGALRM)] == handlers
-    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
-    assert run(mains.classic, seconds=2, quiet=True).digest == usual
 
 
 @pytest.mark.parametrize("program", [
     interrupts.Busy, interrupts.Swallower, interrupts.SwallowsAll, interrupts.restarts_itself,
     interrupts.cleans_up, interrupts.sleeps,
 ])  # fmt: skip
-@pytest.mark.usefixtures("interrupt_soon")
-def test_an_interrupt_stops_the_run_and_reaches_the_caller(program):
+def test_an_interrupt_stops_the_run_and_reaches_the_caller(interrupt, program):
     with pytest.raises(KeyboardInterrupt) as caught:
-        run(program, world="yard", seconds=LONG, quiet=True)
+        run(program, world="yard", seconds=LONG, until=interrupt, quiet=True)
     assert str(caught.value) == "The run was interrupted."
 
 
-def test_an_interrupted_program_cleans_up(interrupt_soon, capsys):
+def test_an_interrupted_program_cleans_up(interrupt, capsys):
     with pytest.raises(KeyboardInterrupt):
-        run(interrupts.cleans_up, seconds=LONG)
+        run(interrupts.cleans_up, seconds=LONG, until=interrupt)
     assert capsys.readouterr().out == "goodbye\n"
 
 
@@ -54,9 +38,10 @@ def test_the_end_of_a_run_interrupts_the_main_thread_alone(capsys):
     assert (recording.stderr, recording.errors) == ("", [])
 
 
-def test_an_interrupt_in_the_goal_stops_the_run(interrupt_soon):
+def test_an_interrupt_in_the_goal_stops_the_run():
     with pytest.raises(KeyboardInterrupt):
-        run(mains.Counter, seconds=LONG, until=lambda recording: time.sleep(0.01), quiet=True)
+        run(mains.Counter, seconds=LONG, until=lambda _: os.kill(os.getpid(), signal.SIGINT), quiet=True)
+    assert active() is None
 
 
 def test_an_interrupt_comes_from_another_process_too():
@@ -73,7 +58,7 @@ def test_an_interrupt_comes_from_another_process_too():
     child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "It runs.\n"
     child.send_signal(signal.SIGINT)
-    out, _ = child.communicate(timeout=300)
+    out, _ = child.communicate(timeout=PATIENCE)
     assert (out.splitlines()[-1], child.returncode) == ("The run was interrupted.", 0)
 
 
@@ -81,4 +66,4 @@ def test_without_a_run_the_interrupt_is_pythons():
     run(mains.Counter, seconds=1, quiet=True)
     with pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), signal.SIGINT)
-        time.sleep(1)
+        threading.Event().wait(PATIENCE)

@@ -89,7 +89,9 @@ class DaskPool:
                     waiting.append(job)
                     continue
                 self._assign(waiting, fresh)  # so that no worker waits while the caller takes this result
+                began = monotonic()
                 yield result
+                self._seen += monotonic() - began  # meanwhile nothing looked for workers
             self._check()
 
     def close(self) -> None:

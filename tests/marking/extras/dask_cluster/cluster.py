@@ -1,6 +1,7 @@
 """A Dask scheduler with workers, all real processes on this machine."""
+import contextlib
+import json
 import os
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ import psutil
 from distributed import Client
 
 from tests.marking.tiny import ROOT
+from tests.patience import PATIENCE, until
 
 
 class Cluster:
@@ -17,11 +19,9 @@ class Cluster:
     def __init__(self, folder: Path) -> None:
         folder.mkdir()
         self.folder, self.processes = folder, []
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
-        self.address = f"tcp://127.0.0.1:{port}"
-        self.scheduler = self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
+        options = ("--host", "127.0.0.1", "--port", "0", "--scheduler-file", "scheduler.json")
+        self.scheduler = self._start("dask_scheduler", *options)
+        self.address = until(self._published_address, "the scheduler")
 
     def worker(self, **environment: str) -> subprocess.Popen:
         """Start a worker; nobody starts it again."""
@@ -34,8 +34,8 @@ class Cluster:
         running = [process for process in self.processes if process.poll() is None]
         for _ in range(number + 1 - len(running)):
             self.worker()
-        with Client(self.address, timeout=60, set_as_default=False) as client:
-            client.wait_for_workers(number, timeout=60)
+        with Client(self.address, timeout=PATIENCE, set_as_default=False) as client:
+            client.wait_for_workers(number, timeout=PATIENCE)
 
     def children(self) -> list[psutil.Process]:
         """The processes that the workers have started, with theirs."""
@@ -54,11 +54,18 @@ class Cluster:
             for process in some:
                 process.terminate()
             for process in some:
-                process.wait(60)
+                process.wait(PATIENCE)
 
     def _pids(self) -> dict[str, int]:
-        with Client(self.address, timeout=60, set_as_default=False) as client:
+        with Client(self.address, timeout=PATIENCE, set_as_default=False) as client:
             return client.run(os.getpid)
+
+    def _published_address(self) -> str:
+        """The address in the file that the scheduler writes; "" while it is not all there."""
+        assert self.scheduler.poll() is None, (self.folder / "0.log").read_text()
+        with contextlib.suppress(OSError, ValueError):
+            return json.loads((self.folder / "scheduler.json").read_text())["address"]
+        return ""
 
     def _start(self, program: str, *options: str, **environment: str) -> subprocess.Popen:
         command = [sys.executable, "-m", f"distributed.cli.{program}", *options, "--no-dashboard"]

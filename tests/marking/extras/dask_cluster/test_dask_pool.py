@@ -16,13 +16,15 @@ from grader.marking.errors import DaskPoolError
 from grader.marking.extras.dask_cluster import DaskPool
 from grader.marking.pool import Pool
 from grader.marking.result import Result
-from grader.marking.task import MarkingTask, TimeLimits
+from grader.marking.task import MarkingTask
 from tests.marking.assignment import hand_in, release, task
 from tests.marking.extras.dask_cluster import liars
+from tests.marking.student_processes import USUAL
 from tests.marking.tiny import ROOT
+from tests.patience import PATIENCE
 
-HOW = {"unsafe": True, "secret": "a secret", "time_limits": TimeLimits(cell=30.0, test=60.0, notebook=90.0)}
-REMOTE = {**HOW, "wait_s": 20.0}
+HOW = {"unsafe": True, "secret": "a secret", "time_limits": USUAL}
+REMOTE = {**HOW, "wait_s": PATIENCE}
 SORRY = "This could not be marked; your instructor will look at it."
 LOST = "The worker was lost that marked this."
 
@@ -105,17 +107,18 @@ def test_who_closes_it_ends_what_is_marked(shared, staying, gate):
             left = shared.children()
         assert isinstance(result.exception(), DaskPoolError)
     assert len(left) > 3
-    assert psutil.wait_procs(left, 60)[1] == []
+    assert psutil.wait_procs(left, PATIENCE)[1] == []
 
 
 @pytest.mark.soak
 def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(cluster, tasks, staying, gate):
     cluster.with_workers(1)
-    with DaskPool(cluster.address, **HOW, wait_s=1.0) as pool, ThreadPoolExecutor(1) as thread:
+    with DaskPool(cluster.address, **REMOTE) as pool, ThreadPoolExecutor(1) as thread:
         marking = pool.mark([tasks[0], staying])
         assert next(marking).points == 23.0
         result = thread.submit(next, marking)
         gate.read_text()
+        pool._wait_s = pool._client._timeout = 1.0
         cluster.scheduler.kill()
         said = f"the scheduler at {cluster.address} has not answered for 1 s"
         assert str(result.exception()) == said
@@ -145,8 +148,9 @@ def test_workers_that_cant_mark_are_named_and_left_out(cluster, tasks, another, 
     cluster.worker(PYTHONPATH=str(broken))
     cluster.worker(PATH="")  # there is no bubblewrap
     cluster.with_workers(3)
-    sandboxed = {**HOW, "unsafe": False, "wait_s": 1.0}
+    sandboxed = {**REMOTE, "unsafe": False}
     with DaskPool(cluster.address, **sandboxed) as pool, pytest.raises(DaskPoolError) as error:
+        pool._wait_s = 1.0  # once it is connected
         next(pool.mark(tasks))
     nobody = f"no worker of the scheduler at {cluster.address} could mark anything for 1 s"
     start = f"`.venv/bin/dask worker {cluster.address} --nworkers -1 --nthreads 1` starts some"
@@ -195,17 +199,17 @@ def test_what_fails_at_one_worker_is_given_to_another(shared, tasks, monkeypatch
 
 
 @pytest.mark.parametrize(
-    ("address", "why"),
+    ("address", "wait_s", "why"),
     [
-        ("nonsense", "missing port number in address 'nonsense'"),
-        ("smoke://hill:1", "unknown address scheme 'smoke'"),
-        ("tcp://127.0.0.1:1", "Timed out trying to connect to tcp://127.0.0.1:1 after 0.1 s"),
-        ("tls://127.0.0.1:1", "TLS expects a `ssl_context` argument of type ssl.SSLContext"),
+        ("nonsense", PATIENCE, "missing port number in address 'nonsense'"),
+        ("smoke://hill:1", PATIENCE, "unknown address scheme 'smoke'"),
+        ("tcp://127.0.0.1:1", 0.1, "Timed out trying to connect to tcp://127.0.0.1:1 after 0.1 s"),
+        ("tls://127.0.0.1:1", PATIENCE, "TLS expects a `ssl_context` argument of type ssl.SSLContext"),
     ],
 )
-def test_a_scheduler_that_cant_be_reached_is_named(address, why):
+def test_a_scheduler_that_cant_be_reached_is_named(address, wait_s, why):
     with pytest.raises(DaskPoolError) as error:
-        DaskPool(address, wait_s=0.1)
+        DaskPool(address, wait_s=wait_s)
     said = str(error.value)
     assert said.startswith(f"no Dask scheduler answers at {address} ({why}")
     assert said.endswith("): `.venv/bin/dask scheduler` starts one")
@@ -221,7 +225,7 @@ def test_who_could_not_connect_is_not_in_the_way_of_the_next(monkeypatch):
     monkeypatch.setattr("distributed.utils.asyncio_run", run)
     for _ in range(2):
         with pytest.raises(DaskPoolError, match="missing port number"):
-            DaskPool("nonsense", wait_s=0.1)
+            DaskPool("nonsense", wait_s=PATIENCE)
 
 
 def test_without_the_library_it_says_how_to_install_it(monkeypatch):
