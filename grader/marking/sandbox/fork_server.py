@@ -28,10 +28,13 @@ class ForkServer:
         self._control = control
         limits = ResourceLimits(**order["limits"])
         self._confinement = Confinement(limits, order["sandboxed"], order["visible"])
+        if self._confinement.sandboxed:  # before imports, which may hang
+            linux.die_with_parent(signal.SIGKILL)
+            if _is_closed(control):  # the parent may have died before that
+                os._exit(0)
         self._entry = _load(order)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # supervisors report to the Sandbox, not here
         if self._confinement.sandboxed:
-            linux.die_with_parent(signal.SIGKILL)
             linux.set_dumpable(False)
 
     def fork(self, entry: EntryFunction, wire: socket.socket, report: socket.socket) -> None:
@@ -66,6 +69,14 @@ class ForkServer:
                 return
             wire, report = (socket.socket(fileno=descriptor) for descriptor in descriptors)
             self.fork(self._entry, wire, report)
+
+
+def _is_closed(control: socket.socket) -> bool:
+    """Whether the Sandbox has closed its end."""
+    try:
+        return not control.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
+    except BlockingIOError:
+        return False
 
 
 def _load(order: dict[str, Any]) -> EntryFunction:

@@ -1,10 +1,14 @@
 """Systems without a sandbox, and what the marker reads there."""
+import contextlib
+from pathlib import Path
+
 import pytest
 
 from grader.marking.errors import SandboxFailed, SandboxMissing
 from grader.marking.sandbox import Sandbox, bubblewrap, warm_process
 from tests.marking.sandbox.commanded import sandbox
 from tests.marking.sandbox.machines import in_a_system_with
+from tests.patience import until
 
 UNSAFE = ", or mark with `--unsafe`, which lets students' code read and change all your files."
 
@@ -97,4 +101,14 @@ def test_a_warm_process_that_falls_silent_is_given_up(monkeypatch, tmp_path):
     monkeypatch.setattr(warm_process, "START_S", 0.01)
     with pytest.raises(SandboxFailed) as caught:
         Sandbox("silent:main", preload=(), imports=[tmp_path])
+    until(lambda: not processes_with(str(tmp_path)), "it to be gone")
     assert str(caught.value) == "The sandbox was not ready after 0.01 s: is this machine too busy?"
+
+
+def processes_with(text: str) -> list[Path]:
+    """Those of this machine that have a text in their environment."""
+    found = []
+    for place in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):  # it may have ended
+            found += [place] * (text.encode() in (place / "environ").read_bytes())
+    return found
