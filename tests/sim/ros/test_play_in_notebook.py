@@ -41,10 +41,10 @@ class Kernel:
         self.error = reply.get("ename")
         return "".join(printed)
 
-    def wait_for_the_begin_of(self, cell):
-        """Wait until the kernel says that it runs a cell."""
-        said = {}
-        while (said.get("msg_type"), said.get("parent_header", {}).get("msg_id")) != ("execute_input", cell):
+    def begin(self, source):
+        """Begin a cell, and wait until it prints something: before that, an interrupt may get lost."""
+        cell, said = self.client.execute(source), {}
+        while (said.get("msg_type"), said.get("parent_header", {}).get("msg_id")) != ("stream", cell):
             said = self.client.get_iopub_msg(timeout=PATIENCE)
 
     def eventually(self, expression):
@@ -104,8 +104,7 @@ def test_the_stop_button_ends_it_while_the_kernel_is_idle(kernel):
 
 def test_the_stop_button_stops_another_cell_and_not_the_play(kernel):
     kernel("player = play(mains.classic, world='room', seconds=900_000, quiet=True)")
-    cell = kernel.client.execute("while True: time.sleep(9)")
-    kernel.wait_for_the_begin_of(cell)
+    kernel.begin("print('begun', flush=True)\nwhile True: time.sleep(9)")
     kernel.manager.interrupt_kernel()
     kernel("before = player.recording.stamp")
     assert kernel("print(player.over)") == "False\n"

@@ -122,6 +122,7 @@ def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(clus
         cluster.scheduler.kill()
         said = f"the scheduler at {cluster.address} has not answered for 1 s"
         assert str(result.exception()) == said
+    cluster.processes[1].kill()  # a worker that is told to end waits for its cell
 
 
 @pytest.fixture
