@@ -158,7 +158,7 @@ def test_runs_without_end_in_a_cell_are_interrupted(start_student):
 TIME_BEGINS_LATER = """
 import threading
 from types import SimpleNamespace
-from grader.marking.student_process import interrupts
+from grader.marking.student_process import interrupter
 
 begin = threading.Semaphore(0)
 
@@ -171,7 +171,7 @@ class Event(threading.Event):
         super().set()
         begin.release()
 
-interrupts.threading = SimpleNamespace(**{**vars(threading), "Event": Event})
+interrupter.threading = SimpleNamespace(**{**vars(threading), "Event": Event})
 """
 CATCHES_ONCE = """
 try:
@@ -187,7 +187,7 @@ endless()
 def test_code_that_catches_the_interrupt_gets_another(start_student):
     student = start_student(quick=CATCHES_ONCE)
     student.run(ENDLESS)
-    student.run(TIME_BEGINS_LATER)
+    assert student.run(TIME_BEGINS_LATER) == []
     said = student.text(CATCHES_ONCE)
     assert said == "once\nThis cell was interrupted: it took more than 0.5 s.\n"
 
