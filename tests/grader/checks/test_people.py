@@ -4,7 +4,9 @@ import pytest
 
 from grader.checks import nearest_person
 from sim import World, run
+from sim.evidence import Pose
 from sim.world import Person
+from tests.grader.recordings import recording
 from tests.students.engine.drivers import Driver
 
 FARTHER = Person(((2.0, 3.0), (2.0, 3.2)), speed=0.1)
@@ -30,3 +32,11 @@ def test_nobody_is_near_a_robot_that_is_slower_or_alone():
     assert nearest_person(drive(Idle, NEARER), faster=0.0) is None
     assert nearest_person(drive(Driver), faster=0.0) is None
     assert nearest_person(run(seconds=0.1), faster=0.0) is None
+
+
+def test_a_moment_at_which_a_person_was_not_seen_does_not_count():
+    world = World("hall", "", (-4, -4, 6, 4), (0, 0, 0), people=(NEARER,))
+    path = [Pose(float(n), float(n), 0.0, 0.0) for n in range(4)]
+    seen = {"person_1": [Pose(1.0, 2.0, 1.0, 0.0)]}
+    away, stamp, speed = nearest_person(recording(world=world, path=path, tracks=seen), faster=0.5)
+    assert (away, stamp, speed) == (pytest.approx(2**0.5 - NEARER.radius), 1.0, 1.0)

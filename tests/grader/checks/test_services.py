@@ -1,8 +1,21 @@
 import pytest
+from example_interfaces.srv import AddTwoInts
+from std_srvs.srv import SetBool
 
 from grader import Missed
 from grader.checks import calls, responds, serves
+from grader.checks.services import (
+    course_calls,
+    has_client,
+    is_refusal,
+    is_success,
+    offers,
+    response_fields,
+    wrong_response,
+)
 from sim import run
+from sim.evidence import Call, Endpoint, Graph
+from sim.ros.messages.codec import encode
 from tests.grader.recordings import recording
 from tests.students import service_misfits as misfits
 from tests.students.engine import callers, services
@@ -115,6 +128,44 @@ def test_responds_leaves_out_what_is_not_due_at_the_end():
     assert len(responds(record, "/add", total, within=1.5)) == 2
 
 
+def called(requested, answered, *, taken=None, sum=0, seconds=4.0):
+    """A run with a call of /add."""
+    raw, response = encode(AddTwoInts.Request(a=1)), encode(AddTwoInts.Response(sum=sum))
+    call = Call("/add", ADD, "/customer", raw, requested, "/adder", taken, answered)
+    call.raw_response = None if answered is None else response
+    return recording(calls=[call], seconds=seconds)
+
+
+def test_responds_allows_half_a_second_since_the_request():
+    assert responds(called(2.0, 2.5), "/add")
+    miss = missed(responds, called(2.0, 2.51), "/add")
+    assert miss.expected == "an answer to /add (a=1, b=0) at 2 s within 0.5 s"
+    assert miss.saw == "an answer after 0.51 s"
+    assert responds(called(2.0, 2.51), "/add", within=0.6)
+
+
+def test_responds_counts_from_when_it_was_taken_where_no_request_was_seen():
+    assert responds(called(None, 2.5, taken=2.0), "/add")
+    miss = missed(responds, called(None, 2.75, taken=2.0), "/add")
+    assert (miss.expected, miss.saw) == (
+        "an answer to /add (a=1, b=0) at 2 s within 0.5 s", "an answer after 0.75 s",
+    )  # fmt: skip
+    assert missed(responds, called(None, 0.75), "/add").saw == "an answer after 0.75 s"
+
+
+def test_responds_wants_an_answer_that_was_due_when_the_run_ended():
+    assert missed(responds, called(3.5, None, taken=3.5), "/add").saw == "no answer"
+    assert missed(responds, called(3.6, None, taken=3.6), "/add").expected == "a service /add"
+
+
+def test_responds_shows_every_wrong_field():
+    raw, response = encode(SetBool.Request()), encode(SetBool.Response(message="on"))
+    call = Call("/arm", "std_srvs/srv/SetBool", "/a", raw, 1.0, "/b", 1.0, 1.0, 1.0, response)
+    miss = missed(responds, recording(calls=[call]), "/arm", lambda request: {"success": True, "message": "off"})
+    assert miss.expected == "success=True, message='off' as the answer to /arm (data=False) at 1 s"
+    assert miss.saw == "success=False, message='on'"
+
+
 def test_responds_misses_a_service_that_is_not_there():
     assert missed(responds, recording(), "/add").expected == "a service /add"
 
@@ -131,3 +182,73 @@ def test_responds_knows_calls_whose_client_is_unknown():
 def test_responds_judges_two_servers_each():
     miss = missed(responds, ran(callers.two_servers, services.done_callback), "/add", one_more)
     assert (miss.saw, miss.credit) == ("sum=5", 0.5)
+
+
+def arm(message=None, *, requested=1.0, taken=1.0, by_course=True, success=False):
+    """A call of /arm; without a message it was not answered."""
+    raw = encode(SetBool.Request(data=True))
+    call = Call("/arm", "std_srvs/srv/SetBool", "/pilot", raw, requested, "/robot", taken)
+    call.requested_by_course = by_course
+    if message is not None:
+        call.answered, call.raw_response = 1.5, encode(SetBool.Response(success=success, message=message))
+    return call
+
+
+def test_the_courses_calls_are_those_that_the_course_requested():
+    ours, theirs = arm(), arm(by_course=False)
+    assert course_calls(recording(calls=[theirs, ours]), "/arm") == [ours]
+    expected = "a run that lasts until /arm is called"
+    miss = missed(course_calls, recording(calls=[theirs]), "/arm")
+    assert (miss.expected, miss.saw) == (expected, "All of it was run.")
+    miss = missed(course_calls, recording(calls=[ours]), "/arm", 2)
+    assert miss.expected == f"{expected} 2 times"
+    assert course_calls(recording(calls=[ours, ours]), "/arm", 2) == [ours, ours]
+
+
+def test_who_offers_no_service_of_the_type_sees_how_to_make_one():
+    offers(ran(services.Adder), "/add", ADD)
+    miss = missed(offers, recording(), "/add", ADD)
+    assert (miss.expected, miss.saw) == (f"a service /add of type {ADD}", "nobody offers it")
+    assert miss.hint == 'self.create_service(AddTwoInts, "/add", self.callback) offers one.'
+
+
+def test_who_has_no_client_of_the_type_sees_how_to_make_one():
+    ends = [Endpoint("client", "/customer", "/arm", "std_srvs/srv/SetBool", {})]
+    made, unseen = arm(by_course=False), arm(requested=None)
+    run = recording(calls=[made, unseen], graph=Graph(["/customer"], ends))
+    assert has_client(run, "/arm", "std_srvs/srv/SetBool") == [made]
+    miss = missed(has_client, recording(), "/arm", "std_srvs/srv/SetBool")
+    assert miss.expected == "a client for /arm of type std_srvs/srv/SetBool"
+    assert miss.hint == 'self.client = self.create_client(SetBool, "/arm") makes one.'
+
+
+@pytest.mark.parametrize(
+    ("call", "fields", "success", "refusal"),
+    [
+        (arm("on", success=True), {"success": True, "message": "on"}, True, False),
+        (arm("off"), {"success": False, "message": "off"}, False, True),
+        (arm(), {}, False, False),
+    ],
+)
+def test_a_response_is_a_success_or_a_refusal_and_without_one_it_is_neither(call, fields, success, refusal):
+    assert (response_fields(call), is_success(call), is_refusal(call)) == (fields, success, refusal)
+
+
+STUCK = (
+    "The callback of the service has not come back: it waits, or goes round in a loop. Let it note in self what is "
+    "wanted, and return the response at once."
+)
+
+
+def test_a_wrong_response_is_shown_and_its_call_is_what_the_miss_is_about():
+    call = arm("off")
+    miss = wrong_response("it is on", call, "Switch it on.", credit=0.5)
+    assert (miss.expected, miss.saw) == ("it is on", "success=False, message='off'")
+    assert (miss.hint, miss.guess, miss.credit, miss.about) == ("", "Switch it on.", 0.5, (call,))
+    assert wrong_response("it is on", call).credit == 0.0
+
+
+def test_where_there_is_no_response_the_callback_is_stuck_or_was_never_called():
+    for call, hint in ((arm(), STUCK), (arm(taken=None), "")):
+        miss = wrong_response("it is on", call)
+        assert (miss.saw, miss.hint) == ("no answer", hint)

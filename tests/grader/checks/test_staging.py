@@ -12,6 +12,8 @@ from grader.checks import calls, publishes
 from grader.checks.staging import evidence_of
 from grader.diagnosis.owners import Intrusion, intrusions, two_owners
 from sim import run
+from sim.evidence import Call
+from tests.grader.recordings import recording
 from tests.students.engine import actions
 
 
@@ -57,6 +59,22 @@ def test_calls_and_goals_between_a_students_own_nodes_are_no_evidence(staged):
     among_themselves = run(actions.Server, actions.Client, seconds=3, quiet=True)
     assert among_themselves.goals
     assert evidence_of(among_themselves).goals == []
+
+
+@pytest.mark.parametrize(
+    ("server", "by_course", "of_course", "kept"),
+    [
+        ("/server", False, False, False),
+        ("/server", True, False, True),
+        ("/server", False, True, True),
+        ("/server", True, True, True),
+        ("", False, False, True),  # no server took it: there is nothing that it could show
+    ],
+)
+def test_a_call_is_evidence_where_the_course_has_an_end_of_it_or_it_has_no_server(server, by_course, of_course, kept):
+    call = Call("/ask", "std_srvs/srv/Trigger", "/client", b"", 0.0, server)
+    call.requested_by_course, call.served_by_course = by_course, of_course
+    assert (evidence_of(recording(calls=[call])).calls == [call]) == kept
 
 
 def test_where_two_own_a_topic_or_serve_a_service_is_known(staged):

@@ -7,7 +7,7 @@ from std_msgs.msg import Float64, String
 
 from grader import Missed
 from grader.checks import lasts, publishes, rate, series, subscribes, within
-from grader.checks.topics import longest_pause
+from grader.checks.topics import keeps_pace, longest_pause
 from sim import run
 from sim.evidence import Ended, Endpoint, Graph
 from tests.grader.recordings import published, recording
@@ -65,6 +65,7 @@ def test_a_rate_misses_messages_that_nobody_can_hear():
     miss = missed(rate, recorded, "/chatter", 1.0)
     assert (miss.expected, miss.saw) == ("1 Hz on /chatter, within 10%", "messages that nobody can hear")
     assert miss.hint.startswith("/talker made 5 publishers on /chatter for 5 messages. Two programs need")
+    assert miss.picture == "topics"
 
 
 @pytest.mark.parametrize("talker", [misfits.NewPublisherForTheNextMessage, temperature.NewPublisherThatWaits])
@@ -78,11 +79,13 @@ def test_a_rate_takes_new_publishers_that_were_found_before_they_speak(talker):
 def test_publishes_misses_a_publisher_that_says_nothing():
     miss = missed(publishes, run(misfits.SilentTalker, seconds=2, quiet=True), "/chatter")
     assert (miss.expected, miss.saw) == ("messages on /chatter", "a publisher, but no message")
+    assert (miss.guess, miss.picture) == ("", "topics")
 
 
 def test_publishes_counts():
     miss = missed(publishes, ticks([1.0, 2.0]), "/chatter", at_least=3)
     assert (miss.expected, miss.saw) == ("3 or more messages on /chatter", "only 2 in 10 s")
+    assert miss.guess == "Publish at each call of a timer's callback, from start to end."
 
 
 def test_subscribes_finds_the_subscription():
@@ -118,11 +121,56 @@ def test_rate_misses_a_node_that_falls_silent():
     miss = missed(rate, ticks([1.0, 2.0, 3.0]), "/chatter", 1.0)
     assert miss.saw == "no message for 7 s, from 3 s on"
     assert miss.hint == "Publish from start to end, in the callback of a timer."
+    assert miss.picture == "topics"
+
+
+def test_a_rate_needs_two_messages():
+    assert missed(rate, ticks([1.0]), "/chatter", 1.0).expected == "2 or more messages on /chatter"
+    cut = dataclasses.replace(ticks([1.0, 2.0]), ended=Ended("hang", 2.0, "The callback tick never returned."))
+    assert rate(cut, "/chatter", 1.0) == 1.0
+
+
+@pytest.mark.parametrize("hz", [0.5, 2.0])
+def test_a_rate_may_be_a_tenth_off_or_as_much_as_is_said(hz):
+    def at(factor):
+        return ticks([n / hz / factor for n in range(1, int(10 * hz * factor) + 1)])
+
+    assert rate(at(1.09), "/chatter", hz) == pytest.approx(1.09 * hz)
+    assert rate(at(0.91), "/chatter", hz) == pytest.approx(0.91 * hz)
+    fast = missed(rate, at(1.12), "/chatter", hz)
+    hint = f"A timer with period {1 / hz:g} s gives {hz:g} Hz: the period is 1 / rate, in seconds."
+    assert (fast.expected, fast.hint) == (f"{hz:g} Hz on /chatter, within 10%", hint)
+    assert missed(rate, at(0.88), "/chatter", hz).hint == hint
+    assert rate(at(1.12), "/chatter", hz, tolerance=0.2) == pytest.approx(1.12 * hz)
+
+
+@pytest.mark.parametrize("hz", [1.0, 2.0])
+@pytest.mark.parametrize("where", ["at the start", "between", "at the end"])
+def test_a_rate_allows_a_pause_of_two_and_a_half_periods(hz, where):
+    def pausing(periods):
+        shift = {"at the start": 0, "between": 15}.get(where, 30)
+        stamps = [(n + (1 if n < shift else periods)) / hz for n in range(30)]
+        end = stamps[-1] + (periods / hz if where == "at the end" else 0.1)
+        return published("/chatter", [(stamp, String()) for stamp in stamps], seconds=end)
+
+    assert rate(pausing(2.4), "/chatter", hz) == pytest.approx(hz, rel=0.1)
+    since = {"at the start": 0.0, "between": 15 / hz}.get(where, 30 / hz)
+    saw = f"no message for {2.6 / hz:.3g} s, from {since:.3g} s on"
+    assert missed(rate, pausing(2.6), "/chatter", hz).saw == saw
 
 
 def test_rate_misses_a_burst_at_one_moment():
     miss = missed(rate, ticks([1.0] * 10), "/chatter", 1.0)
-    assert miss.saw == "0 Hz (10 messages in 10 s)"
+    assert (miss.saw, miss.hint) == ("0 Hz (10 messages in 10 s)", "")
+
+
+def test_a_pace_of_10_hz_has_a_hint_of_its_own_unless_a_callback_is_slow():
+    keeps_pace(ticks([0.1 * n for n in range(1, 101)]), "/chatter", "Keep up.")
+    for hz in (8.8, 11.2):
+        miss = missed(keeps_pace, ticks([n / hz for n in range(1, int(10 * hz) + 1)]), "/chatter", "Keep up.")
+        assert (miss.expected, miss.hint) == ("10 Hz on /chatter, within 10%", "Keep up.")
+    slow = missed(keeps_pace, run(misfits.SleepyTalker, seconds=10, quiet=True), "/chatter", "Keep up.")
+    assert slow.hint.startswith("The timer of /talker fired 3 times in 10 s; 10 were due.")
 
 
 def test_the_longest_pause_is_between_two_moments_in_a_row():
@@ -142,7 +190,12 @@ def test_within_misses_the_first_value_outside():
     miss = missed(within, run_, "/temperature", "data", 20, 25, unit="degrees C")
     assert miss.expected == "data on /temperature from 20 to 25 degrees C"
     assert miss.saw == "25.5 degrees C at 2 s; 2 of 3 are outside"
-    assert miss.hint == ""
+    assert (miss.hint, miss.picture) == ("", "topics")
+    assert missed(within, run_, "/temperature", "data", 25, 30).saw == "22 at 1 s; 1 of 3 are outside"
+
+
+def test_within_misses_a_topic_nobody_publishes():
+    assert missed(within, recording(), "/temperature", "data", 20, 25).saw == "nobody publishes there"
 
 
 def test_within_lets_no_nan_pass():
@@ -173,6 +226,7 @@ def test_lasts_tells_the_last_message():
     assert miss.expected == "messages on /chatter until the end, at 10 s"
     assert miss.saw == "the last one at 8.9 s"
     assert miss.guess == "Publish from start to end, in a callback that is called again and again."
+    assert miss.picture == "topics"
 
 
 def test_lasts_wants_no_more_of_a_run_that_was_cut_short():
