@@ -1,1 +1,1 @@
-"""Makes exercises/ from solutions/ with nbgrader's own commands, and marks samples to show the whole way."""
+"""Makes exercises/ from solutions/ with nbgrader's commands; makes the handout; marks samples."""

@@ -1,4 +1,4 @@
-"""The way of a mark, from release to feedback, in a temporary class with three sample students.
+"""Shows marking from release to feedback, in a temporary class with three sample students.
 
     python -m grader.marking.release.demo [assignment]      default: the first one
 """
@@ -12,14 +12,14 @@ from pathlib import Path
 from nbgrader.api import Gradebook
 
 from grader.marking.errors import CommandFailed
-from grader.marking.release.make_exercises import copy_of_course, release, say
+from grader.marking.release.make_exercises import copy_of_course, print_line, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES, submit_samples
 
 
 @dataclass(frozen=True)
-class Marked:
-    """A student's marks: points earned and possible per exercise, and the page that explains them."""
+class SampleMark:
+    """A student's marks: points earned and possible per exercise, and the feedback page."""
 
     student: str
     points: dict[str, tuple[float, float]]
@@ -27,31 +27,31 @@ class Marked:
 
 
 def mark_samples(
-    course: Path, assignment: str, told: Callable[[str], None] = lambda line: None
-) -> list[Marked]:
+    course: Path, assignment: str, report: Callable[[str], None] = lambda line: None
+) -> list[SampleMark]:
     """Release, submit the samples, mark them and give feedback in `course`. Raises CommandFailed.
 
-    told: called with a line at the begin of each step.
+    report: called with a line at the beginning of each step.
     """
-    release(course, told)
+    release(course, report)
     submit_samples(course, assignment)
-    told(f"Running the notebooks of {', '.join(SHARES)} ...")
+    report(f"Running the notebooks of {', '.join(SHARES)} ...")
     nbgrader(course, "autograde", assignment)
-    told("Writing their pages of feedback ...")
+    report("Writing their pages of feedback ...")
     nbgrader(course, "generate_feedback", assignment)
     return [_marks(course, assignment, student) for student in SHARES]
 
 
-def _marks(course: Path, assignment: str, student: str) -> Marked:
+def _marks(course: Path, assignment: str, student: str) -> SampleMark:
     with Gradebook(f"sqlite:///{course}/class/gradebook.db") as gradebook:
         notebooks = gradebook.find_submission(assignment, student).notebooks
         grades = [grade for notebook in notebooks for grade in notebook.grades]
         points = {grade.name: (grade.score, grade.max_score) for grade in grades}
     feedback = course / "class" / "feedback" / student / assignment
-    return Marked(student, points, next(iter(sorted(feedback.glob("*.html"))), feedback))
+    return SampleMark(student, points, next(iter(sorted(feedback.glob("*.html"))), feedback))
 
 
-def table(marks: list[Marked]) -> str:
+def table(marks: list[SampleMark]) -> str:
     """Return the marks as text: an exercise per line, a student per column, then the pages of feedback."""
     worth = {name: possible for name, (_, possible) in marks[0].points.items()}
     rows = {name: [*(marked.points[name][0] for marked in marks), worth[name]] for name in worth}
@@ -73,9 +73,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("assignment", nargs="?", choices=names, default=names[0], help="default: the first")
     assignment = parser.parse_args(arguments).assignment
     course = copy_of_course(Path.cwd(), Path(tempfile.mkdtemp(prefix="ros2-course-demo-")))
-    say(f"Marking three sample submissions of {assignment} in {course} ...")
+    print_line(f"Marking three sample submissions of {assignment} in {course} ...")
     try:
-        print(table(mark_samples(course, assignment, say)))
+        print(table(mark_samples(course, assignment, print_line)))
     except CommandFailed as error:
         print(error, file=sys.stderr)
         return 1

@@ -1,9 +1,9 @@
-"""Makes what students get, as a folder and as a ZIP: lessons, starters, the robot and the checks.
+"""Makes the students' handout, as a folder and as a ZIP: lessons, starters, the robot and the checks.
 
     python -m grader.marking.release.handout [--to FOLDER]      default: dist
 
-No solutions, no tests, and of marking only what a league of one's own robots needs. Equal courses give equal
-bytes.
+It has no solutions, no tests, and of marking only what a league of a student's own robots needs. Equal
+courses give equal bytes.
 """
 import argparse
 import hashlib
@@ -20,69 +20,69 @@ from grader.notebook_format import normalised
 from grader.work_folder import student_files
 
 NAME = "ros2-course"
-# What students get besides lessons and exercises, and what of that they don't.
-PARTS = (
+# Included besides lessons and exercises; parts of it are excluded below.
+INCLUDED = (
     *("LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
     *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
-MARKING = (
+MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py"),
     *("extras/certificate", "extras/dask_cluster"),
 )
-KEPT_BACK = (
-    *(f"grader/marking/{part}" for part in MARKING),
+EXCLUDED = (
+    *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
     *("jupyter/teach", "course/README.md", "grader/README.md"),
 )
-TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile
-LEFT_BY_TOOLS = {"__pycache__", ".ipynb_checkpoints", "build"}
-LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
-RULE = re.compile(r"^([a-z]+):", re.M)
+TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile that are included
+TOOL_FOLDERS = {"__pycache__", ".ipynb_checkpoints", "build"}
+ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP can hold
+TARGET = re.compile(r"^([a-z]+):", re.M)
 
 
 def contents(course: Path) -> dict[str, bytes]:
     """Every file of the handout by its path in it, sorted."""
     files = [*student_files(course), *_files(course)]
     found = {path.relative_to(course).as_posix(): path for path in files}
-    texts = {name: _content(path) for name, path in found.items() if not _is_kept_back(name)}
+    texts = {name: _content(path) for name, path in found.items() if not _is_excluded(name)}
     texts["README.md"] = (course / "course" / "README.md").read_bytes()
     texts["Makefile"] = makefile((course / "Makefile").read_text(encoding="utf-8")).encode()
     return dict(sorted(texts.items()))
 
 
 def _files(course: Path) -> Iterator[Path]:
-    for part in PARTS:
+    for part in INCLUDED:
         path = course / part
         below = path.rglob("*") if path.is_dir() else [path]
         for file in below:
             inside = file.relative_to(course).parts
-            left = LEFT_BY_TOOLS.intersection(inside) or any(part.endswith(".egg-info") for part in inside)
+            left = TOOL_FOLDERS.intersection(inside) or any(part.endswith(".egg-info") for part in inside)
             if file.is_file() and not left:
                 yield file
 
 
-def _is_kept_back(name: str) -> bool:
-    return any(name == part or name.startswith(f"{part}/") for part in KEPT_BACK)
+def _is_excluded(name: str) -> bool:
+    return any(name == part or name.startswith(f"{part}/") for part in EXCLUDED)
 
 
 def _content(path: Path) -> bytes:
-    if path.suffix == ".ipynb":  # an instructor may have run it
+    if path.suffix == ".ipynb":  # it may have outputs
         return normalised(path.read_text(encoding="utf-8"), str(path)).encode()
     return path.read_bytes()
 
 
 def makefile(text: str) -> str:
-    """The Makefile with the targets that students have; blank lines part its rules."""
+    """The Makefile with the students' targets only; its rules are separated by blank lines."""
     parts = []
     for part in text.split("\n\n"):
-        rule = RULE.search(part)
+        rule = TARGET.search(part)
         if not rule or rule[1] in TARGETS:
             parts.append(part)
     return "\n\n".join(parts).rstrip() + "\n"
 
 
 def write_folder(files: dict[str, bytes], folder: Path) -> None:
-    """Write the files into a folder; what of another handout lay there goes, a student's work stays."""
+    """Write the files into a folder, in place of an older handout; a student's work stays."""
     for name in {Path(name).parts[0] for name in files}:
         old = folder / name
         if old.is_dir():
@@ -98,7 +98,7 @@ def write_zip(files: dict[str, bytes], path: Path) -> str:
     """Write the files into a ZIP; return its SHA-256."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, content in files.items():
-            entry = zipfile.ZipInfo(f"{NAME}/{name}", LONG_AGO)
+            entry = zipfile.ZipInfo(f"{NAME}/{name}", ZIP_EPOCH)
             entry.create_system = 3  # Unix, so that the mode counts
             entry.external_attr = (0o100000 | _mode(name)) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
@@ -113,7 +113,7 @@ def _mode(name: str) -> int:
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line in the course's folder; returns the exit status."""
     parser = argparse.ArgumentParser(
-        "python -m grader.marking.release.handout", description="Make what students get."
+        "python -m grader.marking.release.handout", description="Make the students' handout."
     )
     parser.add_argument("--to", type=Path, default=Path("dist"), metavar="FOLDER", help="default: dist")
     to = parser.parse_args(arguments).to

@@ -21,32 +21,32 @@ from grader.notebook_format import normalise
 
 
 def tidy(assignment: str, **_: object) -> None:
-    """Bring a released assignment into the one form of our notebooks.
+    """Bring a released assignment into the course's canonical form of notebooks.
 
     nbgrader calls this when it has made a release (`GenerateAssignment.post_convert_hook`).
     """
     normalise([Path("exercises", assignment)])
 
 
-def say(line: str) -> None:
-    """Print a line at once, wherever it goes."""
+def print_line(line: str) -> None:
+    """Print a line without buffering."""
     print(line, flush=True)
 
 
-def release(course: Path, told: Callable[[str], None] = lambda line: None) -> None:
+def release(course: Path, report: Callable[[str], None] = lambda line: None) -> None:
     """Make course/exercises from course/solutions, and enter the assignments into the gradebook.
 
-    As `nbgrader generate_assignment ASSIGNMENT --force`, for all of them in this process. Whatever lies in
-    exercises/ is replaced. told: called with a line at the begin of each assignment.
+    As `nbgrader generate_assignment ASSIGNMENT --force`, for all of them in this process. The contents of
+    exercises/ are replaced. report: called with a line at the beginning of each assignment.
     Raises CommandFailed, or CourseError.
     """
     here = Course(course)
     for handler in here.app.log.handlers:
         handler.setLevel(logging.CRITICAL)
-    here.app.log.setLevel(logging.ERROR)  # for the words of the failure
+    here.app.log.setLevel(logging.ERROR)  # for the message of CommandFailed
     names = assignments(course)
     for number, assignment in enumerate(names, 1):
-        told(f"{number} of {len(names)}: exercises/{assignment}")
+        report(f"{number} of {len(names)}: exercises/{assignment}")
         here.directory.assignment_id = assignment
         made = capture_log(GenerateAssignment(coursedir=here.directory, parent=here.app, force=True))
         if not made["success"]:
@@ -57,7 +57,7 @@ def release(course: Path, told: Callable[[str], None] = lambda line: None) -> No
 
 
 def copy_of_course(course: Path, target: Path) -> Path:
-    """Copy what a release is made from, solutions/ and nbgrader's configuration; return `target`."""
+    """Copy the sources of a release, solutions/ and nbgrader's configuration; return `target`."""
     left_behind = shutil.ignore_patterns(".ipynb_checkpoints", "__pycache__")
     shutil.copytree(course / "solutions", target / "solutions", ignore=left_behind)
     shutil.copy(course / "nbgrader_config.py", target)
@@ -99,7 +99,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit 1 on a difference")
     check = parser.parse_args(arguments).check
     try:
-        found = differences(Path.cwd()) if check else release(Path.cwd(), say)
+        found = differences(Path.cwd()) if check else release(Path.cwd(), print_line)
     except MarkingError as error:
         print(error, file=sys.stderr)
         return 1

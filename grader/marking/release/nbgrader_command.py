@@ -1,4 +1,4 @@
-"""Runs nbgrader's own commands in a course folder, as an instructor would type them."""
+"""Runs nbgrader's own commands in a course folder."""
 import subprocess
 import sys
 from pathlib import Path
@@ -16,9 +16,9 @@ def nbgrader(course: Path, *arguments: str) -> None:
         raise failure(course, " ".join(arguments), done.stdout)
 
 
-def failure(course: Path, command: str, said: str) -> CommandFailed:
-    """The error that tells of a command of nbgrader's, and of the end of what it printed."""
-    last = "\n    ".join(said.strip().splitlines()[-ERROR_LINES:])
+def failure(course: Path, command: str, output: str) -> CommandFailed:
+    """The error for a command of nbgrader, with the end of its output."""
+    last = "\n    ".join(output.strip().splitlines()[-ERROR_LINES:])
     return CommandFailed(f"`nbgrader {command}` failed in {course}:\n    {last}")
 
 

@@ -1,4 +1,4 @@
-"""Runs notebooks as they are, each in a copy of its folder, and says what they earned and what went wrong."""
+"""Runs notebooks as they are, each in a copy of its folder, and collects their points and errors."""
 import html
 import os
 import re
@@ -18,12 +18,12 @@ from nbformat import NotebookNode
 from nbgrader.utils import determine_grade, is_grade
 
 SECONDS_PER_CELL = 300  # only against hanging: a busy machine is slow
-QUIET = ["--IPKernelApp.log_level=40"]  # else each kernel warns that this machine could listen
+KERNEL_OPTIONS = ["--IPKernelApp.log_level=40"]  # otherwise each kernel warns about its open ports
 
 
 @dataclass(frozen=True)
-class Marks:
-    """What a test cell gave. missed: the lines of its score that are not right."""
+class TestCellMark:
+    """The points of a test cell. missed: the lines of its score that did not pass."""
 
     cell: str
     points: float
@@ -32,47 +32,48 @@ class Marks:
 
 
 @dataclass(frozen=True)
-class NotebookRun:
-    """A notebook that was run. problems: errors, each with the cell where it was raised."""
+class ExecutedNotebook:
+    """A notebook that was run. problems: errors, each with its cell."""
 
     path: Path
     seconds: float
-    marks: tuple[Marks, ...] = ()
+    marks: tuple[TestCellMark, ...] = ()
     problems: tuple[str, ...] = ()
 
     @property
     def points(self) -> float:
-        """What all of its test cells gave."""
+        """The points of all its test cells."""
         return sum(marks.points for marks in self.marks)
 
     @property
     def most(self) -> float:
-        """What they could give."""
+        """The points that are possible."""
         return sum(marks.most for marks in self.marks)
 
     @property
     def is_right(self) -> bool:
-        """Whether it ran without an error and has all points."""
+        """Whether it ran without errors and has all points."""
         return not self.problems and all(marks.points >= marks.most for marks in self.marks)
 
 
-def run_notebooks(paths: Sequence[Path]) -> Iterator[NotebookRun]:
-    """Run the notebooks, as many at once as there are cores; yield each in its turn."""
+def run_notebooks(paths: Sequence[Path]) -> Iterator[ExecutedNotebook]:
+    """Run the notebooks, as many at a time as there are cores; yield them in order."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         yield from pool.map(run_notebook, paths)
 
 
-def run_notebook(path: Path) -> NotebookRun:
-    """Run a notebook to its end, whatever its cells raise. The file and its folder stay as they are."""
+def run_notebook(path: Path) -> ExecutedNotebook:
+    """Run a notebook to its end, even if cells raise. The file and its folder are not changed."""
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as place:
-        # Lessons write files, and read others that lie beside them.
+        # Lessons write files, and read others beside them.
         folder = Path(shutil.copytree(path.resolve().parent, Path(place, path.resolve().parent.name)))
         beside = path.resolve().parents[1] / "exercises"
-        if beside.is_dir():  # the start page maps both
+        if beside.is_dir():  # the start page lists both
             Path(place, "exercises").symlink_to(beside)
         notebook = nbformat.read(folder / path.name, 4)
-        client = notebook_client(notebook, SECONDS_PER_CELL, interrupt_on_timeout=True, extra_arguments=QUIET)
+        options = {"interrupt_on_timeout": True, "extra_arguments": KERNEL_OPTIONS}
+        client = notebook_client(notebook, SECONDS_PER_CELL, **options)
         try:
             client.execute(cwd=str(folder))
             stopped = ()
@@ -80,14 +81,13 @@ def run_notebook(path: Path) -> NotebookRun:
             stopped = ("its kernel died.",)
     problems = [problem for cell in notebook.cells for problem in _problems(cell)]
     marks = tuple(_marks(cell) for cell in notebook.cells if is_grade(cell) and cell.cell_type == "code")
-    return NotebookRun(path, time.monotonic() - begin, marks, (*problems, *stopped))
+    return ExecutedNotebook(path, time.monotonic() - begin, marks, (*problems, *stopped))
 
 
 def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> NotebookClient:
-    """What runs a notebook with so much time for each cell, whatever its cells raise. Sliders have no page.
+    """A client that runs a notebook with a time limit for each cell, even if cells raise, without widgets.
 
-    nbclient would play one, and while it says there what a slider shows, it may miss that the cell is done,
-    and wait until its time is over.
+    While nbclient answers a widget's messages, it may miss that the cell is done, and wait until the limit.
     """
     client = NotebookClient(notebook, timeout=seconds, kernel_name="python3", allow_errors=True, **options)
     client.comm_open_handlers.clear()
@@ -98,21 +98,21 @@ def _problems(cell: NotebookNode) -> Iterator[str]:
     for output in cell.get("outputs", ()):
         if output.output_type == "error":
             late = output.ename == "KeyboardInterrupt"
-            said = f"stopped after {SECONDS_PER_CELL} s" if late else f"{output.ename}: {output.evalue}"
-            yield f"cell {cell.id}: {said}".splitlines()[0]
+            error = f"stopped after {SECONDS_PER_CELL} s" if late else f"{output.ename}: {output.evalue}"
+            yield f"cell {cell.id}: {error}".splitlines()[0]
 
 
-def _marks(cell: NotebookNode) -> Marks:
+def _marks(cell: NotebookNode) -> TestCellMark:
     points, most = determine_grade(cell)
     if cell.execution_count is None:
-        points = 0.0  # the notebook was stopped before; to nbgrader no output means all points
+        points = 0.0  # the notebook was stopped before; nbgrader gives all points for no output
     pages = [output.get("data", {}).get("text/html", "") for output in cell.outputs]
     missed = tuple(line for page in pages for line in missed_lines(page)) if points < most else ()
-    return Marks(cell.metadata.nbgrader.grade_id, points, most, missed)
+    return TestCellMark(cell.metadata.nbgrader.grade_id, points, most, missed)
 
 
 def missed_lines(page: str) -> list[str]:
-    """The lines of a score's table that are neither passed nor headings, as text; "" has none."""
+    """The lines of a score's table that are neither passed nor headings, as text."""
     rows = (re.sub(r"</div>|</td>", "\n", row) for row in page.split("<tr>")[2:])
     texts = (html.unescape(re.sub(r"<[^>]+>", "", row)).strip() for row in rows)
     wrong = "\n".join(text for text in texts if not text.startswith("✔"))

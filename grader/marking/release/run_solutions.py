@@ -1,4 +1,4 @@
-"""Runs every lesson and every solution as they are: all must run without an error and have all points.
+"""Runs every lesson and solution: all must run without errors and have all points.
 
     python -m grader.marking.release.run_solutions [--junit FILE] [notebook or folder ...]
 """
@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-from grader.marking.release.run_notebooks import Marks, NotebookRun, run_notebooks
+from grader.marking.release.run_notebooks import ExecutedNotebook, TestCellMark, run_notebooks
 from grader.notebook_format import FOLDERS, InvalidNotebook, find_notebooks
 
-LESSON = "runs to its end"  # the one test of a notebook without points
+RUNS_TO_END = "runs to its end"  # the one test of a notebook without points
 
 
 def row(name: str, points: str, seconds: str, width: int) -> str:
@@ -19,13 +19,13 @@ def row(name: str, points: str, seconds: str, width: int) -> str:
     return f"{name:{width}}{points:>14}{seconds:>8}"
 
 
-def points_of(run: NotebookRun) -> str:
+def points_of(run: ExecutedNotebook) -> str:
     """Points as "85 of 85"; "-" for a notebook that gives none."""
     return f"{run.points:g} of {run.most:g}" if run.marks else "-"
 
 
-def misses(run: NotebookRun) -> list[str]:
-    """What went wrong in a notebook, as lines; empty for one that is right."""
+def misses(run: ExecutedNotebook) -> list[str]:
+    """The errors and missed points of a notebook, as lines."""
     lines = [f"{run.path}: {problem}" for problem in run.problems]
     for marks in run.marks:
         if marks.points < marks.most:
@@ -34,8 +34,8 @@ def misses(run: NotebookRun) -> list[str]:
     return lines
 
 
-def junit(runs: Sequence[NotebookRun]) -> str:
-    """The runs as JUnit's XML: a suite for each notebook, a test for each exercise and one for the whole."""
+def junit(runs: Sequence[ExecutedNotebook]) -> str:
+    """The runs in JUnit's XML: a suite for each notebook, with a test for each exercise and for itself."""
     root = ElementTree.Element("testsuites")
     for run in runs:
         failed = sum(marks.points < marks.most for marks in run.marks) + bool(run.problems)
@@ -47,7 +47,7 @@ def junit(runs: Sequence[NotebookRun]) -> str:
             failures=str(failed),
             time=f"{run.seconds:.1f}",
         )
-        whole = _case(suite, run, LESSON, run.problems, "errors")
+        whole = _case(suite, run, RUNS_TO_END, run.problems, "errors")
         whole.set("time", f"{run.seconds:.1f}")
         for marks in run.marks:
             _case(suite, run, marks.cell, *_failure(marks))
@@ -56,7 +56,7 @@ def junit(runs: Sequence[NotebookRun]) -> str:
 
 
 def _case(
-    suite: ElementTree.Element, run: NotebookRun, name: str, lines: Sequence[str], message: str
+    suite: ElementTree.Element, run: ExecutedNotebook, name: str, lines: Sequence[str], message: str
 ) -> ElementTree.Element:
     case = ElementTree.SubElement(suite, "testcase", classname=str(run.path), name=name)
     if lines:
@@ -64,15 +64,15 @@ def _case(
     return case
 
 
-def _failure(marks: Marks) -> tuple[Sequence[str], str]:
+def _failure(marks: TestCellMark) -> tuple[Sequence[str], str]:
     if marks.points >= marks.most:
         return (), ""
     message = f"{marks.points:g} of {marks.most:g} points"
     return marks.missed or (message,), message
 
 
-def report(paths: Sequence[Path]) -> list[NotebookRun]:
-    """Run the notebooks, and print a line for each as it is done, then the sum and what was missed."""
+def report(paths: Sequence[Path]) -> list[ExecutedNotebook]:
+    """Run the notebooks; print a line for each, then the sum and what was missed."""
     print(f"Running {len(paths)} notebooks ...")
     width = max(len(str(path)) for path in paths)
     print(row("", "points", "s", width), flush=True)
@@ -94,7 +94,7 @@ def main(arguments: list[str] | None = None) -> int:
         "python -m grader.marking.release.run_solutions", description="Run every lesson and every solution."
     )
     parser.add_argument("paths", nargs="*", type=Path, help="notebooks or folders; default: all")
-    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the result as JUnit's XML, too")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="also write the result as JUnit's XML")
     chosen = parser.parse_args(arguments)
     try:
         paths = find_notebooks(chosen.paths or FOLDERS)

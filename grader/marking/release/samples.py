@@ -20,7 +20,7 @@ def submission(solution: NotebookNode, starter: NotebookNode, share: float) -> N
 
 
 def submit_samples(course: Path, assignment: str) -> None:
-    """Put the samples' submissions of an assignment that is released into course/class/submitted."""
+    """Write the samples' submissions of a released assignment into course/class/submitted."""
     for starter in sorted((course / "exercises" / assignment).glob("*.ipynb")):
         solution = course / "solutions" / assignment / starter.name
         for student, share in SHARES.items():

@@ -8,7 +8,7 @@ from nbgrader.validator import Validator
 from traitlets.config import Config
 
 from grader.marking.errors import CommandFailed
-from grader.marking.release.demo import Marked, main, mark_samples, table
+from grader.marking.release.demo import SampleMark, main, mark_samples, table
 from grader.marking.release.make_exercises import copy_of_course
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.marking.release.samples import SHARES
@@ -21,7 +21,7 @@ SHOW = f"from IPython.display import HTML, display\ndisplay(HTML('{TABLE}<script
 
 
 @pytest.fixture(scope="module")
-def marked_course(tmp_path_factory) -> tuple[Path, dict[str, Marked]]:
+def marked_course(tmp_path_factory) -> tuple[Path, dict[str, SampleMark]]:
     """The samples of a tiny course, marked by nbgrader with a secret.
 
     Its notebook says how long that is, shows a table and has scripts in it.
@@ -49,7 +49,7 @@ def configuration(monkeypatch, folder: Path) -> Config:
     return app.config
 
 
-def earned(marked: Marked) -> list[float]:
+def earned(marked: SampleMark) -> list[float]:
     return [points for points, _ in marked.points.values()]
 
 
@@ -125,8 +125,8 @@ def test_validate_waits_less_than_marking(tmp_path, monkeypatch):
 
 def test_the_table_shows_points_per_exercise_and_the_pages():
     marks = [
-        Marked("right", {"a": (2, 2), "long": (1.5, 1.5)}, Path("r.html")),
-        Marked("wrong", {"a": (0, 2), "long": (0.5, 1.5)}, Path("w.html")),
+        SampleMark("right", {"a": (2, 2), "long": (1.5, 1.5)}, Path("r.html")),
+        SampleMark("wrong", {"a": (0, 2), "long": (0.5, 1.5)}, Path("w.html")),
     ]
     assert table(marks) == (
         "            right       wrong          of\n"

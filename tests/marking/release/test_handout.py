@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from traitlets.config import PyFileConfigLoader
 
-from grader.marking.release.handout import NAME, PARTS, contents, main, makefile, write_folder, write_zip
+from grader.marking.release.handout import INCLUDED, NAME, contents, main, makefile, write_folder, write_zip
 from grader.work_folder import student_files
 from tests.marking.tiny import ROOT
 
@@ -190,7 +190,7 @@ def test_the_command_says_what_it_made_and_refuses_stale_exercises(tiny_course, 
     assert capsys.readouterr().err == (
         "exercises/01_tiny/tiny.ipynb is missing\nRun `make exercises` first.\n"
     )
-    for part in {Path(part).parts[0] for part in (*PARTS, "Makefile", "course")} - {"nbgrader_config.py"}:
+    for part in {Path(part).parts[0] for part in (*INCLUDED, "Makefile", "course")} - {"nbgrader_config.py"}:
         (tiny_course / part).symlink_to(ROOT / part)
     shutil.copytree(ROOT / "exercises" / "01_nodes", tiny_course / "exercises" / "01_nodes")
     monkeypatch.setattr("grader.marking.release.handout.differences", lambda course: [])

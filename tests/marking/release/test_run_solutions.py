@@ -8,7 +8,7 @@ import pytest
 from grader import Missed, check
 from grader.checks.judge import judge
 from grader.marking.release import run_notebooks, run_solutions
-from grader.marking.release.run_notebooks import Marks, NotebookRun, missed_lines
+from grader.marking.release.run_notebooks import ExecutedNotebook, TestCellMark, missed_lines
 from grader.marking.release.run_solutions import junit, main
 from grader.score import Score
 from sim.evidence import Recording
@@ -134,7 +134,7 @@ def test_only_lines_that_cost_points_are_missed():
 
 
 def test_junit_counts_what_is_right():
-    suite = ElementTree.fromstring(junit([NotebookRun(Path("a"), 2.0, (Marks("one", 1, 1),))]))[0]
+    suite = ElementTree.fromstring(junit([ExecutedNotebook(Path("a"), 2.0, (TestCellMark("one", 1, 1),))]))[0]
     assert (suite.get("tests"), suite.get("failures"), suite.get("time")) == ("2", "0", "2.0")
     assert list(suite.iter("failure")) == []
 
