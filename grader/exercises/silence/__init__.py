@@ -1,30 +1,31 @@
 """The exercises of 07_silence, from a look at the graph to a doctor for six silent systems."""
 
-from grader.exercises.silence.commanding import pub
-from grader.exercises.silence.crowd import crowd
-from grader.exercises.silence.hearing import lidar
-from grader.exercises.silence.joysticks import Joystick
-from grader.exercises.silence.latching import late
-from grader.exercises.silence.mending import doctor
-from grader.exercises.silence.reading import graph
-from grader.exercises.silence.senders import RADIO, MapServer, RadioLidar, Visitor
-from grader.exercises.silence.stopping import joystick
-from grader.exercises.silence.ward import ward
+from grader.companions.joystick import SilentJoystick
+from grader.companions.latched_map import LatchedMap, LateSubscriber
+from grader.companions.radio_lidar import RADIO, RadioLidar
+from grader.companions.silent_systems import silent_systems
+from grader.companions.speakers import speakers
+from grader.exercises.silence.doctor import doctor
+from grader.exercises.silence.graph import graph
+from grader.exercises.silence.joystick import joystick
+from grader.exercises.silence.late import late
+from grader.exercises.silence.lidar import lidar
+from grader.exercises.silence.pub import pub
 from sim.ros2.cli_program import terminal
 
 __all__ = [
     "RADIO",
-    "Joystick",
-    "MapServer",
+    "LatchedMap",
+    "LateSubscriber",
     "RadioLidar",
-    "Visitor",
-    "crowd",
+    "SilentJoystick",
     "doctor",
     "graph",
     "joystick",
     "late",
     "lidar",
     "pub",
+    "silent_systems",
+    "speakers",
     "terminal",
-    "ward",
 ]

@@ -4,7 +4,7 @@ import pytest
 from rclpy.node import Node
 
 from grader.diagnosis import explain, find_flaw
-from grader.exercises.silence import terminal, ward
+from grader.exercises.silence import silent_systems, terminal
 from sim import run
 from tests.students import misfits
 
@@ -29,7 +29,7 @@ def test_what_is_broken_between_programs_of_ours_is_not_explained(fault):
 
 
 def test_the_six_silent_systems_alone_show_no_flaw():
-    assert find_flaw(run(companions=ward(3), seconds=2, quiet=True)) == ""
+    assert find_flaw(run(companions=silent_systems(3), seconds=2, quiet=True)) == ""
 
 
 def test_a_tool_may_speak_before_it_was_found():

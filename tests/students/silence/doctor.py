@@ -271,3 +271,31 @@ class TriesOneAfterTheOther(Doctor):
         elif self.tries:
             end, name, value, self.word = self.tries.pop(0)
             self.set(end, name, value)
+
+
+class MuteForReliability(Doctor):
+    def examine(self, topic):
+        return super().examine(topic).replace("reliability", "mute")
+
+
+class MuteForDurability(Doctor):
+    def examine(self, topic):
+        return super().examine(topic).replace("durability", "mute")
+
+
+class LeavesItMute(Doctor):
+    def set(self, end, name, value):
+        if name != "running":
+            super().set(end, name, value)
+
+
+class SetsItsOwnDurability(Doctor):
+    """The display has it already: it is what the sensor doesn't offer."""
+
+    def set(self, end, name, value):
+        super().set(end, name, "transient_local" if name == "durability" else value)
+
+
+class NearlyTheName(Doctor):
+    def set(self, end, name, value):
+        super().set(end, name, f"{value}s" if name == "topic" else value)

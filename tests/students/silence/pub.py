@@ -58,3 +58,4 @@ OnTheSpot = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{angular: {{z: 0.6
 TooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.3}}}}'")
 TooFast = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.5}}, angular: {{z: 1.0}}}}'")
 Listens = terminal("ros2 topic echo /odom")
+ABitTooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.4}}}}'")

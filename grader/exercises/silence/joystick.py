@@ -1,27 +1,32 @@
-"""An exercise on deadlines: a joystick falls silent, and the robot stops."""
+"""Deadlines: a joystick goes silent, and the robot stops."""
 
 from __future__ import annotations
 
-import bisect
 import itertools
 import math
 
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.no_data import no_data
+from grader.checks.twists import TWIST, Speeds, speeds, speeds_text
+from grader.companions.joystick import OFFERED, PAUSE, SilentJoystick
 from grader.exercise import Exercise
-from grader.exercises.silence.joysticks import OFFERED, PAUSE, Joystick
+from grader.responses import EDGE, Window, from_course, last_before, top_speed
 from sim.evidence import Message, Recording, Seconds
 
-TWIST, ASKED, SENT = "geometry_msgs/msg/Twist", "/joystick", "/cmd_vel"
+RAW, SENT = "/joystick", "/cmd_vel"
 LAG = 0.12  # s, until a command has to be passed on
 SOON, STOPPED = 0.4, 1.0  # s of silence, after which zeros go out, and after which the robot stands
-LONGEST, EXACT = 0.3, 1e-6  # s, a deadline that notices soon enough
+LONGEST = 0.3  # s, a deadline that notices soon enough
 STEP, STANDING = 0.05, 0.02  # s, m/s
 PROFILE = "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline."
-Command = tuple[float, float]  # m/s, rad/s
 
 joystick = Exercise(
-    "joystick", "A joystick that falls silent", world="yard", seconds=10, companions=[Joystick], seeds=(1, 2)
+    "joystick",
+    "A joystick that falls silent",
+    world="yard",
+    seconds=10,
+    companions=[SilentJoystick],
+    seeds=(1, 2),
 )
 
 
@@ -29,7 +34,7 @@ joystick = Exercise(
 def stands_between(run: Recording) -> None:
     """The node hears /joystick, and publishes Twist messages on /cmd_vel."""
     with hinting("The joystick talks on /joystick, and the robot listens to /cmd_vel."):
-        subscribes(run, ASKED, TWIST)
+        subscribes(run, RAW, TWIST)
         publishes(run, SENT, TWIST, at_least=10)
 
 
@@ -44,24 +49,23 @@ def passes_commands_on(run: Recording) -> None:
 def stops_when_it_falls_silent(run: Recording) -> None:
     """When the joystick falls silent, zeros go out within 0.4 s, and the robot stands within 1 s."""
     for begin, end in _silences(run):
-        speed = _speed(run.during(begin + STOPPED, end))
-        unsafe = speed > STANDING
+        speed = top_speed(run.during(begin + STOPPED, end).path).linear
         for moment, sent in _looks(run, begin + SOON, end):
             if sent != (0.0, 0.0):
                 raise Missed(
                     f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
-                    f"{_told(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
+                    f"{_text(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
                     _why_not_zero(run, begin + STOPPED, end),
                     picture="topics",
-                    unsafe=unsafe,
+                    unsafe=speed > STANDING,
                 )
 
 
 @joystick.check(5, after=stops_when_it_falls_silent)
-def asks_for_a_deadline(run: Recording) -> None:
+def requests_a_deadline(run: Recording) -> None:
     """Its subscription asks for a deadline of 0.3 s or less, and the joystick can keep it."""
     shortest = _deadline(run)
-    if not OFFERED - EXACT <= shortest <= LONGEST + EXACT:
+    if not OFFERED - EDGE <= shortest <= LONGEST + EDGE:
         saw = "none" if shortest == math.inf else f"{shortest:g} s"
         raise Missed(
             f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription", saw, PROFILE
@@ -78,69 +82,55 @@ def goes_on_afterwards(run: Recording) -> None:
 
 
 def _silences(run: Recording) -> list[tuple[Seconds, Seconds]]:
-    """Between which two commands the joystick said nothing for long."""
-    stamps = [one.stamp for one in run.messages(ASKED) if one.from_course]
+    """Between which two commands the joystick published nothing for long."""
+    stamps = [row.stamp for row in from_course(run, RAW, at_least=0)]
     found = [(a, b) for a, b in itertools.pairwise(stamps) if b - a > PAUSE / 2]
     if len(found) < 2:
-        raise no_data(run, "two silences", f"{len(found)}", run.graph.publishers(ASKED))
+        raise no_data(run, "two silences", f"{len(found)}", run.graph.publishers(RAW))
     return found
 
 
-def _looks(run: Recording, begin: Seconds, end: Seconds) -> list[tuple[Seconds, Command | None]]:
+def _looks(run: Recording, begin: Seconds, end: Seconds) -> list[tuple[Seconds, Speeds | None]]:
     """What holds at moments beside those at which timers fire, and each command that is sent: in order."""
-    told = run.messages(SENT)
+    rows = run.messages(SENT)
     moments = [begin + index * STEP + 0.012 for index in range(max(0, int((end - begin) / STEP)))]
-    looks = [(moment, _last(told, moment)) for moment in moments]
-    looks += [(one.stamp, _command(one)) for one in told if begin <= one.stamp < end]
+    looks = [(moment, _last(rows, moment)) for moment in moments]
+    looks += [(row.stamp, speeds(row)) for row in Window(begin, end).rows(rows)]
     return sorted(looks, key=lambda look: look[0])
 
 
 def _alike(run: Recording, begin: Seconds, end: Seconds, guess: str) -> None:
-    """Raises Missed where what is sent isn't what the joystick asked for lately."""
-    asked, wrong = [one for one in run.messages(ASKED) if one.from_course], []
+    """Raises Missed where what is published isn't what the joystick published lately."""
+    raw, wrong = from_course(run, RAW), []
     looks = _looks(run, begin, end)
     for moment, sent in looks:
-        wishes = {_last(asked, moment - lag) for lag in (0.0, LAG / 2, LAG)}
-        if sent not in wishes:
-            wrong.append((moment, _last(asked, moment), sent))
+        if sent not in {_last(raw, moment - lag) for lag in (0.0, LAG / 2, LAG)}:
+            wrong.append((moment, _last(raw, moment), sent))
     if len(wrong) > 0.05 * len(looks):
-        moment, wish, sent = wrong[0]
-        raise Missed(f"{_told(wish)} at {moment:.3g} s, as the joystick asks", _told(sent), guess=guess)
+        moment, wanted, sent = wrong[0]
+        raise Missed(f"{_text(wanted)} at {moment:.3g} s, as the joystick asks", _text(sent), guess=guess)
 
 
-def _last(messages: list[Message], moment: Seconds) -> Command | None:
+def _last(messages: list[Message], moment: Seconds) -> Speeds | None:
     """The last command up to a moment; None without one lately."""
-    index = bisect.bisect_right(messages, moment, key=lambda one: one.stamp) - 1
-    if index < 0 or moment - messages[index].stamp > LONGEST:
-        return None
-    return _command(messages[index])
+    row = last_before(messages, moment)
+    return None if row is None or moment - row.stamp > LONGEST else speeds(row)
 
 
-def _command(heard: Message) -> Command:
-    twist = heard.message
-    return twist.linear.x, twist.angular.z
-
-
-def _speed(run: Recording) -> float:
-    """The highest speed of the robot, m/s."""
-    steps = itertools.pairwise(run.path)
-    return max((math.dist(a[1:3], b[1:3]) / (b.stamp - a.stamp) for a, b in steps), default=0.0)
-
-
-def _told(command: Command | None) -> str:
+def _text(command: Speeds | None) -> str:
     if command is None:
         return f"no command for {LONGEST:g} s"
-    return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
+    return speeds_text(command)
 
 
 def _deadline(run: Recording) -> Seconds:
-    """The shortest that a student's subscription asks for."""
-    asked = [end.qos["deadline"] for end in run.graph.subscriptions(ASKED) if not end.from_course]
-    return min((limit for limit in asked if limit is not None), default=math.inf)
+    """The shortest that a student's subscription requests."""
+    requested = [end.qos["deadline"] for end in run.graph.subscriptions(RAW) if not end.from_course]
+    return min((limit for limit in requested if limit is not None), default=math.inf)
 
 
 def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
-    if _deadline(run) > LONGEST + EXACT:
+    if _deadline(run) > LONGEST + EDGE:
         return f"Nobody is told that it is late, unless a deadline is asked for. {PROFILE}"
     if not run.during(begin, end).messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."

@@ -1,4 +1,4 @@
-"""An exercise on the words of ros2: one command drives the robot."""
+"""One ros2 command that drives the robot."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from sim.evidence import Recording, stamps
 TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
 RADIUS, SPEED = 0.5, 0.3  # m, m/s
 NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and turned
-COMPLAINT = re.compile(
-    "error:|command not found|is not a command|can't be read|populate field|is invalid"
-)  # of ros2
+# What ros2 prints about a command that is wrong.
+COMPLAINT = re.compile("error:|command not found|is not a command|can't be read|populate field|is invalid")
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
 pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True)
@@ -28,8 +27,8 @@ def can_be_read(run: Recording) -> None:
     try:
         publishes(run, COMMANDS, TWIST)
     except Missed as missed:
-        said = [line.strip() for _, text in run.prints for line in text.splitlines() if line.strip()]
-        wrong = next((line for line in said if COMPLAINT.search(line)), "")
+        printed = [line.strip() for _, text in run.prints for line in text.splitlines() if line.strip()]
+        wrong = next((line for line in printed if COMPLAINT.search(line)), "")
         if wrong:
             raise Missed(missed.expected, f"“{wrong}”", _how_to_read(wrong)) from None
         missed.guess = "`ros2 topic pub` publishes; `echo` and `hz` listen."
@@ -57,11 +56,12 @@ def drives_the_circle(run: Recording) -> None:
     far = [abs(math.dist((pose.x, pose.y), (0.0, RADIUS)) - RADIUS) for pose in run.path]
     steps = itertools.pairwise(run.path)
     turned = sum(math.remainder(after.yaw - before.yaw, math.tau) for before, after in steps)
-    way = travelled(run)
-    if max(far) > NEAR or turned < ROUND or way < ROUND * RADIUS:
+    length = travelled(run)
+    if max(far) > NEAR or turned < ROUND or length < ROUND * RADIUS:
         raise Missed(
             f"a way of {math.tau * RADIUS:.2f} m round a circle, which is a turn of 360 degrees to the left",
-            f"a way of {way:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to {max(far):.2f} m"
+            f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
+            f"{max(far):.2f} m"
             " off the circle",
             _why_no_circle(run, turned),
             picture="path",
@@ -80,7 +80,7 @@ def drives_at_the_speed(run: Recording) -> None:
 
 
 def _how_to_read(wrong: str) -> str:
-    """What to do about a complaint of ros2's."""
+    """What to do about an error message of ros2."""
     if "unrecognized arguments" in wrong:
         return (
             "The values are one word for the terminal: put quotes round them, '{...}', as they have spaces."
@@ -97,7 +97,7 @@ def _how_to_read(wrong: str) -> str:
 
 
 def _why_no_circle(run: Recording, turned: float) -> str:
-    """The usual reasons for another way."""
+    """The usual reasons for another path."""
     turns = [turn for _, turn in series(run, COMMANDS, "angular.z")]
     if not any(turns):
         return "It never turns: angular.z is the turn, in rad/s. (angular.x and y do nothing on the ground.)"

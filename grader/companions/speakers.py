@@ -1,4 +1,4 @@
-"""Nodes of ours for the first exercise: a crowd that talks on topics of its own, and somebody who asks."""
+"""Eight nodes that publish on topics of their own, and one that asks who publishes where."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ BEGIN, LATE = 0.05, 3.25  # s; between two questions
 PERIOD, PAUSE = 0.2, 0.5  # s between two messages, and between two questions
 
 
-class Member(NamedTuple):
-    """One node of the crowd."""
+class SpeakerPlan(NamedTuple):
+    """One of the eight nodes."""
 
     name: str
     space: str
-    speaks: tuple[str, ...]  # a topic that is named twice has two publishers
-    listens: tuple[str, ...]
+    publishes: tuple[str, ...]  # a topic that is named twice has two publishers
+    subscribes: tuple[str, ...]
     begin: float  # s
 
 
-def members(seed: int) -> tuple[list[Member], list[str]]:
-    """A crowd drawn from a seed, and the topics that are asked about, in this order.
+def plans(seed: int) -> tuple[list[SpeakerPlan], list[str]]:
+    """Return the nodes of a seed, and the topics of the questions, in their order.
 
-    One topic has one speaker; one has three, of whom one joins late; on one nobody speaks, though two listen;
-    on one two speak, one of them by two publishers.
+    One topic has one publishing node; one has three, of which one joins late; one has only subscribers; one
+    has two publishing nodes, of which one has two publishers.
     """
     draw = random.Random(f"crowd {seed}")
     topics, names = draw.sample(TOPICS, 4), draw.sample(NAMES, 8)
@@ -42,50 +42,53 @@ def members(seed: int) -> tuple[list[Member], list[str]]:
     spaces = [draw.choice(SPACES) for _ in names]
     spaces[1], spaces[4] = "/robot1", "/kitchen"  # so that a bare name is never enough
     begins = [LATE if index == 3 else BEGIN for index in range(len(names))]
-    crowd = [Member(*row) for row in zip(names, spaces, speaks, listens, begins, strict=True)]
-    draw.shuffle(crowd)
-    return crowd, draw.sample(topics, len(topics))
+    nodes = [SpeakerPlan(*row) for row in zip(names, spaces, speaks, listens, begins, strict=True)]
+    draw.shuffle(nodes)
+    return nodes, draw.sample(topics, len(topics))
 
 
 class Speaker(Node):
-    """Says its name (String) on each of its topics, five times a second, from its beginning on."""
+    """Publishes its name (String) on each of its topics at 5 Hz, from its beginning on."""
 
-    def __init__(self, member: Member) -> None:
+    def __init__(self, member: SpeakerPlan) -> None:
         super().__init__(member.name, namespace=member.space or None)
         self.member, self.outlets = member, []
-        for topic in member.listens:
+        for topic in member.subscribes:
             self.create_subscription(String, topic, lambda msg: None, 10)
         self.begin = self.create_timer(member.begin, self.join)
         self.create_timer(PERIOD, self.speak)
 
     def join(self) -> None:
-        """Make the publishers."""
+        """Create the publishers."""
         self.begin.cancel()
-        self.outlets = [self.create_publisher(String, topic, 10) for topic in self.member.speaks]
+        self.outlets = [self.create_publisher(String, topic, 10) for topic in self.member.publishes]
 
     def speak(self) -> None:
-        """Say something on each topic."""
+        """Publish on each topic."""
         for outlet in self.outlets:
             outlet.publish(String(data=self.get_name()))
 
 
-class Asker(Node):
-    """Asks on /question (String) who publishes on a topic, twice a second, from 1 s on: one after another."""
+class QuestionPublisher(Node):
+    """Asks on /question (String) who publishes on a topic, at 2 Hz from 1 s on, one topic after another."""
 
     def __init__(self, topics: list[str]) -> None:
         super().__init__("asker")
         self.publisher = self.create_publisher(String, "/question", 10)
         self.topics, self.ticks = itertools.cycle(topics), 0
-        self.create_timer(PAUSE, self.ask)
+        self.create_timer(PAUSE, self.publish_question)
 
-    def ask(self) -> None:
+    def publish_question(self) -> None:
         """Ask about the next topic."""
         self.ticks += 1
         if self.ticks > 1:
             self.publisher.publish(String(data=next(self.topics)))
 
 
-def crowd(seed: int) -> list[Callable[[], Node]]:
-    """The crowd of a seed and the one who asks, as companions of a run."""
-    people, topics = members(seed)
-    return [functools.partial(Asker, topics), *(functools.partial(Speaker, member) for member in people)]
+def speakers(seed: int) -> list[Callable[[], Node]]:
+    """Return the nodes of a seed and the one with the questions, as companions of a run."""
+    nodes, topics = plans(seed)
+    return [
+        functools.partial(QuestionPublisher, topics),
+        *(functools.partial(Speaker, member) for member in nodes),
+    ]

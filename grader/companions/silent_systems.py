@@ -1,4 +1,4 @@
-"""Nodes of ours for the last exercise: six systems, each with a fault of its own, and who complains."""
+"""Six systems of a sensor and a display, each with a fault of its own, and a node that complains."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ STRING = "std_msgs/msg/String"
 POLICIES = {"reliability": ("best_effort", "reliable"), "durability": ("volatile", "transient_local")}
 
 
-class Case(NamedTuple):
-    """A system: a sensor, a display that is to hear it, and what is wrong between them."""
+class SilentSystem(NamedTuple):
+    """A system: a sensor, a display that should receive its messages, and the fault between them."""
 
     fault: str
     space: str
     topic: str  # that the display waits for, with its namespace
     spoken: str  # that the sensor publishes on
     deadline: float  # s, that the sensor offers; 0 without
-    durable: bool  # a decoy: what fits, and looks as if it didn't
+    durable: bool  # a decoy: it is compatible, and looks as if it weren't
     weak: bool  # another one
 
 
-def cases(seed: int) -> list[Case]:
-    """Six systems drawn from a seed, one with each fault, in the order of the complaints."""
+def cases(seed: int) -> list[SilentSystem]:
+    """Return the six systems of a seed, one with each fault, in the order of the complaints."""
     draw = random.Random(f"ward {seed}")
     spaces, topics = draw.sample(SPACES, 6), draw.sample(TOPICS, 6)
     found = []
@@ -50,12 +50,12 @@ def cases(seed: int) -> list[Case]:
             spoken = f"/{space}/{_misspelt(word, draw)}"
         offered = draw.choice(OFFERED) if fault == "deadline" else draw.choice((0.0, 0.15, 0.2))
         row = fault, space, topic, spoken, offered, draw.random() < 0.5, draw.random() < 0.5
-        found.append(Case(*row))
+        found.append(SilentSystem(*row))
     return found
 
 
 def _misspelt(word: str, draw: random.Random) -> str:
-    """The word with two letters in the other's place, or without one."""
+    """Return the word with two letters swapped, or without one."""
     place = draw.choice([at for at in range(1, len(word) - 1) if word[at] != word[at + 1]])
     if draw.random() < 0.5:
         return word[:place] + word[place + 1] + word[place] + word[place + 2 :]
@@ -70,35 +70,35 @@ def _durability(transient: bool) -> DurabilityPolicy:
     return DurabilityPolicy.TRANSIENT_LOCAL if transient else DurabilityPolicy.VOLATILE
 
 
-class Sensor(Node):
+class FaultySensor(Node):
     """Publishes String messages, ten a second, while its parameter `running` is true."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: SilentSystem) -> None:
         super().__init__("sensor", namespace=case.space)
         profile = QoSProfile(depth=5)
         profile.reliability = _reliability(case.fault == "reliability" or case.weak)
         profile.durability = _durability(case.fault != "durability" and case.durable)
         profile.deadline = Duration(seconds=case.deadline)
-        self.count = random.randrange(10**9)  # nobody else can say what this sensor says
+        self.count = random.randrange(10**9)  # so that no other node can know its messages
         self.declare_parameter("running", case.fault != "mute")
         self.publisher = self.create_publisher(String, case.spoken, profile)
         self.create_timer(PERIOD, self.speak)
 
     def speak(self) -> None:
-        """Say the next number."""
+        """Publish the next number."""
         if self.get_parameter("running").value:
             self.count += 1
             self.publisher.publish(String(data=str(self.count)))
 
 
-class Display(Node):
-    """Waits for the messages of a sensor. Its parameters say on which topic, and with which settings.
+class ConfigurableDisplay(Node):
+    """Subscribes to a sensor. Its parameters set the topic and the QoS.
 
-    Each time one of them is set it subscribes anew. What it hears it tells on /heard, and what is set on
-    /changes, both after the name of the topic that it has at the beginning.
+    Each time one of them is set, it subscribes again. It publishes what it receives on /heard, and what is
+    set on /changes, both after the name of the topic that it has at the beginning.
     """
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: SilentSystem) -> None:
         super().__init__("display", namespace=case.space)
         self.case = case
         weak = case.fault != "reliability" and case.weak
@@ -108,7 +108,7 @@ class Display(Node):
             "durability": _durability(case.fault == "durability").name.lower(),
             "deadline": WANTED if case.fault == "deadline" else 0.0,
         }
-        self.heard = self.create_publisher(String, "/heard", 10)
+        self.received = self.create_publisher(String, "/heard", 10)
         self.changes = self.create_publisher(String, "/changes", 10)
         for name, value in settings.items():
             self.declare_parameter(name, value)
@@ -126,14 +126,14 @@ class Display(Node):
         profile.deadline = Duration(seconds=self.get_parameter("deadline").value)
         if self.subscription is not None:
             self.destroy_subscription(self.subscription)
-        self.subscription = self.create_subscription(String, given["topic"], self.hear, profile)
+        self.subscription = self.create_subscription(String, given["topic"], self.on_message, profile)
 
-    def hear(self, msg: String) -> None:
-        """Tell what has come."""
-        self.heard.publish(String(data=f"{self.case.topic} {msg.data}"))
+    def on_message(self, msg: String) -> None:
+        """Publish what was received."""
+        self.received.publish(String(data=f"{self.case.topic} {msg.data}"))
 
     def check(self, parameters: list[Parameter]) -> SetParametersResult:
-        """Refuse what can't be subscribed with."""
+        """Reject what a subscription cannot have."""
         wrong = [parameter.name for parameter in parameters if not self.can_be(parameter)]
         return SetParametersResult(
             successful=not wrong, reason=f"impossible: {', '.join(wrong)}" if wrong else ""
@@ -155,14 +155,14 @@ class Display(Node):
         return dict(self.get_topic_names_and_types()).get(value, [STRING]) == [STRING]
 
     def change(self, parameters: list[Parameter]) -> None:
-        """Subscribe anew, and tell that something was set."""
+        """Subscribe again, and publish what was set."""
         for parameter in parameters:
             self.changes.publish(String(data=f"{self.case.topic} {parameter.name}"))
         self.listen()
 
 
-class Caller(Node):
-    """Complains on /complaint (String) of one display after another: the topic that it hears nothing on."""
+class ComplaintPublisher(Node):
+    """Publishes on /complaint (String) the topic of one display after another that receives nothing."""
 
     def __init__(self, topics: list[str]) -> None:
         super().__init__("caller")
@@ -171,16 +171,16 @@ class Caller(Node):
         self.create_timer(PAUSE, self.complain)
 
     def complain(self) -> None:
-        """Complain of the next one, as long as there is one."""
+        """Publish the next complaint, as long as there is one."""
         if self.topics:
             self.publisher.publish(String(data=self.topics.pop()))
 
 
-def ward(seed: int) -> list[Callable[[], Node]]:
-    """The six systems of a seed and the one who complains, as companions of a run."""
+def silent_systems(seed: int) -> list[Callable[[], Node]]:
+    """Return the six systems of a seed and the complaints, as companions of a run."""
     made: list[Callable[[], Node]] = []
     for case in cases(seed):
-        made.append(functools.partial(Display, case))
+        made.append(functools.partial(ConfigurableDisplay, case))
         if case.fault != "nobody":
-            made.append(functools.partial(Sensor, case))
-    return [*made, functools.partial(Caller, [case.topic for case in cases(seed)])]
+            made.append(functools.partial(FaultySensor, case))
+    return [*made, functools.partial(ComplaintPublisher, [case.topic for case in cases(seed)])]

@@ -1,4 +1,4 @@
-"""A node of ours: a joystick that falls silent, as one whose battery is empty or who is out of reach."""
+"""A joystick that goes silent, as one with an empty battery or out of range."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ PAUSE = 1.6  # s
 SPEEDS, TURNS = (0.3, 0.4, 0.5), (-0.8, -0.4, 0.0, 0.4, 0.8)
 
 
-class Joystick(Node):
-    """Sends commands (Twist on /joystick), 20 a second, and promises one every 0.1 s.
+class SilentJoystick(Node):
+    """Publishes commands (Twist on /joystick) at 20 Hz, and offers a deadline of 0.1 s.
 
-    Twice it sends none for 1.6 s: from 2 s to 3.4 s on, and from 5.6 s to 7 s on, as the seed decides.
+    Twice it publishes none for 1.6 s: beginning at 2 s to 3.4 s, and at 5.6 s to 7 s, as the seed decides.
     """
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class Joystick(Node):
         self.create_timer(PERIOD, self.tick)
 
     def tick(self) -> None:
-        """Send a command, another one every half second; or nothing."""
+        """Publish a command, another one every half second; or nothing."""
         self.ticks += 1
         now = self.ticks * PERIOD
         if self.ticks % 10 == 1:

@@ -1,0 +1,164 @@
+"""Name the faults of six systems, and fix them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.companions.silent_systems import FAULTS, PAUSE, SilentSystem, cases, silent_systems
+from grader.exercise import Exercise
+from grader.responses import EDGE, Window, from_course
+from sim.evidence import Recording, Seconds
+
+STRING = "std_msgs/msg/String"
+GIVEN_AWAY = 2  # right answers, or systems fixed, that earn nothing: they may be right by chance
+CURES = {
+    "name": "topic",
+    "reliability": "reliability",
+    "durability": "durability",
+    "deadline": "deadline",
+    "mute": "running",
+}  # the parameter that fixes a fault; where there is no sensor, none does
+CHANGES_ALL = "If you change everything, you mend by chance, and break what was right. Find the fault first."
+
+WHY = {
+    "name": "A publisher has nearly this name. Compare with all topics: get_topic_names_and_types().",
+    "nobody": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
+    "reliability": "The sensor offers best effort, and the display asks for reliable.",
+    "durability": "The display asks for transient local, and the sensor is volatile.",
+    "deadline": "The display asks for a shorter deadline than the sensor offers; none at all is longest.",
+    "mute": "All settings fit, and still nothing comes: the sensor is there, and doesn't speak.",
+}
+SETTINGS = {"reliability", "durability", "deadline"}
+
+doctor = Exercise("doctor", "A doctor for silent systems", seconds=9, companions=silent_systems, seeds=(1, 2))
+
+
+class Diagnosed(NamedTuple):
+    """A system with a complaint, and what was done about it."""
+
+    stamp: Seconds  # of the complaint
+    case: SilentSystem
+    words: tuple[str, ...]  # that the student's node published about it
+    receives: bool  # whether its display receives something in the end
+    changes: tuple[str, ...]  # the parameters of its display that were set
+
+    @property
+    def idle(self) -> list[str]:
+        """Those of them that don't fix its fault."""
+        return [name for name in self.changes if name != CURES.get(self.case.fault, "")]
+
+
+@doctor.check(2)
+def answers_complaints(run: Recording) -> None:
+    """The node hears /complaint, and publishes String messages on /diagnosis."""
+    with hinting("The callback of /complaint is `hear`: it publishes what `examine` returns."):
+        subscribes(run, "/complaint", STRING)
+        publishes(run, "/diagnosis", STRING)
+
+
+@doctor.check(
+    10,
+    after=answers_complaints,
+    hints={
+        "One message for each complaint: return as soon as the fault is found.": lambda run, one: (
+            len(one.words) > 1
+        ),
+        "The words are {faults}.": lambda run, one: (
+            not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)}
+        ),
+        "Publish the topic of the complaint, a colon and the word; `hear` does it if examine returns.": (
+            lambda run, one: not one.words
+        ),
+        "Settings that differ may fit: a sensor may offer more than the display asks for. "
+        "Here it is this: {why}": (
+            lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]}
+        ),
+        "{why}": lambda run, *about: about and {"why": WHY[about[0].case.fault]},
+    },
+)
+def names_the_faults(run: Recording) -> None:
+    """For each complaint it names the fault, in one message and within a second: “/kitchen/speech: name”."""
+    systems = _systems(run)
+    wrong = [one for one in systems if one.words != (one.case.fault,)]
+    if wrong:
+        first = wrong[0]
+        saw = ", ".join(f"“{word}”" for word in first.words) or "nothing"
+        raise Missed(
+            f"“{first.case.topic}: {first.case.fault}” after the complaint at {first.stamp:.3g} s",
+            f"{saw}; {len(systems) - len(wrong)} of {len(systems)} are right",
+            credit=_share(len(systems) - len(wrong), len(systems)),
+            about=(first,),
+        )
+
+
+@doctor.check(8, after=answers_complaints)
+def fixes_the_faults(run: Recording) -> None:
+    """It mends the fault, by that alone: every display hears its sensor again, where there is one."""
+    systems = [one for one in _systems(run) if one.case.fault != "nobody"]
+    broken = [one for one in systems if not one.receives or one.idle]
+    if broken:
+        first = broken[0]
+        done = (
+            f"{', '.join(first.changes)} was set"
+            if first.changes
+            else "nothing was set at the display, or it was refused"
+        )
+        raise Missed(
+            f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”",
+            f"it hears {'again' if first.receives else 'nothing'}, and {done}; "
+            f"{len(systems) - len(broken)} of {len(systems)} were mended so",
+            CHANGES_ALL if first.idle else _why_broken(first),
+            credit=_share(len(systems) - len(broken), len(systems)),
+        )
+
+
+@doctor.check(2, after=fixes_the_faults)
+def touches_nothing_else(run: Recording) -> None:
+    """It sets only what is at fault: nothing at a display that waits for nobody, and no other parameter."""
+    for one in _systems(run):
+        if one.idle:
+            needed = CURES.get(one.case.fault, "")
+            expected = f"{f'{needed} alone' if needed else 'nothing'} set at the display of {one.case.topic}"
+            raise Missed(expected, ", ".join(dict.fromkeys(one.changes)), CHANGES_ALL)
+
+
+def _share(right: int, of: int) -> float:
+    return max(0.0, (right - GIVEN_AWAY) / (of - GIVEN_AWAY))
+
+
+def _systems(run: Recording) -> list[Diagnosed]:
+    """All systems with a complaint."""
+    known = {case.topic: case for case in cases(run.seed)}
+    displayed = from_course(run.during(run.ended.stamp - PAUSE), "/heard", at_least=0)
+    texts = {row.message.data for row in displayed}
+    changes = [row.message.data.split() for row in from_course(run, "/changes", at_least=0)]
+    found = []
+    for complaint in from_course(run, "/complaint", what="complaints"):
+        topic = complaint.message.data
+        answers = Window.after(complaint.stamp, PAUSE - 2 * EDGE).rows(run.messages("/diagnosis"))
+        parts = [row.message.data.partition(":") for row in answers]
+        words = tuple(word.strip() for name, _, word in parts if name.strip() == topic)
+        set_here = tuple(name for where, name in changes if where == topic)
+        receives = any(f"{topic} {text}" in texts for text in _published(run, known[topic]))
+        found.append(Diagnosed(complaint.stamp, known[topic], words, receives, set_here))
+    return found
+
+
+def _published(run: Recording, case: SilentSystem) -> set[str]:
+    """What the sensor of a system has published, and no other node."""
+    return {row.message.data for row in from_course(run, case.spoken, at_least=0)}
+
+
+
+def _why_broken(one: Diagnosed) -> str:
+    """What to do where a display still receives nothing."""
+    fault = one.case.fault
+    if fault == "mute":
+        return "The sensor has the parameter `running`: set it to True, at the sensor and not at the display."
+    if CURES[fault] in one.changes:
+        return {
+            "name": "Set `topic` to the name that the sensor uses, with its namespace.",
+            "deadline": "Set `deadline` to what the sensor offers or more, in seconds; 0.0 is no limit.",
+        }.get(fault, f"Set `{CURES[fault]}` to what the sensor offers: its name in small letters.")
+    return f"Set `{CURES[fault]}` of the display to what the sensor offers. A sensor's are fixed."

@@ -1,0 +1,136 @@
+"""The graph: which nodes publish on a topic?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from grader.checks import Missed, publishes, subscribes
+from grader.checks.check import otherwise
+from grader.checks.no_data import no_data
+from grader.companions.speakers import LATE, PAUSE, speakers
+from grader.exercise import Exercise
+from grader.responses import EDGE, Stimuli, Window
+from sim.evidence import Recording, Seconds
+
+STRING = "std_msgs/msg/String"
+QUESTION, ANSWER = "/question", "/answer"
+LATELY = 0.3  # s; each publisher of the course publishes every 0.2 s
+NOBODY = "nobody"
+
+WRONG = {
+    "Publish once in the callback, all names in one message: ', '.join(names).": (
+        lambda run, one: len(one.answers) > 1
+    ),
+    "The callback is called with each question: publish in it, whatever the answer is.": (
+        lambda run, one: not one.answers
+    ),
+    "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).": (
+        lambda run, one: _names_subscribers(run, one)
+    ),
+    f"An empty list of names gives an empty text: publish “{NOBODY}” then.": lambda run, one: not _names(one),
+    "A node with two publishers is in the list twice: make a set of the names first.": (
+        lambda run, one: len(_names(one)) > len(set(_names(one)))
+    ),
+    "The names are right, and their order isn't: sorted(...) puts them in order.": (
+        lambda run, one: set(_names(one)) == set(one.speakers)
+    ),
+    "The full name begins with the namespace: node_namespace, a slash, node_name. In the namespace / itself "
+    "there is only one slash.": lambda run, one: _bare(_names(one)) == _bare(one.speakers),
+    "Somebody is missing. Ask ROS anew at each question, for nodes come and go; and take all of them.": (
+        lambda run, one: set(_names(one)) < set(one.speakers)
+    ),
+    "Ask about the topic that the question names: msg.data.": otherwise,
+}
+
+graph = Exercise("graph", "Who publishes there?", seconds=8, companions=speakers, seeds=(1, 2))
+questions = Stimuli(QUESTION, answered_on=ANSWER, within=PAUSE - 2 * EDGE)
+
+
+class Question(NamedTuple):
+    """A question, the right answer, and the answers before the next question."""
+
+    stamp: Seconds
+    topic: str
+    speakers: tuple[str, ...]  # full names, sorted
+    answers: tuple[str, ...]
+
+    @property
+    def right(self) -> str:
+        """The answer."""
+        return ", ".join(self.speakers) or NOBODY
+
+
+@graph.check(2)
+def answers_at_all(run: Recording) -> None:
+    """The node hears /question, and publishes String messages on /answer."""
+    subscribes(run, QUESTION, STRING)
+    publishes(run, ANSWER, STRING)
+
+
+@graph.check(7, after=answers_at_all, hints=WRONG)
+def names_the_publishers(run: Recording) -> None:
+    """Where somebody publishes, one answer names all who do: full names, sorted, each once."""
+    questions = [one for one in _questions(run.during(0.0, LATE)) if one.speakers]
+    _right(run, questions, "topics that have publishers")
+
+
+@graph.check(2, after=names_the_publishers, hints=WRONG)
+def answers_nobody(run: Recording) -> None:
+    """Where nobody publishes, the answer is “nobody”."""
+    questions = [one for one in _questions(run) if not one.speakers]
+    _right(run, questions, "topics without publishers")
+
+
+@graph.check(3, after=names_the_publishers, hints=WRONG)
+def names_nodes_that_joined(run: Recording) -> None:
+    """A node that joins while you watch is named from then on, and not before."""
+    before, since = _questions(run.during(0.0, LATE)), _questions(run.during(LATE, run.ended.stamp))
+    earlier = {one.topic: one.speakers for one in before}
+    grown = [one for one in since if one.speakers != earlier.get(one.topic, one.speakers)]
+    _right(run, grown, "topics with new publishers")
+
+
+def _questions(run: Recording) -> list[Question]:
+    """All questions of the course that had time for an answer."""
+    return [
+        Question(one.stamp, one.value.data, _publishers(run, one.value.data, one.stamp), tuple(one.values()))
+        for one in questions(run, at_least=0)
+    ]
+
+
+def _publishers(run: Recording, topic: str, stamp: Seconds) -> tuple[str, ...]:
+    """The full names of the course's nodes that published on a topic lately, sorted."""
+    lately = Window(stamp - LATELY, stamp).rows(run.messages(topic))
+    return tuple(sorted({row.sender for row in lately if row.from_course}))
+
+
+def _right(run: Recording, questions: list[Question], what: str) -> None:
+    if not questions:
+        raise no_data(run, what, "none", run.graph.publishers(QUESTION))
+    all_named = all(len(one.answers) == 1 and set(_names(one)) == set(one.speakers) for one in questions)
+    for one in questions:
+        if one.answers != (one.right,):
+            expected = f"“{one.right}” for the question at {one.stamp:.3g} s, “{one.topic}”"
+            raise Missed(expected, _text(one.answers), credit=0.5 * all_named, about=(one,))
+
+
+def _names(one: Question) -> list[str]:
+    """The names in the first answer."""
+    return [name for name in one.answers[0].split(", ") if name]
+
+
+def _text(answers: tuple[str, ...]) -> str:
+    if len(answers) > 1:
+        return f"{len(answers)} answers"
+    return f"“{answers[0]}”" if answers else "no answer"
+
+
+def _bare(names: Iterable[str]) -> set[str]:
+    return {name.rpartition("/")[2] for name in names}
+
+
+def _names_subscribers(run: Recording, one: Question) -> bool:
+    subscribers = {end.node for end in run.graph.subscriptions(one.topic)}
+    names = set(_names(one))
+    return bool(names) and names <= subscribers and not names <= set(one.speakers)

@@ -1,0 +1,109 @@
+"""A sensor's QoS profile: receive a lidar over a lossy network, and count what got lost."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks.check import otherwise
+from grader.companions.radio_lidar import RADIO, RadioLidar
+from grader.exercise import Exercise
+from grader.responses import EDGE, from_course
+from sim.evidence import Recording, Seconds
+
+SCAN, COUNT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Int32"
+SOONEST, LATEST = RADIO.delay - RADIO.jitter, RADIO.delay + RADIO.jitter  # s, of a scan on its way
+
+lidar = Exercise("lidar", "What got lost", seconds=8, companions=[RadioLidar], network=RADIO, seeds=(1, 5))
+
+
+class Counted(NamedTuple):
+    """A scan that arrived, how many had been lost since the first one, and the published count."""
+
+    stamp: Seconds
+    lost: int
+    count: int
+
+
+@lidar.check(2)
+def listens_to_scans(run: Recording) -> None:
+    """The node subscribes to /scan."""
+    with hinting("The lidar publishes its scans on /scan."):
+        subscribes(run, "/scan", SCAN)
+
+
+@lidar.check(3, after=listens_to_scans)
+def hears_every_scan(run: Recording) -> list[Counted]:
+    """It hears the scans: with each that comes, one count (Int32) goes out on /missed."""
+    counts = publishes(run, "/missed", COUNT)
+    # Each subscribing node loses other messages; one of the nodes counts.
+    crossings = [
+        one for one in run.crossings if one.topic == "/scan" and one.listener not in run.course_nodes
+    ]
+    received = [one.sent - one.lost for one in crossings]
+    arrived = min(received, key=lambda number: abs(number - len(counts)), default=0)
+    with hinting("Publish in the scan's callback, each time it is called."):
+        if not arrived - 1 <= len(counts) <= arrived:  # one may be on its way at the end
+            expected = "one message on /missed for each scan that came"
+            raise Missed(expected, f"{len(counts)} messages, and {arrived} scans came")
+        return _counted(run)
+
+
+@lidar.check(
+    8,
+    after=hears_every_scan,
+    hints={
+        "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost.": (
+            lambda run, counted: not any(one.count for one in counted)
+        ),
+        "Each gap counts as one, but in a long gap several got lost: gap / scan_time - 1.": (
+            lambda run, counted: counted[-1].count == _gaps(counted)
+        ),
+        "Two scans in a row are one scan_time apart, and nothing got lost: take 1 away from each.": (
+            lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1
+        ),
+        "That is how many came. Lost are those that should have come in between.": (
+            lambda run, counted: counted[-1].count in (len(counted), len(counted) - 1)
+        ),
+        "That is what was lost before the last scan alone: add it up, self.missed += ...": (
+            lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost
+        ),
+        "How many scans fit into a gap is its seconds divided by scan.scan_time, rounded. The gap is that "
+        "between the two header stamps: scans also come early or late.": otherwise,
+    },
+)
+def counts_all(run: Recording, counted: list[Counted]) -> None:
+    """At the end the count is how many scans have got lost since the first one."""
+    last = counted[-1]
+    if last.count != last.lost:
+        expected = f"{last.lost} lost until {last.stamp:.3g} s"
+        raise Missed(expected, f"{last.count}", about=(counted,))
+
+
+@lidar.check(3, after=(hears_every_scan, counts_all))
+def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> None:
+    """The count is right after every scan."""
+    for one in counted:
+        if one.count != one.lost:
+            hint = "Count at each scan what was lost since the one before, and add it to the sum."
+            raise Missed(f"{one.lost} lost until {one.stamp:.3g} s", f"{one.count}", hint)
+
+
+def _counted(run: Recording) -> list[Counted]:
+    """The published counts, each with the scan that had just arrived: only one can have."""
+    sent = [row.stamp for row in from_course(run, "/scan")]
+    found: list[Counted] = []
+    first = 0
+    for count, row in enumerate(run.messages("/missed")):
+        number = bisect.bisect_right(sent, row.stamp - SOONEST + EDGE) - 1
+        if number < 0 or row.stamp - sent[number] > LATEST + EDGE:
+            raise Missed("a count when a scan comes", f"one at {row.stamp:.3g} s, when none came")
+        first = number if count == 0 else first
+        found.append(Counted(row.stamp, number - first - count, row.message.data))
+    return found
+
+
+def _gaps(counted: list[Counted]) -> int:
+    return sum(after.lost > before.lost for before, after in itertools.pairwise(counted))
