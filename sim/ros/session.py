@@ -17,7 +17,7 @@ from sim.nanoseconds import SECOND, Nanoseconds
 from sim.network import Network
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
 from sim.ros.engine.engine import Engine
-from sim.ros.engine.own import OwnChance, OwnProcess
+from sim.ros.engine.process_state import ProcessState, SeededRandom
 from sim.ros.engine.processes import StudentProcess
 from sim.ros.engine.program import Process, as_process
 from sim.ros.fibers.scheduler import active
@@ -74,7 +74,7 @@ class Session:
         self._due: Nanoseconds = 0  # the moment that time moves to next
         self._reached: Nanoseconds = 0  # up to which all is done
         self._begun = False
-        self._process, self._chance, self._stderr = OwnProcess(), OwnChance(seed), FileDescriptor2()
+        self._process, self._chance, self._stderr = ProcessState(), SeededRandom(seed), FileDescriptor2()
         self._screen = Screen(quiet)
         self._thread = threading.get_ident()  # greenlets can't move to another
 
@@ -144,12 +144,12 @@ class Session:
     @contextlib.contextmanager
     def _stretch(self) -> Iterator[None]:
         """The run works: the process is the nodes' for a while."""
-        with _turn, self._process.lent():
+        with _turn, self._process.borrowed():
             # Made in here, for at the end the garbage collector looks only at what was made in here.
             self.engine = self.engine or Engine(self.recording, self._screen)
             try:
                 with (
-                    self._chance.lent(),
+                    self._chance.borrowed(),
                     self._stderr.caught(),
                     student_streams(),
                     self.engine.guard.watch(),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy.task import Task
 
-from sim.ros.recorder.running import Running, callback_name
+from sim.ros.recorder.running import RunningCallback, callback_name
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -27,22 +27,22 @@ class Work(NamedTuple):
 
 
 @dataclass(slots=True)
-class Suspended:
+class TaskState:
     """What a run keeps of a task: the callback that it is, if it is one; and what it has seen in vain."""
 
-    running: Running | None = None
+    running: RunningCallback | None = None
     seen: int | None = None  # the engine's `activity` when it waited last
 
 
-def suspended(task: Task) -> Suspended:
+def state_of(task: Task) -> TaskState:
     """What the run keeps of a task."""
     kept = task.__dict__.get("_sim")
     if kept is None:
-        kept = task._sim = Suspended()
+        kept = task._sim = TaskState()
     return kept
 
 
-def _running(engine: Engine, work: Work) -> Running:
+def _running(engine: Engine, work: Work) -> RunningCallback:
     """What a piece of work is called while it runs."""
     function, entity = work.names or work.call, work.entity
     if entity is None:
@@ -53,7 +53,7 @@ def _running(engine: Engine, work: Work) -> Running:
         if known is not function:
             name = callback_name(function)
             engine.names[id(entity)] = function, name
-    return Running(name, engine.recorder.name_of(work.node), work.kind, engine.now, group)
+    return RunningCallback(name, engine.recorder.name_of(work.node), work.kind, engine.now, group)
 
 
 def is_coroutine_function(function: Any) -> bool:
@@ -83,7 +83,7 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
         engine.eager = True
         running = _running(engine, work)
         task = Task(_recorded, (engine, work, running), executor=executor)
-        suspended(task).running = running
+        state_of(task).running = running
         executor._tasks.append((task, work.entity, work.node))
         _step(engine, task)
         return True
@@ -95,7 +95,7 @@ def perform(engine: Engine, executor: Any, work: Work, begun: bool = False) -> b
     return True
 
 
-def _call(engine: Engine, running: Running, function: Callable[..., Any], arguments: tuple) -> None:
+def _call(engine: Engine, running: RunningCallback, function: Callable[..., Any], arguments: tuple) -> None:
     """Call a function as a callback: recorded with its duration and with the exception that leaves it."""
     stack = engine.current.callbacks
     stack.append(running)
@@ -109,7 +109,7 @@ def _call(engine: Engine, running: Running, function: Callable[..., Any], argume
         engine.recorder.callback(running)
 
 
-async def _recorded(engine: Engine, work: Work, running: Running) -> Any:
+async def _recorded(engine: Engine, work: Work, running: RunningCallback) -> Any:
     engine.suspended.append(running)
     try:
         return await work.call(*work.arguments)
@@ -134,12 +134,12 @@ def _resume(engine: Engine, work: Work) -> bool:
         engine.activity += 1
         return True
     # It waits for the same thing still: ask again when something has happened.
-    suspended(task).seen = engine.activity
+    state_of(task).seen = engine.activity
     return False
 
 
 def _step(engine: Engine, task: Task) -> None:
-    running, name = suspended(task).running, callback_name(task)
+    running, name = state_of(task).running, callback_name(task)
     stack = engine.current.callbacks
     if running is not None:
         stack.append(running)

@@ -10,7 +10,7 @@ from sim.evidence import Ended
 from sim.nanoseconds import SECOND
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.recorder.kept import ActionRecord, ClientRecord
-from sim.ros.recorder.running import Running
+from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
 
 if TYPE_CHECKING:
@@ -50,12 +50,12 @@ def _blocked_call(engine: Engine) -> str | None:
     return None
 
 
-def _since(running: Running) -> str:
+def _since(running: RunningCallback) -> str:
     since = running.began / SECOND
     return f"{running.name} of node {running.node} has waited since t = {since:g} s and never returned"
 
 
-def _why(engine: Engine, fiber: Fiber, running: Running) -> str:
+def _why(engine: Engine, fiber: Fiber, running: RunningCallback) -> str:
     waited = _pending(engine, running)
     if not waited:
         return f"It waits for {fiber.waits_for}."
@@ -79,7 +79,7 @@ def _blocked_coroutine(engine: Engine) -> str | None:
     return None
 
 
-def _pending(engine: Engine, running: Running) -> list[Any]:
+def _pending(engine: Engine, running: RunningCallback) -> list[Any]:
     """Clients of the callback's node with a request that has no answer yet."""
     nodes = [n for p in engine.processes for n in p.nodes if engine.recorder.name_of(n) == running.node]
     clients = [c for node in nodes for c in node.clients if c._pending_requests]

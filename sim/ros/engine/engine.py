@@ -13,15 +13,11 @@ from rclpy.exceptions import InvalidHandle
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.engine.agenda import Agenda
-from sim.ros.engine.delivery.channels import Links
-from sim.ros.engine.delivery.post import Post
-from sim.ros.engine.delivery.topics import Topics
-from sim.ros.engine.elsewhere import Elsewhere
 from sim.ros.engine.endings import conclusion
 from sim.ros.engine.guard import Guard
-from sim.ros.engine.limits import Limits
-from sim.ros.engine.own import ChanceBytes, OwnRclpy
+from sim.ros.engine.limits import RunLimits
+from sim.ros.engine.peer import Peer
+from sim.ros.engine.process_state import RclpyState, SeededBytes
 from sim.ros.engine.processes import StudentProcess, destroy
 from sim.ros.engine.program import Process
 from sim.ros.engine.simtime import SimulatedTime
@@ -29,8 +25,12 @@ from sim.ros.fibers.exceptions import Livelock, RemoteLost, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler, activate
 from sim.ros.recorder.recorder import Recorder
-from sim.ros.recorder.running import Running
+from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
+from sim.ros.transport.channels import HostLinks
+from sim.ros.transport.event_queue import EventQueue
+from sim.ros.transport.service_transport import ServiceTransport
+from sim.ros.transport.topics import Topics
 
 INTERRUPTED = "The user interrupted the run."
 AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
@@ -44,27 +44,27 @@ class Engine(Scheduler):
         self.recording = recording
         self.recorder = Recorder(self, recording)
         self.guard = Guard(self)
-        self.chance = ChanceBytes(recording.seed)
+        self.chance = SeededBytes(recording.seed)
         self.context = Context()
-        self.rclpy = OwnRclpy()
+        self.rclpy = RclpyState()
         self.executors: list[Any] = []
         self.has_clients = self.rosout_wanted = False
         self.topology = 0
         self.destroyed = 0  # so many of rclpy's handles were
         self.exchanged = 0  # so often something was sent that an end of an action may have to take
-        self.links = None if recording.network is None else Links(recording.network, recording.seed)
-        self.post = None if recording.network is None else Post(self)
-        self.agenda, self.topics = Agenda(), Topics(self)
+        self.links = None if recording.network is None else HostLinks(recording.network, recording.seed)
+        self.post = None if recording.network is None else ServiceTransport(self)
+        self.agenda, self.topics = EventQueue(), Topics(self)
         self.asked: Counter[str] = Counter()  # requests sent to each service
         self.names: dict[int, tuple[Callable, str]] = {}  # of callbacks, by the id of what they belong to
         self.processes: list[StudentProcess] = []
         self.echo = echo
-        self.limits = Limits(self)
-        self.suspended: list[Running] = []  # coroutine callbacks that wait for something
+        self.limits = RunLimits(self)
+        self.suspended: list[RunningCallback] = []  # coroutine callbacks that wait for something
         self.held = (0.0, 0.0)  # what a user at the keys drives by hand: forward and left, each in [-1, 1]
         self._fault: Ended | None = None
         self._unheard = False  # nobody hears what is said while the last threads are ended by force
-        self.link: Elsewhere | None = None
+        self.link: Peer | None = None
         self.blocked_elsewhere = ""  # a sentence on what these wait for in vain
 
     # -- set-up and tear-down ----------------------------------------------------------------------
@@ -72,7 +72,7 @@ class Engine(Scheduler):
     @contextlib.contextmanager
     def awake(self) -> Iterator[None]:
         """Let rclpy be the run's for a while, and its student code be seen by the hooks."""
-        with self.rclpy.lent():
+        with self.rclpy.borrowed():
             activate(self)
             try:
                 yield
@@ -161,12 +161,12 @@ class Engine(Scheduler):
         """Time was moved: whoever spins looks again, and callbacks are counted anew."""
         self.activity += 1
         self.limits.begin_moment()
-        self.agenda.let_arrive(self.now)
+        self.agenda.run_arrivals(self.now)
 
     def round(self) -> bool:
         """As `Scheduler`; when no program can go on any more, what this moment was the limit for is over."""
         sends = super().round() or (self.post is not None and self.post.collect())
-        return sends or self.agenda.let_expire(self.now)
+        return sends or self.agenda.run_deadlines(self.now)
 
     def lives(self, process: StudentProcess) -> bool:
         """Whether a program still has something to run."""

@@ -14,7 +14,7 @@ MAX_AHEAD = 20_000  # so many more, before that counts as long
 LOOK_AFTER = 1_000  # callbacks and switches
 
 
-class Limits:
+class RunLimits:
     """Those of one run.
 
     pace: callbacks and waits in a simulated second that a program may have for long.

@@ -64,7 +64,7 @@ class SimulatedTime:
                 moment = fiber.wake_at
             if fiber.spins is None:
                 continue
-            for timer in fiber.spins.questions.timers:
+            for timer in fiber.spins.scan.timers:
                 try:
                     handle = timer.handle
                     left = None if handle.is_timer_canceled() else handle.time_until_next_call()

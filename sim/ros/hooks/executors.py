@@ -13,7 +13,7 @@ from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
 
 from sim.nanoseconds import nanoseconds
-from sim.ros.engine.executor import OrderedNodes, Plan, never
+from sim.ros.engine.sim_executor import OrderedNodes, SimExecutor, never
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
@@ -27,7 +27,7 @@ def executor_init(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             self._nodes = OrderedNodes()
-            self._sim = Plan(self, run)
+            self._sim = SimExecutor(self, run)
             run.executors.append(self)
 
     return __init__

@@ -67,7 +67,7 @@ def create_subscription(original: Callable) -> Callable:
             msg_type = subscription.msg_type
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
-            end |= {"listener": run.recorder.name_of(self), "events": subscription.event_handlers}
+            end |= {"subscriber": run.recorder.name_of(self), "events": subscription.event_handlers}
             subscription._sim = run.topics.reader(self.handle, handle, msg_type, **end)
             run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
             run.rosout_wanted |= name == "/rosout"
@@ -123,7 +123,7 @@ def assert_liveliness(original: Callable) -> Callable:
     def assert_liveliness(self: Publisher) -> None:
         original(self)
         if engine() is not None and "_sim" in self.__dict__:
-            self._sim.sign()
+            self._sim.assert_liveliness()
 
     return assert_liveliness
 

@@ -33,7 +33,7 @@ from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import Calls
 from sim.ros.recorder.goals import Goals
 from sim.ros.recorder.kept import OwnEnd
-from sim.ros.recorder.running import Running, callback_name
+from sim.ros.recorder.running import RunningCallback, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
 
 MAX_MESSAGES_PER_INSTANT = 20_000
@@ -186,7 +186,7 @@ class Recorder:
         if len(self.recording.stderr) < MAX_PRINTED:
             self.recording.stderr += text
 
-    def callback(self, running: Running) -> None:
+    def callback(self, running: RunningCallback) -> None:
         """A callback has returned."""
         if self.open:
             began = running.began / SECOND

@@ -10,7 +10,7 @@ from rclpy.task import Task
 from sim.nanoseconds import Nanoseconds
 
 
-class Running(NamedTuple):
+class RunningCallback(NamedTuple):
     """A callback under way."""
 
     name: str

@@ -46,7 +46,7 @@ class MessagePublished(NamedTuple):
 class MessageDelivered(NamedTuple):
     """The simulated network has delivered a message to a subscription of the other process.
 
-    stamp, count, expires: as of `Sent`. missed: how many were lost just before it.
+    stamp, count, expires: as of `Sample`. missed: how many were lost just before it.
     """
 
     number: int

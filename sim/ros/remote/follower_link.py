@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from sim.evidence import Call, Goal, Message
-from sim.ros.engine.delivery.reader import Reader, Sent
 from sim.ros.messages.codec import encode
 from sim.ros.remote import events
 from sim.ros.remote.new_items import NewItems
 from sim.ros.remote.process_link import ProcessLink
 from sim.ros.remote.proxy import ProxyClient, ProxyPublisher, ProxyService
+from sim.ros.transport.endpoint import Sample
+from sim.ros.transport.reader import Reader
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -185,14 +186,14 @@ class FollowerLink(ProcessLink):
         reader = self._reader(event.number)
         if reader is not None:
             if event.missed:
-                reader.missed(event.missed)
-            reader.receive(Sent(event.raw, event.stamp, event.count, event.expires))
+                reader.on_lost(event.missed)
+            reader.receive(Sample(event.raw, event.stamp, event.count, event.expires))
 
     def _liveliness_delivered(self, event: events.LivelinessDelivered) -> None:
         reader = self._reader(event.number)
         publisher = None if reader is None else self.proxies.publisher(event.node, reader.topic)
         if publisher is not None and reader.liveliness is not None:
-            reader.liveliness.sign(publisher.writer)
+            reader.liveliness.assert_liveliness(publisher.writer)
 
     def _reader(self, number: int) -> Reader | None:
         end = self.local.get(number)

@@ -185,7 +185,7 @@ class ProcessLink:
             self.publish(publisher, bytes_)
 
     def _liveliness_asserted(self, event: LivelinessAsserted) -> None:
-        self._publisher(event, "a liveliness assertion").writer.sign()
+        self._publisher(event, "a liveliness assertion").writer.assert_liveliness()
 
     def _publisher(
         self, event: MessagePublished | LivelinessAsserted, what: str, *, newest: bool = False

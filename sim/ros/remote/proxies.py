@@ -193,7 +193,7 @@ class Proxies:
             kind=ProxyReader,
             profile=proxy.qos_profile,
             raw=True,
-            listener=proxy.node.name,
+            subscriber=proxy.node.name,
             number=number,
             arrivals=self.arrivals,
         )

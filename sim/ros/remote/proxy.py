@@ -14,10 +14,11 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 
-from sim.ros.engine.delivery.qos import NO_LIMIT
-from sim.ros.engine.delivery.reader import Reader, Sent
-from sim.ros.engine.delivery.writer import Writer
 from sim.ros.remote import events
+from sim.ros.transport.endpoint import Sample
+from sim.ros.transport.qos import NO_LIMIT
+from sim.ros.transport.reader import Reader
+from sim.ros.transport.writer import Writer
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -76,28 +77,28 @@ class ProxyReader(Reader):
     def __init__(self, *arguments: Any, number: int, arrivals: list[Any], **options: Any) -> None:
         super().__init__(*arguments, **options)
         self._number, self._arrivals, self._gap = number, arrivals, 0
-        self.receive = self._forward
         if self.profile.liveliness_lease_duration != NO_LIMIT:
             self.liveliness = self
 
-    def _forward(self, sent: Sent) -> None:
-        raw, stamp, number, expires = sent
+    def receive(self, sample: Sample) -> None:
+        """As `Reader.receive`: it goes to the other process."""
+        raw, stamp, number, expires = sample
         event = events.MessageDelivered(self._number, raw, stamp, number, expires, self._gap)
         self._arrivals.append(event)
         self._gap = 0
 
-    def missed(self, count: int) -> None:
-        """As `Reader.missed`."""
+    def on_lost(self, count: int) -> None:
+        """As `Reader.on_lost`."""
         self._gap += count
 
-    def sign(self, writer: Writer) -> None:
-        """As `Liveliness.sign`: the other process tracks the leases."""
+    def assert_liveliness(self, writer: Writer) -> None:
+        """As `LivelinessMonitor.assert_liveliness`: the other process tracks the leases."""
         self._arrivals.append(events.LivelinessDelivered(self._number, writer.sender))
 
-    def met(self, writer: Writer) -> None:
-        """As `Liveliness.met`: the other process notices this itself."""
+    def matched(self, writer: Writer) -> None:
+        """As `LivelinessMonitor.matched`: the other process notices this itself."""
 
-    gone = met
+    unmatched = matched
 
 
 class ProxySubscription(Proxy):
@@ -109,7 +110,7 @@ class ProxySubscription(Proxy):
     def take(self) -> bytes | None:
         """The bytes of the next message, or None."""
         post = self.node.post
-        return self._taken() if post is None else post.news(self, self.node.name, self._taken)
+        return self._taken() if post is None else post.action_message(self, self.node.name, self._taken)
 
     def _taken(self) -> bytes | None:
         taken = self.handle.take_message(self.type, True)

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import Recording, run
-from sim.ros.engine.delivery.topics import MIDDLEWARE
+from sim.ros.transport.topics import MIDDLEWARE
 from tests.sim.ros import all_worlds
 from tests.sim.ros.remote import observers
 from tests.sim.ros.remote.test_equal import ALONE, LOOKING, TOGETHER, evidence, found

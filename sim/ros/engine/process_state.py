@@ -22,14 +22,14 @@ import rclpy.utilities
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 
 
-class OwnChance:
+class SeededRandom:
     """`random` and numpy's old generator, seeded by the run."""
 
     def __init__(self, seed: int) -> None:
         self._own = random.Random(seed).getstate(), np.random.RandomState(seed % 2**32).get_state()
 
     @contextlib.contextmanager
-    def lent(self) -> Iterator[None]:
+    def borrowed(self) -> Iterator[None]:
         """Let them be the run's for a while."""
         users = random.getstate(), np.random.get_state()
         self._set(self._own)
@@ -44,7 +44,7 @@ class OwnChance:
         np.random.set_state(states[1])
 
 
-class ChanceBytes:
+class SeededBytes:
     """What the system's source of chance gives in a run; the students' use of `random` doesn't shift it."""
 
     def __init__(self, seed: int) -> None:
@@ -71,7 +71,7 @@ class FiberEventLoops(asyncio.DefaultEventLoopPolicy):
         """The one that all fibers would share, as they are one thread, is not kept."""
 
 
-class OwnProcess:
+class ProcessState:
     """Hides from the nodes what a program of their own would not find.
 
     A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line words and a
@@ -85,7 +85,7 @@ class OwnProcess:
         self._policy = FiberEventLoops()
 
     @contextlib.contextmanager
-    def lent(self) -> Iterator[None]:
+    def borrowed(self) -> Iterator[None]:
         """Hide it for a while."""
         loop, policy = asyncio._get_running_loop(), asyncio.get_event_loop_policy()
         argv, stdin = sys.argv, sys.stdin
@@ -104,7 +104,7 @@ class OwnProcess:
             sys.argv, sys.stdin = argv, stdin
 
 
-class OwnRclpy:
+class RclpyState:
     """rclpy's default context, global executor and levels of loggers."""
 
     def __init__(self) -> None:
@@ -114,7 +114,7 @@ class OwnRclpy:
         self._own_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
 
     @contextlib.contextmanager
-    def lent(self) -> Iterator[None]:
+    def borrowed(self) -> Iterator[None]:
         """Let rclpy's state be the run's for a while; each program of it then has its own."""
         users = rclpy.utilities.g_default_context, rclpy.__dict__["__executor"]
         self._users_contexts = rclpy.context.g_logging_ref_count - self._own_contexts

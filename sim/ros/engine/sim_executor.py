@@ -23,9 +23,9 @@ from rclpy.executors import (
 from rclpy.task import Task
 
 from sim.nanoseconds import Nanoseconds, nanoseconds
-from sim.ros.engine.callbacks import Work, perform, suspended
+from sim.ros.engine.callbacks import Work, perform, state_of
 from sim.ros.engine.processes import shared_context
-from sim.ros.engine.questions import Questions
+from sim.ros.engine.ready_scan import ReadyScan
 from sim.ros.fibers.exceptions import Livelock
 from sim.ros.fibers.fiber import Fiber
 
@@ -50,12 +50,12 @@ class OrderedNodes(dict):
         del self[node]
 
 
-class Plan:
+class SimExecutor:
     """How one executor spins in a run."""
 
     def __init__(self, executor: Any, engine: Engine) -> None:
         self.executor, self.engine = executor, engine
-        self.questions = Questions(executor, engine, self._busy)
+        self.scan = ReadyScan(executor, engine, self._busy)
         self.running: list[Fiber] = []  # parallel callbacks of a multi-threaded executor
         self._workers: list[threading.Thread] = []  # what those say they are; none is ever started
         self._pass: Iterator[Work] | None = None
@@ -68,11 +68,11 @@ class Plan:
     def _next(self) -> Iterator[Work]:
         """Ready work: the rest of the pass under way first, then one whole new pass."""
         if self._depth:  # a callback spins: the pass under way isn't its own
-            yield from self.questions.ready()
+            yield from self.scan.ready()
             return
         for _ in range(1 if self._pass is None else 2):
             if self._pass is None:
-                self._pass = self.questions.ready()
+                self._pass = self.scan.ready()
             # Not `yield from`: that would close the pass together with this generator.
             for work in self._pass:  # noqa: UP028
                 yield work
@@ -115,7 +115,7 @@ class Plan:
         engine.eager = self._lends = True
         while not self._over(done, parallel=False):
             found = False
-            for work in self.questions.ready(nodes):
+            for work in self.scan.ready(nodes):
                 found = True
                 self._begin(work)
                 body = partial(perform, engine, self.executor, work, begun=True)
@@ -188,7 +188,7 @@ class Plan:
     def _begin(self, work: Work) -> None:
         """Let nobody else begin it, nor what its callback group keeps out, from now on."""
         if work.entity is None:
-            suspended(work.call).seen = self.engine.activity
+            state_of(work.call).seen = self.engine.activity
         elif work.entity.callback_group is not None:
             work.entity.callback_group.beginning_execution(work.entity)
 

@@ -13,12 +13,12 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
-from sim.ros.engine.callbacks import Work, suspended
-from sim.ros.engine.delivery.action_ends import taken_by_client, taken_by_server
-from sim.ros.engine.delivery.post import Post
+from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.waitables import is_ready
 from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.kept import ServiceRecord
+from sim.ros.transport.action_endpoints import take_at_client, take_at_server
+from sim.ros.transport.service_transport import ServiceTransport
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -29,7 +29,7 @@ CHANGES = "total_count_change", "current_count_change", "alive_count_change", "n
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
-class Questions:
+class ReadyScan:
     """The entities of one executor, each with the question whether it is ready.
 
     busy: whether a callback of the executor is under way, so that callback groups matter.
@@ -39,7 +39,7 @@ class Questions:
         self.executor, self.engine = executor, engine
         self.timers: list[Any] = []
         self._busy = busy
-        self._questions: list[tuple[Callable[..., Work | None], Any, Any]] = []
+        self._entries: list[tuple[Callable[..., Work | None], Any, Any]] = []
         self._events: list[tuple[Callable[..., Work | None], Any, Any]] = []
         self._built_for = -1
 
@@ -51,54 +51,54 @@ class Questions:
         executor = self.executor
         if executor._tasks:
             for task, entity, node in reversed(executor._tasks):
-                waiting = suspended(task).seen == self.engine.activity
+                waiting = state_of(task).seen == self.engine.activity
                 if not (waiting or task.executing() or task.done() or task.cancelled()):
                     yield Work("task", None, node, task, (), getattr(entity, "callback", None))
             executor._tasks = [t for t in executor._tasks if not (t[0].done() or t[0].cancelled())]
-        questions = self._questions
+        entries = self._entries
         if self._built_for != self.engine.topology:
             self._build()
-            questions = self._events + self._questions  # QoS events come only when endpoints come or go
+            entries = self._events + self._entries  # QoS events come only when endpoints come or go
         if nodes is not None:
-            questions = [question for question in questions if question[2] in nodes]
-        for question, entity, node in questions:
+            entries = [entry for entry in entries if entry[2] in nodes]
+        for entry, entity, node in entries:
             try:
-                work = question(self, entity, node)
+                work = entry(self, entity, node)
             except (InvalidHandle, RCLError):  # destroyed since the pass began
                 continue
             if work is not None:
                 yield work
 
     def _build(self) -> None:
-        self._questions, self._events, self.timers = [], [], []
+        self._entries, self._events, self.timers = [], [], []
         for node in list(self.executor._nodes):
             # Nothing outside this run can call a service, so without a client there is nothing to ask.
             services = node.services if self.engine.has_clients else ()
             clock_subscription = node._time_source._clock_sub
             self.timers += node.timers
-            told = [w for w in node.waitables if isinstance(w, EventHandler)]
-            self._events += [(Questions._event, w, node) for w in told if "_sim" not in w.__dict__]
-            self._questions += [(Questions._status, w, node) for w in told if "_sim" in w.__dict__]
-            self._questions += [
-                *((self._question_of(w), w, node) for w in node.waitables if not isinstance(w, EventHandler)),
-                *((Questions._timer, timer, node) for timer in node.timers),
+            handlers = [w for w in node.waitables if isinstance(w, EventHandler)]
+            self._events += [(ReadyScan._event, w, node) for w in handlers if "_sim" not in w.__dict__]
+            self._entries += [(ReadyScan._status, w, node) for w in handlers if "_sim" in w.__dict__]
+            self._entries += [
+                *((self._entry_of(w), w, node) for w in node.waitables if not isinstance(w, EventHandler)),
+                *((ReadyScan._timer, timer, node) for timer in node.timers),
                 *(
-                    (Questions._subscription, s, node)
+                    (ReadyScan._subscription, s, node)
                     for s in node.subscriptions
                     if s is not clock_subscription
                 ),
-                *((Questions._guard, guard, node) for guard in node.guards),
-                *((Questions._client, client, node) for client in node.clients),
-                *((Questions._service, service, node) for service in services),
+                *((ReadyScan._guard, guard, node) for guard in node.guards),
+                *((ReadyScan._client, client, node) for client in node.clients),
+                *((ReadyScan._service, service, node) for service in services),
             ]
         self._built_for = self.engine.topology
 
-    def _question_of(self, waitable: Any) -> Callable[..., Work | None]:
-        for kind, question in self._ACTIONS.items():
+    def _entry_of(self, waitable: Any) -> Callable[..., Work | None]:
+        for kind, entry in self._ACTIONS.items():
             if isinstance(waitable, kind):
-                return question
+                return entry
         self.engine.eager = True  # nothing tells when it becomes ready
-        return Questions._own_waitable
+        return ReadyScan._own_waitable
 
     def _timer(self, timer: Any, node: Any) -> Work | None:
         if not timer.handle.is_timer_ready() or not self._free(timer):
@@ -180,7 +180,7 @@ class Questions:
     def _action_server(self, server: Any, node: Any) -> Work | None:
         if not self._free(server):
             return None
-        data = self._come_to(server, taken_by_server, Post.at_server)
+        data = self._come_to(server, take_at_server, ServiceTransport.at_server)
         if server._goal_handles and server._sim.swept != self.engine.now:
             server._sim.swept = self.engine.now
             with server._lock:
@@ -192,14 +192,14 @@ class Questions:
     def _action_client(self, client: Any, node: Any) -> Work | None:
         if not self._free(client):
             return None
-        data = self._come_to(client, taken_by_client, Post.at_client)
+        data = self._come_to(client, take_at_client, ServiceTransport.at_client)
         if not data:
             return None
         self.engine.recorder.goals.client_took(client, data)
         return self._waitable(client, node, data, "action")
 
     def _come_to(
-        self, end: Any, taken: Callable[[Any], dict], through_network: Callable[[Post, Any], dict]
+        self, end: Any, taken: Callable[[Any], dict], through_network: Callable[[ServiceTransport, Any], dict]
     ) -> dict[str, Any]:
         """What has come to an end of an action. To look takes 60 us, so something must have been sent."""
         engine, kept = self.engine, end._sim

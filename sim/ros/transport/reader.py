@@ -12,8 +12,10 @@ from rclpy.qos import QoSProfile
 
 from sim.nanoseconds import EPOCH, Nanoseconds
 from sim.network import LAPTOP
-from sim.ros.engine.delivery.qos import FOREVER, queue_length, settled
-from sim.ros.engine.delivery.statuses import (
+from sim.ros.fibers.fiber import Program
+from sim.ros.messages.decoder import decode_message
+from sim.ros.transport.qos import FOREVER, queue_length, resolved
+from sim.ros.transport.qos_events import (
     CHANGED,
     MISSED,
     OF_READER,
@@ -22,14 +24,12 @@ from sim.ros.engine.delivery.statuses import (
     liveliness,
     statuses,
 )
-from sim.ros.fibers.fiber import Program
-from sim.ros.messages.decoder import decode_message
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
 
 
-class Sent(NamedTuple):
+class Sample(NamedTuple):
     """A message, or its bytes; when it was sent, its number among those of its publisher, when it expires."""
 
     message: Any
@@ -73,41 +73,41 @@ class Reader:
         topic: str,
         profile: QoSProfile,
         raw: bool,
-        listener: str = "",
+        subscriber: str = "",
         events: Iterable[EventHandler] = (),
     ) -> None:
         self.engine, self.handle, self.topic, self.raw = engine, handle, topic, raw
-        self.message_class, self.listener = type_, listener
-        self.made, self.program = engine.now, program_of(engine)
+        self.message_class, self.subscriber = type_, subscriber
+        self.created_at, self.program = engine.now, program_of(engine)
         self.host = host_of(self.program)
         found = _rclpy.rclpy_get_subscriptions_info_by_topic
-        self.profile = settled(profile, lambda: found(node, topic, False))
-        self.queue: deque[Sent] = deque(maxlen=queue_length(profile))
-        told = statuses(engine, events, OF_READER)
-        self.liveliness = liveliness(engine, self.profile, told.get(CHANGED))
-        self._deadline = deadline(engine, self.profile, told.get(REQUESTED))
-        self._missed = told.get(MISSED)
+        self.profile = resolved(profile, lambda: found(node, topic, False))
+        self.queue: deque[Sample] = deque(maxlen=queue_length(profile))
+        counts = statuses(engine, events, OF_READER)
+        self.liveliness = liveliness(engine, self.profile, counts.get(CHANGED))
+        self._deadline = deadline(engine, self.profile, counts.get(REQUESTED))
+        self._lost_status = counts.get(MISSED)
         self.receive = self.queue.append if self._deadline is None else self._receive_in_time
 
-    def _receive_in_time(self, sent: Sent) -> None:
+    def _receive_in_time(self, sample: Sample) -> None:
         self._deadline.begin()
-        self.queue.append(sent)
+        self.queue.append(sample)
 
-    def missed(self, count: int) -> None:
+    def on_lost(self, count: int) -> None:
         """So many messages did not come before the one that comes now."""
-        if self._missed is not None:
-            self._missed.add(total_count=count)
+        if self._lost_status is not None:
+            self._lost_status.add(total_count=count)
 
-    def take(self) -> Sent | None:
+    def take(self) -> Sample | None:
         """The next message; None if there is none."""
         while self.queue:
             raw, stamp, number, expires = self.queue.popleft()
             if expires <= self.engine.now:
                 continue
             if self.raw:
-                return Sent(bytes(raw), stamp, number)
+                return Sample(bytes(raw), stamp, number)
             try:
-                return Sent(decode_message(self.message_class, raw), stamp, number)
+                return Sample(decode_message(self.message_class, raw), stamp, number)
             except _rclpy.RMWError:  # bytes that are no message: ROS drops them, too
                 continue
         return None

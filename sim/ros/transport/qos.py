@@ -23,7 +23,7 @@ DURABILITIES = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
 NO_LIMIT, FOREVER = Duration(), 2**63 - 1
 
 
-def suit(offered: QoSProfile, wanted: QoSProfile) -> bool:
+def are_compatible(offered: QoSProfile, wanted: QoSProfile) -> bool:
     """Whether a subscription hears a publisher."""
     compatibility, _ = qos_check_compatible(offered, wanted)
     return compatibility != QoSCompatibility.ERROR
@@ -42,7 +42,7 @@ def queue_length(profile: QoSProfile) -> int | None:
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(profile.depth, 1)
 
 
-def settled(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
+def resolved(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
     """The profile, with what the middleware has made of what was left to it.
 
     found: gives rclpy's information on such ends of this topic, the newest last.
@@ -52,10 +52,10 @@ def settled(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
         chosen.liveliness = LivelinessPolicy.AUTOMATIC
     if profile.reliability in RELIABILITIES and profile.durability in DURABILITIES:
         return chosen
-    made = QoSProfile(**found()[-1]["qos_profile"])
-    chosen.reliability, chosen.durability = made.reliability, made.durability
-    chosen.liveliness = made.liveliness
+    created_at = QoSProfile(**found()[-1]["qos_profile"])
+    chosen.reliability, chosen.durability = created_at.reliability, created_at.durability
+    chosen.liveliness = created_at.liveliness
     for name in ("deadline", "liveliness_lease_duration"):
-        limit = getattr(made, name)
+        limit = getattr(created_at, name)
         setattr(chosen, name, limit if limit.nanoseconds < FOREVER else NO_LIMIT)
     return chosen

@@ -17,16 +17,16 @@ from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
 from sim.network import Network
 
 if TYPE_CHECKING:
-    from sim.ros.engine.delivery.outgoing import History
-    from sim.ros.engine.delivery.reader import Reader, Sent
-    from sim.ros.engine.delivery.writer import Writer
     from sim.ros.engine.engine import Engine
+    from sim.ros.transport.outgoing import History
+    from sim.ros.transport.reader import Reader, Sample
+    from sim.ros.transport.writer import Writer
 
 MOST_WAITING: Nanoseconds = SECOND  # of data before a narrow link; what comes on top of that is lost
 RESPONSE: Nanoseconds = SECOND // 200  # until either side answers the other's heartbeat or request
 
 
-class Link:
+class HostLink:
     """The way from one host to another, which all messages in this direction share."""
 
     def __init__(self, network: Network) -> None:
@@ -50,18 +50,18 @@ class Link:
         return None if lost else start + nanoseconds(max(network.delay + shift, 0.0))
 
 
-class Links:
+class HostLinks:
     """All ways of one run."""
 
     def __init__(self, network: Network, seed: int) -> None:
         self._network, self._seed = network, seed
-        self._links: dict[tuple[str, str], Link] = {}
+        self._links: dict[tuple[str, str], HostLink] = {}
 
-    def between(self, sender: str, receiver: str) -> Link:
+    def between(self, sender: str, receiver: str) -> HostLink:
         """The way from this host to that one."""
         pair = sender, receiver
         if pair not in self._links:
-            self._links[pair] = Link(self._network.between(*pair))
+            self._links[pair] = HostLink(self._network.between(*pair))
         return self._links[pair]
 
     def chance(self, *names: str) -> Random:
@@ -81,18 +81,18 @@ class Channel:
         self.engine, self.writer, self.reader = engine, writer, reader
         self.open = True
         self._link = engine.links.between(writer.host, reader.host)
-        self._chance = engine.links.chance(writer.sender, writer.topic, reader.listener)
-        self._row = engine.recorder.crossing(writer.topic, writer.sender, reader.listener)
+        self._chance = engine.links.chance(writer.sender, writer.topic, reader.subscriber)
+        self._row = engine.recorder.crossing(writer.topic, writer.sender, reader.subscriber)
         self._newest = 0  # number of the last message that came through
         self._gap = 0  # messages that are known to be lost, and of which the subscription doesn't know
 
-    def send(self, sent: Sent) -> None:
+    def send(self, sample: Sample) -> None:
         """Let a message set out."""
         self._row.sent += 1
-        if not self._cross(len(sent.message), partial(self._arrive, sent)):
+        if not self._cross(len(sample.message), partial(self._arrive, sample)):
             self._lost()
 
-    def sign(self) -> None:
+    def assert_liveliness(self) -> None:
         """Let a sign of life set out."""
 
     def _cross(self, size: int, do: Callable[[], None], after: Nanoseconds = 0) -> bool:
@@ -106,37 +106,37 @@ class Channel:
         if moment <= self.engine.now:
             do()
         else:
-            self.engine.agenda.arrive(moment, do)
+            self.engine.agenda.schedule_arrival(moment, do)
 
-    def _arrive(self, sent: Sent) -> None:
-        if sent.number < self._newest:
+    def _arrive(self, sample: Sample) -> None:
+        if sample.number < self._newest:
             self._lost()
         else:
-            self._hand_over(sent)
+            self._hand_over(sample)
 
     def _lost(self) -> None:
         self._row.lost += 1
         self._gap += self._newest > 0 or self.reliable  # before the first, Fast DDS counts none
 
-    def _hand_over(self, sent: Sent) -> None:
+    def _hand_over(self, sample: Sample) -> None:
         """Put a message that came through into the subscription's queue."""
         now = self.engine.now
-        self._newest = sent.number
+        self._newest = sample.number
         if not self.open:
             return
-        if sent.expires <= now:
+        if sample.expires <= now:
             self._row.expired += 1
             return
-        self._row.late = max(self._row.late, (now - sent.stamp) / SECOND)
+        self._row.late = max(self._row.late, (now - sample.stamp) / SECOND)
         if self._gap:
-            self.reader.missed(self._gap)
+            self.reader.on_lost(self._gap)
             self._gap = 0
-        self.reader.receive(sent)
-        self._signed()
+        self.reader.receive(sample)
+        self._liveliness_arrived()
 
-    def _signed(self) -> None:
+    def _liveliness_arrived(self) -> None:
         if self.open and self.reader.liveliness is not None:
-            self.reader.liveliness.sign(self.writer)
+            self.reader.liveliness.assert_liveliness(self.writer)
         self.engine.activity += 1
 
 
@@ -151,19 +151,19 @@ class ReliableChannel(Channel):
         self._history = history
         self._back = engine.links.between(reader.host, writer.host)
         self._next: int | None = None  # number of the message that is to be handed over next
-        self._early: dict[int, Sent | None] = {}  # those that wait for earlier ones; None for a gap
+        self._early: dict[int, Sample | None] = {}  # those that wait for earlier ones; None for a gap
 
-    def send(self, sent: Sent) -> None:
+    def send(self, sample: Sample) -> None:
         """As Channel."""
         self._row.sent += 1
-        self.unacknowledged.add(sent.number)
+        self.unacknowledged.add(sample.number)
         if self._next is None:
-            self._next = sent.number
-        self._send(sent, asks=self._history.is_full)
+            self._next = sample.number
+        self._send(sample, asks=self._history.is_full)
 
-    def sign(self) -> None:
+    def assert_liveliness(self) -> None:
         """As Channel; nobody sends it again."""
-        self._cross(0, self._signed)
+        self._cross(0, self._liveliness_arrived)
 
     def ask(self) -> None:
         """Send a heartbeat: which messages there are to have."""
@@ -172,29 +172,29 @@ class ReliableChannel(Channel):
     def _range(self) -> tuple[int, int]:
         return self._history.first, self.writer.count
 
-    def _send(self, sent: Sent, asks: bool = False, after: Nanoseconds = 0) -> None:
+    def _send(self, sample: Sample, asks: bool = False, after: Nanoseconds = 0) -> None:
         question = self._range() if asks else None
-        self._cross(len(sent.message), partial(self._arrive_with, sent, question), after)
+        self._cross(len(sample.message), partial(self._arrive_with, sample, question), after)
 
-    def _arrive_with(self, sent: Sent, question: tuple[int, int] | None) -> None:
-        self._arrive(sent)
+    def _arrive_with(self, sample: Sample, question: tuple[int, int] | None) -> None:
+        self._arrive(sample)
         if question is not None:
             self._asked(*question)
 
-    def _arrive(self, sent: Sent | None, number: int | None = None) -> None:
-        number = sent.number if sent is not None else number
+    def _arrive(self, sample: Sample | None, number: int | None = None) -> None:
+        number = sample.number if sample is not None else number
         if number >= self._next:
-            self._early.setdefault(number, sent)
+            self._early.setdefault(number, sample)
             self._release()
 
     def _release(self) -> None:
         while self._next in self._early:
-            sent = self._early.pop(self._next)
+            sample = self._early.pop(self._next)
             self._next += 1
-            if sent is None:
+            if sample is None:
                 self._lost()
             else:
-                self._hand_over(sent)
+                self._hand_over(sample)
 
     def _asked(self, first: int, last: int) -> None:
         """At the subscription: a heartbeat came. What is not to have any more is lost."""
@@ -217,11 +217,11 @@ class ReliableChannel(Channel):
         beyond = min(missing, default=last + 1)
         self.unacknowledged = {number for number in self.unacknowledged if number >= beyond}
         for number in missing:
-            sent = self._history.kept.get(number)
-            if sent is None or sent.expires <= self.engine.now:
+            sample = self._history.kept.get(number)
+            if sample is None or sample.expires <= self.engine.now:
                 self._cross(0, partial(self._arrive, None, number), RESPONSE)
             else:
                 self._row.resent += 1
-                self._send(sent, after=RESPONSE)
+                self._send(sample, after=RESPONSE)
         self._history.acknowledged()
         self.engine.activity += 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 
-class Elsewhere(Protocol):
+class Peer(Protocol):
     """Another process, in which some of the run's nodes live, as far as the engine has to do with it."""
 
     def close(self) -> None:

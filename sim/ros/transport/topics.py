@@ -10,9 +10,9 @@ import os
 from collections import Counter, defaultdict
 from typing import TYPE_CHECKING, Any
 
-from sim.ros.engine.delivery.carried import CarriedReader, CarriedWriter
-from sim.ros.engine.delivery.reader import Reader
-from sim.ros.engine.delivery.writer import Writer
+from sim.ros.transport.middleware import MiddlewareReader, MiddlewareWriter
+from sim.ros.transport.reader import Reader
+from sim.ros.transport.writer import Writer
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -36,20 +36,20 @@ class Topics:
 
     def writer(self, *end: Any, topic: str, **more: Any) -> Writer:
         """A new publisher's end; the arguments are those of `Writer`."""
-        kind = CarriedWriter if self._is_carried(topic) else Writer
+        kind = MiddlewareWriter if self._is_carried(topic) else Writer
         writer = kind(self._engine, *end, topic=topic, **more)
         self._writers[topic].append(writer)
         for reader in self._readers[topic]:
-            writer.meet(reader)
+            writer.match(reader)
         return writer
 
     def reader(self, *end: Any, topic: str, kind: type[Reader] = Reader, **more: Any) -> Reader:
         """A new subscription's end; the arguments are those of `Reader`, or of this kind of it."""
-        kind = CarriedReader if self._is_carried(topic) else kind
+        kind = MiddlewareReader if self._is_carried(topic) else kind
         reader = kind(self._engine, *end, topic=topic, **more)
         self._readers[topic].append(reader)
         for writer in self._writers[topic]:
-            writer.meet(reader)
+            writer.match(reader)
         return reader
 
     def reader_of(self, topic: str, handle: Any) -> Reader | None:
@@ -64,7 +64,7 @@ class Topics:
                 ends.remove(end)
         if isinstance(end, Reader):
             for writer in writers:
-                writer.forget(end)
+                writer.unmatch(end)
 
     def _is_carried(self, topic: str) -> bool:
         """Whether C++ code publishes there: log lines, actions, states of lifecycle nodes, calls."""

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from rclpy.qos import ReliabilityPolicy
 
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.engine.delivery.channels import Channel, ReliableChannel
-from sim.ros.engine.delivery.qos import latches, queue_length
+from sim.ros.transport.channels import Channel, ReliableChannel
+from sim.ros.transport.qos import latches, queue_length
 
 if TYPE_CHECKING:
-    from sim.ros.engine.delivery.reader import Reader, Sent
-    from sim.ros.engine.delivery.writer import Writer
+    from sim.ros.transport.reader import Reader, Sample
+    from sim.ros.transport.writer import Writer
 
 HEARTBEAT: Nanoseconds = 3 * SECOND
 MOST_KEPT = 5000  # messages that Fast DDS has room for in a history without a limit
@@ -29,8 +29,8 @@ class History:
         self._length = min(queue_length(writer.profile) or MOST_KEPT, MOST_KEPT)
         self._keeps_all = queue_length(writer.profile) is None
         self._latches = latches(writer.profile)
-        self._planned = False
-        self.kept: dict[int, Sent] = {}
+        self._scheduled = False
+        self.kept: dict[int, Sample] = {}
         self.channels: list[ReliableChannel] = []
 
     @property
@@ -51,23 +51,23 @@ class History:
         """Whether every subscription is known to have everything."""
         return not any(channel.unacknowledged for channel in self.channels)
 
-    def add(self, sent: Sent) -> None:
+    def add(self, sample: Sample) -> None:
         """Keep a message that is sent now."""
         if self.is_full:
             del self.kept[self.first]
-        self.kept[sent.number] = sent
+        self.kept[sample.number] = sample
         self._plan()
 
-    def restore(self, latched: list[Sent]) -> None:
+    def restore(self, latched: list[Sample]) -> None:
         """Keep these earlier ones, too."""
-        self.kept = {sent.number: sent for sent in latched} | self.kept
+        self.kept = {sample.number: sample for sample in latched} | self.kept
         self._plan()
 
     def acknowledged(self) -> None:
         """What all have need not be kept any more."""
         if not self._latches:
             wanted = set().union(*(channel.unacknowledged for channel in self.channels))
-            self.kept = {number: sent for number, sent in self.kept.items() if number in wanted}
+            self.kept = {number: sample for number, sample in self.kept.items() if number in wanted}
 
     def clear(self) -> None:
         """The publisher was destroyed: what is lost from now on stays lost."""
@@ -75,12 +75,12 @@ class History:
         self.channels.clear()
 
     def _plan(self) -> None:
-        if not self._planned:
-            self._planned = True
-            self._engine.agenda.arrive(self._engine.now + HEARTBEAT, self._beat)
+        if not self._scheduled:
+            self._scheduled = True
+            self._engine.agenda.schedule_arrival(self._engine.now + HEARTBEAT, self._send_heartbeats)
 
-    def _beat(self) -> None:
-        self._planned = False
+    def _send_heartbeats(self) -> None:
+        self._scheduled = False
         waiting = [channel for channel in self.channels if channel.unacknowledged]
         for channel in waiting:
             channel.ask()
@@ -88,7 +88,7 @@ class History:
             self._plan()
 
 
-class Outgoing:
+class OutgoingChannels:
     """The ways from one publisher to subscriptions of other hosts."""
 
     def __init__(self, writer: Writer) -> None:
@@ -97,7 +97,7 @@ class Outgoing:
         self.has_room, self.all_acknowledged = self._history.has_room, self._history.all_acknowledged
         self.channels: list[Channel] = []
 
-    def connect(self, reader: Reader, latched: list[Sent]) -> None:
+    def connect(self, reader: Reader, latched: list[Sample]) -> None:
         """Send what is published to this subscription, too, and these messages at once."""
         writer = self._writer
         ends = writer.profile, reader.profile
@@ -107,23 +107,23 @@ class Outgoing:
         else:
             channel = Channel(writer.engine, writer, reader)
         self.channels.append(channel)
-        alive = [sent for sent in latched if sent.expires > writer.engine.now]
+        alive = [sample for sample in latched if sample.expires > writer.engine.now]
         if alive:
             self._history.restore(alive)
-        for sent in alive:
-            channel.send(sent)
+        for sample in alive:
+            channel.send(sample)
 
-    def send(self, sent: Sent) -> None:
+    def send(self, sample: Sample) -> None:
         """Let a message set out to all."""
         if self._history.channels:
-            self._history.add(sent)
+            self._history.add(sample)
         for channel in self.channels:
-            if self._writer.knows(channel.reader):
-                channel.send(sent)
+            if self._writer.has_discovered(channel.reader):
+                channel.send(sample)
             else:
                 self._writer.engine.recorder.undelivered(self._writer.sender, self._writer.topic)
 
-    def forget(self, reader: Reader) -> None:
+    def unmatch(self, reader: Reader) -> None:
         """A subscription was destroyed."""
         for channel in [channel for channel in self.channels if channel.reader is reader]:
             channel.open = False

@@ -18,14 +18,14 @@ from rclpy.action import ActionClient, ActionServer
 from sim.evidence import Call, Seconds
 from sim.nanoseconds import Nanoseconds, nanoseconds
 from sim.network import LAPTOP
-from sim.ros.engine.delivery.action_ends import taken_by_client, taken_by_server
-from sim.ros.engine.delivery.channels import RESPONSE, Link
-from sim.ros.engine.delivery.outgoing import HEARTBEAT
-from sim.ros.engine.delivery.qos import queue_length
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
 from sim.ros.recorder.calls import alive
 from sim.ros.recorder.kept import ClientRecord
+from sim.ros.transport.action_endpoints import take_at_client, take_at_server
+from sim.ros.transport.channels import RESPONSE, HostLink
+from sim.ros.transport.outgoing import HEARTBEAT
+from sim.ros.transport.qos import queue_length
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -35,7 +35,7 @@ PART = "/_action/"
 KINDS = {"send_goal": "goal", "cancel_goal": "cancel", "get_result": "result"}  # services of an action
 
 
-class Held:
+class DelayQueue:
     """What has been sent to one end and has not come yet; and what has come, up to the length of a queue."""
 
     def __init__(self, engine: Engine, length: int | None = None) -> None:
@@ -49,7 +49,7 @@ class Held:
         if due is not None:
             heapq.heappush(self._coming, (due, next(self._numbers), what))
             if due > self._engine.now:
-                self._engine.agenda.arrive(due, self.look)
+                self._engine.agenda.schedule_arrival(due, self.look)
             else:
                 self.look()
 
@@ -64,12 +64,12 @@ class Held:
         return self._come.popleft() if self._come else None
 
 
-class Post:
+class ServiceTransport:
     """The network between the ends of services and actions in one run."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
-        self._held: dict[tuple[int, str], tuple[Any, Held]] = {}  # with the end, so that its id stays its own
+        self._held: dict[tuple[int, str], tuple[Any, DelayQueue]] = {}  # with the endpoint: keeps its id
         self._sent: Counter[tuple[Any, ...]] = Counter()  # at each moment
         self._last: dict[tuple[str, ...], Nanoseconds] = defaultdict(int)
         self._beats: dict[tuple[str, ...], Nanoseconds] = defaultdict(int)  # when heartbeats began to count
@@ -137,10 +137,10 @@ class Post:
         size = len(call.raw_response)
         return self._due("response", client.service, call.server, client.node, size=size, since=call.answered)
 
-    def news(self, listener: Any, node: str, take: Callable[[], bytes | None]) -> bytes | None:
+    def news(self, subscriber: Any, node: str, take: Callable[[], bytes | None]) -> bytes | None:
         """The next feedback or status of an action that has come to what listens for a client of `node`."""
-        action, _, part = listener.name.partition(PART)
-        held = self._of(listener, part)
+        action, _, part = subscriber.name.partition(PART)
+        held = self._of(subscriber, part)
         while (raw := take()) is not None:
             held.put(self._due(part, action, self._engine.recorder.goals.server_of(action), node), raw)
         return held.take()
@@ -152,7 +152,7 @@ class Post:
 
     def _collect_at_server(self, server: Any) -> None:
         goals, action = self._engine.recorder.goals, server._sim.action
-        while data := taken_by_server(server):
+        while data := take_at_server(server):
             for kind, (header, request) in data.items():
                 due = self._due(kind, action, goals.client_of(action, _goal_id(request)), server._sim.node)
                 self._of(server, kind).put(due, (header, request))
@@ -165,7 +165,7 @@ class Post:
     def _collect_at_client(self, client: Any) -> None:
         action = client._sim.action
         server = self._engine.recorder.goals.server_of(action)
-        while data := taken_by_client(client):
+        while data := take_at_client(client):
             for kind, what in data.items():
                 self._of(client, kind).put(self._due(kind, action, server, client._sim.node), what)
 
@@ -198,10 +198,10 @@ class Post:
             came = self._last[key] = max(came, self._last[key])
         return came
 
-    def _of(self, end: Any, kind: str, length: int | None = None) -> Held:
+    def _of(self, end: Any, kind: str, length: int | None = None) -> DelayQueue:
         key = id(end), kind
         if key not in self._held:
-            self._held[key] = end, Held(self._engine, length)
+            self._held[key] = end, DelayQueue(self._engine, length)
         return self._held[key][1]
 
 
@@ -209,7 +209,7 @@ def _goal_id(request: Any) -> Any:
     return request.goal_info.goal_id if hasattr(request, "goal_info") else request.goal_id
 
 
-def _later(there: Link, back: Link, chance: Random, begin: Nanoseconds) -> Nanoseconds | None:
+def _later(there: HostLink, back: HostLink, chance: Random, begin: Nanoseconds) -> Nanoseconds | None:
     """When something that was lost comes, with the heartbeats that count from `begin`."""
     for beat in range(1, MOST_HEARTBEATS):
         asked = there.travel(chance, begin + beat * HEARTBEAT)
