@@ -11,6 +11,7 @@ from sim.evidence import Ended, Recording
 from sim.network import Network
 from sim.notebook import interrupt_error, raise_if_outdated
 from sim.ros.engine.program import Process
+from sim.ros.latest import latest
 from sim.ros.session import Session
 from sim.world import World
 
@@ -46,6 +47,7 @@ def run(
     """
     raise_if_outdated(nodes)
     session = Session(nodes, world, seconds, seed, until, quiet, companions=companions, network=network)
+    latest.recording = session.recording
     session.advance()
     if session.interrupted:
         raise interrupt_error()

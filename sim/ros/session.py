@@ -1,4 +1,4 @@
-"""One run that is advanced bit by bit; while it rests, nothing of it is visible to the user's own code."""
+"""One run that is advanced bit by bit; while it is paused, the user's own code sees nothing of it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import gc
 import math
 import sys
 import threading
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from rclpy.node import Node
@@ -16,24 +16,24 @@ from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.network import Network
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
-from sim.ros.engine.engine import Engine
+from sim.ros.engine.engine import Engine, never
+from sim.ros.engine.main_loop import MainLoop
 from sim.ros.engine.process_state import ProcessState, SeededRandom
-from sim.ros.engine.processes import StudentProcess
 from sim.ros.engine.program import Process, as_process
+from sim.ros.engine.running_program import RunningProgram
 from sim.ros.fibers.scheduler import active
 from sim.ros.ground_truth import GroundTruth
 from sim.ros.hooks.install import rebind
-from sim.ros.latest import latest
 from sim.ros.launching.launch_program import as_launch_program
 from sim.ros.robots.world_programs import programs_of
 from sim.world import World
 
 FOREVER: Nanoseconds = 2**63
-_turn = threading.RLock()  # a process has one of everything: runs in several threads work in turns
+_turn = threading.RLock()  # a process has one of everything: runs in several threads execute in turns
 
 
 class Session:
-    """A run under way. How it is cut into stretches of work changes nothing in its recording.
+    """A run in progress. Where it is paused changes nothing in its recording.
 
     The arguments are those of `run`; caller: the name of the function that the user called, for messages.
     Raises TypeError or ValueError for arguments that can't be run, WorldError for a bad world.
@@ -63,94 +63,86 @@ class Session:
         if not isinstance(network, Network | None):
             raise TypeError(f"network must be a Network, such as Network(loss=0.2); it is {network!r}.")
         world = World.load(world) if isinstance(world, str) else world
-        self.recording = latest.recording = Recording(
-            world=world, seconds=float(seconds), seed=seed, network=network
-        )
-        self.truth: GroundTruth | None = None  # while the run works, if it has a world
+        self.recording = Recording(world=world, seconds=float(seconds), seed=seed, network=network)
+        self.truth: GroundTruth | None = None  # while the run lasts, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
         self._until = until
-        self._moments: Generator[Nanoseconds, Nanoseconds, Ended] | None = None
-        self._due: Nanoseconds = 0  # the moment that time moves to next
+        self._loop: MainLoop | None = None
         self._reached: Nanoseconds = 0  # up to which all is done
-        self._begun = False
-        self._process, self._chance, self._stderr = ProcessState(), SeededRandom(seed), FileDescriptor2()
+        self._process, self._random, self._stderr = ProcessState(), SeededRandom(seed), FileDescriptor2()
         self._screen = Screen(quiet)
         self._thread = threading.get_ident()  # greenlets can't move to another
 
     @property
     def stamp(self) -> float:
-        """Simulated seconds of the last moment at which something was done."""
+        """Simulated seconds of the last step."""
         return self.recording.stamp if self.engine is None else self.engine.recorder.now
 
     @property
     def interrupted(self) -> bool:
-        """Whether the user has interrupted the run while it worked."""
+        """Whether the user has interrupted the run while it executed."""
         return self._interrupted or (self.engine is not None and self.engine.guard.interrupted)
 
     @property
     def elsewhere(self) -> bool:
-        """Whether it is at home in another thread than the one that asks."""
+        """Whether it belongs to another thread than the caller's."""
         return self._thread != threading.get_ident()
 
     @property
     def nodes(self) -> list[Node]:
-        """The nodes that are there now."""
-        return [node for process in self.engine.processes for node in process.nodes] if self.engine else []
+        """The nodes that exist now."""
+        return [node for program in self.engine.programs for node in program.nodes] if self.engine else []
 
     def advance(self, limit: float = math.inf, enough: Callable[[], bool] | None = None) -> float:
-        """Do all that is due up to `limit`, or until there was `enough`, which is asked between moments.
+        """Do all that is due up to `limit`, or until `enough()`, which is called between steps.
 
-        Returns up to when all is done, in simulated seconds. Raises what `until` raises; then too, the run is
-        over.
+        Returns up to when all is done, in simulated seconds. Raises what `until` raises; then, too, the run
+        is over.
         """
         if self.over:
             return self.stamp
         last = FOREVER if limit == math.inf else round(limit * SECOND)
-        with self._stretch():
+        with self._executing():
             try:
-                if self._moments is None:
+                if self._loop is None:
                     self._open()
-                while self._due <= last and not (enough and enough()):
-                    if self.truth is not None:
-                        self.truth.move_to(self._due)
-                    self._due = self._moments.send(self._due if self._begun else None)
-                    self._begun = True
-            except StopIteration as end:
-                self._close(end.value)
+                ended = self._loop.run(last, enough or never)
             except BaseException:
                 self._close(self.recording.ended)
                 raise
-        if self._due <= last or self.over:
+            if ended is not None:
+                self._close(ended)
+        if self.over or self._loop.due <= last:
             return self.stamp
         self._reached = max(last, self._reached)
         if self.truth is not None:
-            self.truth.scene.advance(limit)  # for who looks at it; what is due next finds it no farther
+            self.truth.scene.advance(limit)  # for the picture; the next step finds it no farther
         return limit
 
     def start(self, spec: Process, *, from_course: bool = False) -> None:
-        """Add a program; it runs as soon as time goes on. ours: it is not the student's."""
-        with self._stretch():
+        """Add a program; it runs as soon as the run continues. from_course: it is not the student's."""
+        with self._executing():
             self.engine.start(spec, from_course=from_course)
-        self._due = min(self._due, max(self._reached, self.engine.now))
+        self._loop.due = min(self._loop.due, max(self._reached, self.engine.now))
 
     def end(self, ended: Ended) -> None:
         """End the run before its time."""
         if self.over:
             return
-        with self._stretch():
+        with self._executing():
             self._close(ended)
 
     @contextlib.contextmanager
-    def _stretch(self) -> Iterator[None]:
-        """The run works: the process is the nodes' for a while."""
+    def _executing(self) -> Iterator[None]:
+        """In this block, the state of the process is the run's."""
         with _turn, self._process.borrowed():
-            # Made in here, for at the end the garbage collector looks only at what was made in here.
+            # Created in here, because at the end the garbage collector sees only what was created in here.
             self.engine = self.engine or Engine(self.recording, self._screen)
             try:
                 with (
-                    self._chance.borrowed(),
-                    self._stderr.caught(),
+                    self._random.borrowed(),
+                    self._stderr.captured(),
                     student_streams(),
                     self.engine.guard.watch(),
                     self.engine.awake(),
@@ -166,24 +158,21 @@ class Session:
             rebind(_names_around(spec.target))
         if self.recording.world is not None:
             self.truth = GroundTruth(self.recording)
-        self.engine.open()
+        self.engine.open(self.truth)
         for spec in programs_of(self.truth.scene) if self.truth is not None else []:
             self.engine.start(spec, from_course=True)
         watched = [self.engine.start(spec, from_course=True) for spec in self._companions]
         watched += [self.engine.start(spec) for spec in self._specs]
-        self._moments = self._course(round(self.recording.seconds * SECOND), watched)
+        self._loop = self._main_loop(round(self.recording.seconds * SECOND), watched)
 
-    def _course(
-        self, end: Nanoseconds, watched: list[StudentProcess]
-    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
-        """The moments of the run, one after the other."""
-        return self.engine.moments(end, self._until, watched)
+    def _main_loop(self, end: Nanoseconds, watched: list[RunningProgram]) -> MainLoop:
+        return MainLoop(self.engine, end, self._until, watched)
 
     def _close(self, ended: Ended) -> None:
         self.over, self.recording.ended = True, ended
         vars(self.recording).pop("digest", None)  # `until` may have asked too early
-        if self._moments is not None:
-            self._moments = None
+        if self._loop is not None:
+            self._loop = None
             self.engine.close()
 
     def _clean_up(self) -> None:

@@ -1,4 +1,4 @@
-"""What student code writes to stdout and stderr during a run, kept apart by who writes."""
+"""Captures what student code writes to stdout and stderr during a run, apart from what others write."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from sim.ros.fibers.scheduler import engine, outside_student_code
 
 ECHO_LINES = 100  # shown of what nodes log and print; the recording has all of it
 ECHO_CHARACTERS = 20_000
-# What rclpy says of QoS is in the recording, and `tell` says it in words that help.
+# rclpy's warnings about QoS are in the recording, and `tell` explains them.
 RAW_QOS = re.compile(r"\[WARN\] .*: New (publisher|subscription) discovered on topic .* incompatible QoS\.")
 
 
 class StudentStream:
-    """Stands for a text stream during a run: student code writes to the run, all others to the original.
+    """Replaces a text stream during a run: student code writes to the run, all others to the original.
 
-    It holds on to no run, for a library that is first imported in a run may keep it for ever.
+    It has no reference to a run, because a library that is first imported in a run may store it for ever.
     """
 
     def __init__(self, original: Any, channel: str) -> None:
@@ -33,7 +33,7 @@ class StudentStream:
         run = engine()
         if run is None:
             return self._original.write(text)
-        getattr(run, self._channel)(text)
+        getattr(run.output, self._channel)(text)
         return len(text)
 
     def flush(self) -> None:
@@ -68,41 +68,41 @@ def _student_stream(original: Any, channel: str) -> StudentStream:
 
 @contextlib.contextmanager
 def student_streams() -> Iterator[None]:
-    """Redirect Python's stdout and stderr for the time of a run to its `printed` and `complained`."""
+    """Redirect Python's stdout and stderr for the time of a run to its `output`."""
     stdout, stderr = sys.stdout, sys.stderr
-    sys.stdout = _student_stream(stdout, "printed")
-    sys.stderr = _student_stream(stderr, "complained")
-    held = _hold(stdout, "printed")
-    if stderr is not stdout:  # both may be led to one place
-        held += _hold(stderr, "complained")
+    sys.stdout = _student_stream(stdout, "stdout")
+    sys.stderr = _student_stream(stderr, "stderr")
+    redirected = _redirect(stdout, "stdout")
+    if stderr is not stdout:  # both may be one
+        redirected += _redirect(stderr, "stderr")
     try:
         yield
     finally:
-        for stream, name in held:
+        for stream, name in redirected:
             delattr(stream, name)
         sys.stdout, sys.stderr = stdout, stderr
 
 
-def _hold(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
-    """Redirect the stream object itself as far as it lets us: handlers of Python's logging hold on to it."""
+def _redirect(stream: TextIO, channel: str) -> list[tuple[TextIO, str]]:
+    """Redirect the stream object itself if it allows that: handlers of Python's logging have stored it."""
     try:
         original = SimpleNamespace(write=stream.write, flush=stream.flush)
         student = StudentStream(original, channel)
         stream.write, stream.flush = student.write, student.flush
-    except AttributeError:  # None, or a stream of Python's own: that writes to a file, and waits for nobody
+    except AttributeError:  # None, or a stream of Python's own, which waits for no thread
         return []
     return [(stream, "write"), (stream, "flush")]
 
 
 class FileDescriptor2:
-    """Catches what is written to file descriptor 2 below Python, as ROS's C libraries do."""
+    """Captures what is written to file descriptor 2 below Python, as ROS's C libraries do."""
 
     def __init__(self) -> None:
         self._sink = tempfile.TemporaryFile()  # noqa: SIM115  (close() does)
 
     @contextlib.contextmanager
-    def caught(self) -> Iterator[None]:
-        """Catch for a while."""
+    def captured(self) -> Iterator[None]:
+        """Capture in this block."""
         _flush()
         users = os.dup(2)
         os.dup2(self._sink.fileno(), 2)
@@ -114,7 +114,7 @@ class FileDescriptor2:
             os.close(users)
 
     def close(self) -> str:
-        """All that was caught, or the first megabyte of it."""
+        """All that was captured, or the first megabyte of it."""
         with self._sink:
             self._sink.seek(0)
             return self._sink.read(1_000_000).decode(errors="replace")
@@ -126,7 +126,7 @@ def _flush() -> None:
 
 
 class Screen:
-    """Shows the first lines of what nodes say, on stdout: nbgrader takes any text on stderr for a failure."""
+    """Shows the first lines of what nodes log and print, on stdout: on stderr, nbgrader sees a failure."""
 
     def __init__(self, quiet: bool) -> None:
         self.quiet, self.stream = quiet, sys.stdout
@@ -143,6 +143,6 @@ class Screen:
         self.characters += len(text)
 
     def close(self) -> None:
-        """Say how much was not shown."""
+        """Show how much was left out."""
         if not self.quiet and self.lines > ECHO_LINES:
             self.stream.write(f"... and {self.lines - ECHO_LINES} more lines, all in the recording\n")

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 
 from sim.evidence import Ended
 from sim.nanoseconds import SECOND
+from sim.ros.engine.engine import Engine
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.recorder.kept import ActionRecord, ClientRecord
+from sim.ros.recorder.records import ActionRecord, ClientRecord
 from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
-
-if TYPE_CHECKING:
-    from sim.ros.engine.engine import Engine
 
 AFTER_RETURN = "can only be handled in the same callback group, after it has returned."
 BLOCKED_AFTER = SECOND  # of waiting; until then a callback is just slow
@@ -28,14 +26,15 @@ def conclusion(engine: Engine, over: int | None) -> Ended:
         return Ended("error", now, f"{first.callback} of {first.node} raised {first.type}{first.says}")
     if over is not None:
         return Ended("finished", now, f"Every program had ended by t = {over / SECOND:g} s.")
-    waiting = blocked(engine) or engine.blocked_elsewhere
+    peer = engine.transport.peer
+    waiting = blocked(engine) or ("" if peer is None else peer.blocked)
     if waiting:
         return Ended("blocked", now, waiting)
     return Ended("time", now, f"All {now:g} s were run.")
 
 
 def blocked(engine: Engine) -> str | None:
-    """Which callback waits for something that can't come, in a sentence; None if none does."""
+    """Which callback waits for something that can't happen, in a sentence; None if none does."""
     return _blocked_call(engine) or _blocked_coroutine(engine)
 
 
@@ -63,33 +62,33 @@ def _why(engine: Engine, fiber: Fiber, running: RunningCallback) -> str:
         isinstance(running.group, MutuallyExclusiveCallbackGroup)
         and waited[0].callback_group is running.group
     ):
-        return f"{_answer_of(waited[0])} {AFTER_RETURN}"
-    return f"{_answer_of(waited[0])} can only be handled by the thread that waits for it."
+        return f"{_response_to(waited[0])} {AFTER_RETURN}"
+    return f"{_response_to(waited[0])} can only be handled by the thread that waits for it."
 
 
 def _blocked_coroutine(engine: Engine) -> str | None:
-    """A suspended callback whose answer its own callback group keeps out."""
-    for running in engine.suspended:
+    """A suspended callback whose response its own callback group excludes."""
+    for running in engine.callbacks.suspended:
         exclusive = isinstance(running.group, MutuallyExclusiveCallbackGroup)
         if not exclusive or engine.now - running.began < BLOCKED_AFTER:
             continue
         for client in _pending(engine, running):
             if client.callback_group is running.group:
-                return f"{_since(running)}. {_answer_of(client)} {AFTER_RETURN}"
+                return f"{_since(running)}. {_response_to(client)} {AFTER_RETURN}"
     return None
 
 
 def _pending(engine: Engine, running: RunningCallback) -> list[Any]:
-    """Clients of the callback's node with a request that has no answer yet."""
-    nodes = [n for p in engine.processes for n in p.nodes if engine.recorder.name_of(n) == running.node]
+    """Clients of the callback's node with a request that has no response yet."""
+    nodes = [n for p in engine.programs for n in p.nodes if engine.recorder.name_of(n) == running.node]
     clients = [c for node in nodes for c in node.clients if c._pending_requests]
     waitables = [w for node in nodes for w in node.waitables]
     names = ("_pending_goal_requests", "_pending_result_requests", "_pending_cancel_requests")
     return clients + [w for w in waitables if any(getattr(w, name, None) for name in names)]
 
 
-def _answer_of(client: Any) -> str:
-    kept: ClientRecord | ActionRecord = client._sim
-    if isinstance(kept, ClientRecord):
-        return f"The answer of service {kept.service}"
+def _response_to(client: Any) -> str:
+    record: ClientRecord | ActionRecord = client._sim
+    if isinstance(record, ClientRecord):
+        return f"The answer of service {record.service}"
     return f"The answer of action {client._action_name}"

@@ -1,242 +1,243 @@
-"""The engine of a run: student processes as fibers, the simulated clock, and what ends it."""
+"""The engine of a run: its programs as fibers, the simulated clock, and the step of its main loop."""
 
 from __future__ import annotations
 
 import contextlib
 import sys
-from collections import Counter
-from collections.abc import Callable, Generator, Iterator, Sequence
-from typing import Any
-
-from rclpy.context import Context
-from rclpy.exceptions import InvalidHandle
+from collections.abc import Callable, Iterator
+from typing import Protocol
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.engine.endings import conclusion
+from sim.ros.engine.callbacks import Callbacks
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import RunLimits
-from sim.ros.engine.peer import Peer
+from sim.ros.engine.output import ProgramOutput
 from sim.ros.engine.process_state import RclpyState, SeededBytes
-from sim.ros.engine.processes import StudentProcess, destroy
 from sim.ros.engine.program import Process
+from sim.ros.engine.running_program import RunningProgram, destroy
 from sim.ros.engine.simtime import SimulatedTime
 from sim.ros.fibers.exceptions import Livelock, RemoteLost, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler, activate
+from sim.ros.fibers.waiter import NEVER
 from sim.ros.recorder.recorder import Recorder
-from sim.ros.recorder.running import RunningCallback
 from sim.ros.recorder.tracebacks import student_line
-from sim.ros.transport.channels import HostLinks
-from sim.ros.transport.event_queue import EventQueue
-from sim.ros.transport.service_transport import ServiceTransport
-from sim.ros.transport.topics import Topics
+from sim.ros.transport.transport import Transport
 
-INTERRUPTED = "The user interrupted the run."
-AFTER_LAST_PROCESS: Nanoseconds = SECOND  # lets a robot roll out when every program has ended
+MAX_ROUNDS = 200_000  # of a step; a run that needs more will never be quiet
+
+
+class MovingWorld(Protocol):
+    """A world that moves along with time."""
+
+    def move_to(self, moment: Nanoseconds) -> None:
+        """Advance it to this moment."""
+
+
+def never() -> bool:
+    """For a step that isn't paused."""
+    return False
 
 
 class Engine(Scheduler):
-    """One run on the real rclpy. Between open() and close(), it can be awake again and again."""
+    """One run on the real rclpy. Between open() and close(), it can be awake again and again.
 
-    def __init__(self, recording: Recording, echo: Callable[[str], None]) -> None:
+    screen: shows text of the programs to the user.
+    """
+
+    def __init__(self, recording: Recording, screen: Callable[[str], None]) -> None:
         super().__init__()
         self.recording = recording
         self.recorder = Recorder(self, recording)
-        self.guard = Guard(self)
-        self.chance = SeededBytes(recording.seed)
-        self.context = Context()
-        self.rclpy = RclpyState()
-        self.executors: list[Any] = []
-        self.has_clients = self.rosout_wanted = False
-        self.topology = 0
-        self.destroyed = 0  # so many of rclpy's handles were
-        self.exchanged = 0  # so often something was sent that an end of an action may have to take
-        self.links = None if recording.network is None else HostLinks(recording.network, recording.seed)
-        self.post = None if recording.network is None else ServiceTransport(self)
-        self.agenda, self.topics = EventQueue(), Topics(self)
-        self.asked: Counter[str] = Counter()  # requests sent to each service
-        self.names: dict[int, tuple[Callable, str]] = {}  # of callbacks, by the id of what they belong to
-        self.processes: list[StudentProcess] = []
-        self.echo = echo
+        self.output = ProgramOutput(self, self.recorder, screen)
         self.limits = RunLimits(self)
-        self.suspended: list[RunningCallback] = []  # coroutine callbacks that wait for something
-        self.held = (0.0, 0.0)  # what a user at the keys drives by hand: forward and left, each in [-1, 1]
+        self.guard = Guard(self, self.recorder, self.limits)
+        self.callbacks = Callbacks(self, self.recorder, self.limits)
+        self.transport = Transport(self, self.recorder, lambda wall: self.time.moment_at(wall))
+        self.random = SeededBytes(recording.seed)
+        self.rclpy = RclpyState()
+        self.programs: list[RunningProgram] = []
+        self.held = (0.0, 0.0)  # the user's keys: forward and left, each in [-1, 1]; a Teleop node reads them
         self._fault: Ended | None = None
-        self._unheard = False  # nobody hears what is said while the last threads are ended by force
-        self.link: Peer | None = None
-        self.blocked_elsewhere = ""  # a sentence on what these wait for in vain
+
+    # -- the main loop -----------------------------------------------------------------------------
+
+    def step(self, moment: Nanoseconds, pause: Callable[[], bool] = never) -> bool:
+        """One step of the main loop: advance time, do what is due, let programs run until none can go on.
+
+        pause: called after each round of turns; when it returns true the step ends, and the next one may have
+        the same moment. Returns whether a program could still go on. A livelock ends the step, too, and is in
+        `fault`.
+        """
+        try:
+            self.advance_time(moment)
+            self.transport.events.run_arrivals(self.now)
+            return self.run_programs(pause)
+        except Livelock:
+            return False
+
+    def advance_time(self, moment: Nanoseconds) -> None:
+        """Move the world, and all clocks if they are not there yet, to `moment`."""
+        later = moment > self.now
+        if later:
+            self.limits.check_pace()
+        if self._world is not None:
+            self._world.move_to(moment)
+        if later:
+            self.time.move_to(moment)
+            self.limits.begin_moment()
+            self.waiters.wake_polled()
+
+    def run_programs(self, pause: Callable[[], bool] = never) -> bool:
+        """Let programs run in rounds until none can go on, or until `pause()`; whether one still can."""
+        for _ in range(MAX_ROUNDS):
+            if not self.run_round() and not self.transport.collect() and not self.run_deadlines():
+                return False
+            if pause():
+                return self.can_go_on()
+        self.raise_livelock(
+            f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time can not move on"
+        )
+
+    def run_deadlines(self) -> bool:
+        """Once no program can go on, the deadlines of this moment have passed; whether there were any."""
+        return self.transport.events.run_deadlines(self.now)
+
+    def can_go_on(self) -> bool:
+        """Whether there is still something to do at this moment."""
+        runnable = any(not fiber.done and fiber.runnable() for fiber in self.fibers)
+        return runnable or self.transport.events.next_due(NEVER) <= self.now
+
+    def next_moment(self, end: Nanoseconds) -> Nanoseconds:
+        """The next time at which a fiber, an executor's timer or an event is due; `end` at the latest.
+
+        To stop at every due time matters: a timer that is passed over drops its ticks.
+        """
+        now, moment = self.now, self.transport.events.next_due(end)
+        moment = moment if moment > now else end
+        for fiber in self.fibers:
+            if fiber.wake_at is not None and now < fiber.wake_at < moment:
+                moment = fiber.wake_at
+            if fiber.waiter is not None:
+                fiber.timer_due = due = fiber.waiter.next_due()
+                moment = min(moment, due)
+        return moment
 
     # -- set-up and tear-down ----------------------------------------------------------------------
 
     @contextlib.contextmanager
     def awake(self) -> Iterator[None]:
-        """Let rclpy be the run's for a while, and its student code be seen by the hooks."""
+        """In this block rclpy's state is the run's, and the hooks see its student code."""
         with self.rclpy.borrowed():
             activate(self)
             try:
                 yield
             finally:
                 activate(None)
-                if StudentProcess.loaded is not None:
-                    StudentProcess.loaded.unload()
+                if RunningProgram.loaded is not None:
+                    RunningProgram.loaded.unload()
 
-    def open(self) -> None:
-        """Begin. Call it, and everything that runs student code, while the engine is awake."""
-        self.context.init(args=["run"])
+    def open(self, world: MovingWorld | None) -> None:
+        """Begin. Call it, and everything that runs student code, while the engine is awake.
+
+        world: moves along with time; None for no robot.
+        """
+        self._world = world
+        self.rclpy.context.init(args=["run"])
         self.time = SimulatedTime(self)
 
     def close(self) -> None:
-        """Leave nothing of the run."""
+        """End all programs, and free everything of the run."""
         self.recorder.close()
         try:
             self.guard.impatient = True
-            self.interrupt_all()
-            self._unheard = True
-            for executor in self.executors:
-                executor._sim.end_coroutines()
-            self.end_all()
+            self._end_programs()
         finally:
-            for process in self.processes:
-                self._free(process)
-            if self.link is not None:
-                self.link.close()
-            for executor in self.executors:
-                with contextlib.suppress(InvalidHandle):
-                    executor.shutdown()
+            for program in self.programs:
+                self._free(program)
+            if self.transport.peer is not None:
+                self.transport.peer.close()
+            for waiter in self.waiters.all:
+                waiter.close()
             self.rclpy.forget_contexts(but=1)
-            self.context.try_shutdown()
-            self.context.destroy()
+            self.rclpy.context.try_shutdown()
+            self.rclpy.context.destroy()
             del self.time
-            self.executors.clear()
+            self.waiters.clear()
 
-    def _free(self, process: StudentProcess) -> None:
-        for node in process.nodes:
+    def _end_programs(self) -> None:
+        """As Ctrl-C does: each main thread is interrupted. What still runs after that is ended by force."""
+        self._throw(KeyboardInterrupt, [fiber for fiber in self.fibers if fiber.thread is None])
+        self.output.silent = True
+        for waiter in list(self.waiters.all):
+            waiter.end_coroutines()
+        for _ in range(2):  # twice, for code that goes on
+            self._throw(RunOver, self.fibers)
+
+    def _throw(self, stop: type[BaseException], into: list[Fiber]) -> None:
+        self.throw(stop, into)
+        self.finish()
+
+    def finish(self) -> None:
+        """Let programs run on that have to end now."""
+        with contextlib.suppress(Livelock):
+            self.run_programs()
+
+    def _free(self, program: RunningProgram) -> None:
+        for node in program.nodes:
             destroy(node)
-        process.nodes.clear()
-        self.endpoints_changed()
+        program.nodes.clear()
+        self.waiters.endpoints_changed()
 
-    def start(self, spec: Process, *, from_course: bool = False) -> StudentProcess:
-        """Add a program; it runs when the engine does. ours: it is not the student's."""
-        process = StudentProcess(self, spec, from_course)
-        self.processes.append(process)
-        process.main = self.spawn(process.run, process.name, process)
-        return process
+    # -- programs ----------------------------------------------------------------------------------
 
-    # -- time --------------------------------------------------------------------------------------
+    def start(self, spec: Process, *, from_course: bool = False) -> RunningProgram:
+        """Add a program; it runs when the engine does. from_course: it is not the student's."""
+        program = RunningProgram(self, self.rclpy, spec, from_course)
+        self.programs.append(program)
+        program.main = self.spawn(program.run, program.name, program)
+        return program
 
-    def moments(
-        self, end: Nanoseconds, goal: Callable[[Recording], bool] | None, watched: Sequence[StudentProcess]
-    ) -> Generator[Nanoseconds, Nanoseconds, Ended]:
-        """Yield each moment before time moves to it, and take it or an earlier one; return why none is left.
-
-        That is `end`, the goal, a fault, or that all watched programs have ended. One may rest in between.
-        """
-        over, theirs = None, [process for process in watched if not process.from_course]
-        try:
-            self.settle()
-            while self.fault is None and self.now < end:
-                self.recording.stamp = now = self.recorder.now
-                if self.guard.interrupted:
-                    return Ended("interrupted", now, INTERRUPTED)
-                if goal is not None and goal(self.recording):
-                    return Ended("goal", now, f"The goal was reached at t = {now:g} s.")
-                if self.recording.all_exited_at is None and theirs and not any(map(self.lives, theirs)):
-                    self.recording.all_exited_at = now
-                if over is None and watched and not any(self.lives(process) for process in watched):
-                    over = self.now
-                    end = min(end, self.now + AFTER_LAST_PROCESS)
-                self.limits.check_pace()
-                moment = self.time.next_moment(self.agenda.next(end))
-                moment = yield moment
-                self.time.move_to(moment)
-                self.begin_moment()
-                self.settle()
-        except Livelock:
-            pass  # its reason is kept
-        self.recording.stamp = self.recorder.now
-        return self.fault or conclusion(self, over)
-
-    def begin_moment(self) -> None:
-        """Time was moved: whoever spins looks again, and callbacks are counted anew."""
-        self.activity += 1
-        self.limits.begin_moment()
-        self.agenda.run_arrivals(self.now)
-
-    def round(self) -> bool:
-        """As `Scheduler`; when no program can go on any more, what this moment was the limit for is over."""
-        sends = super().round() or (self.post is not None and self.post.collect())
-        return sends or self.agenda.run_deadlines(self.now)
-
-    def lives(self, process: StudentProcess) -> bool:
+    def lives(self, program: RunningProgram) -> bool:
         """Whether a program still has something to run."""
-        return any(fiber.process is process and not fiber.done for fiber in self.fibers)
+        return any(fiber.process is program and not fiber.done for fiber in self.fibers)
 
-    # -- what student code reports through the hooks -----------------------------------------------
-
-    def endpoints_changed(self) -> None:
-        """Entities came or went: executors plan anew."""
-        self.topology += 1
-        self.activity += 1
-
-    def printed(self, text: str) -> None:
-        """Student code wrote to stdout."""
-        self._wrote("stdout", text, self.recorder.printed)
-
-    def complained(self, text: str) -> None:
-        """Student code wrote to stderr."""
-        self._wrote("stderr", text, self.recorder.complained)
-
-    def _wrote(self, stream: str, text: str, keep: Callable[[str], None]) -> None:
-        if not self._unheard:
-            self.current.process.show(stream, text)
-            keep(text)
-            if lines := text.count("\n"):
-                self.called("lines", lines)
-
-    def logged(self, severity: Any, logger: str, text: str) -> None:
-        """A node wrote a log line."""
-        line = self.recorder.log(severity, logger, text)
-        if line is not None:
-            shown = f"[{line.level}] [{line.stamp:.3f}] [{line.node}]: {line.text}\n"
-            self.current.process.show("stderr", shown)
-        self.called("lines")
-
-    def loops_busily(self) -> None:
-        """As `Scheduler`; it is written down."""
+    def busy_loop_found(self) -> None:
+        """As `Scheduler`; it is recorded."""
         self.recorder.busy_loop(self.current, student_line(sys._getframe()))
 
-    # -- endings -----------------------------------------------------------------------------------
-
-    @property
-    def fault(self) -> Ended | None:
-        """What stops the run as soon as nothing can go on at this moment, or None."""
-        if self._fault is None and self.livelock is not None:
-            return Ended("livelock", self.recorder.now, f"{self.livelock}.")
-        return self._fault
-
-    def stop(self, fault: Ended) -> None:
-        """Let the run end with this; what was first stands."""
-        self._fault = self.fault or fault
-
     def fiber_ended(self, fiber: Fiber) -> None:
-        """Judge how a fiber ended, and end its process with its main()."""
-        error, process = fiber.error, fiber.process
+        """Record how a fiber ended, and end its program with its main()."""
+        error, program = fiber.error, fiber.process
         if isinstance(error, RemoteLost):
             raise error
         if self.guard.hang is not None and self.recorder.open:
             self._fault = Ended("hang", self.recorder.now, str(self.guard.hang))
         elif error is not None:
-            self.current = fiber  # for the names of its process
-            if isinstance(error, SystemExit) and fiber is process.main:
+            self.current = fiber  # for the names of its program
+            if isinstance(error, SystemExit) and fiber is program.main:
                 self.recorder.exited(error, fiber.name)
             else:
                 self.recorder.error(error, fiber.name)
             self.current = None
-        if fiber is process.main or (process.main.done and not self.lives(process)):
-            threads = [f for f in self.fibers if f.process is process and not f.done]
+        if fiber is program.main or (program.main.done and not self.lives(program)):
+            threads = [f for f in self.fibers if f.process is program and not f.done]
             for daemon in threads:
                 if daemon.daemon:
                     daemon.thrown = RunOver()
             if all(f.daemon for f in threads):
-                self._free(process)
+                self._free(program)
+
+    # -- faults ------------------------------------------------------------------------------------
+
+    @property
+    def fault(self) -> Ended | None:
+        """What stops the run as soon as no program can go on at this moment, or None."""
+        if self._fault is None and self.livelock is not None:
+            return Ended("livelock", self.recorder.now, f"{self.livelock}.")
+        return self._fault
+
+    def stop(self, fault: Ended) -> None:
+        """End the run with this, unless it has a fault already."""
+        self._fault = self.fault or fault

@@ -1,9 +1,9 @@
-"""The guard: student code that never gives control back is stopped, and the kernel lives on.
+"""The guard: student code that never returns control is stopped, and the kernel lives on.
 
-A timer signal looks in four times a second. If student code has been in one stretch since, and has used too
-much computing time, or waited too long in a call outside our reach, an exception is raised in it. Code that
-swallows even that is parked. A loop that looks for what others of its program do works on a robot, and waits
-for them here. Computing time is what is measured, so that a busy machine changes no verdict.
+A timer signal checks four times a second. If the same stretch of student code has run since, and has used
+too much computing time, or waited too long in a call that the hooks don't reach, an exception is raised in
+it. Code that swallows even that is parked. A loop that polls what others of its program do works on a robot,
+and waits for them here. Computing time is what is measured, so that a busy machine changes no result.
 """
 
 from __future__ import annotations
@@ -15,46 +15,44 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, thread_time
 from types import CodeType, FrameType
-from typing import TYPE_CHECKING
 
 import greenlet
 
 from sim.nanoseconds import SECOND
+from sim.ros.engine.limits import RunLimits
 from sim.ros.fibers.exceptions import Hang
 from sim.ros.fibers.fiber import Fiber
-from sim.ros.fibers.scheduler import outside_student_code
+from sim.ros.fibers.scheduler import Scheduler, outside_student_code
+from sim.ros.recorder.recorder import Recorder
 from sim.ros.recorder.tracebacks import is_library, student_line
 
-if TYPE_CHECKING:
-    from sim.ros.engine.engine import Engine
-
-LOOK_EVERY = 0.25  # s of wall time
+CHECK_EVERY = 0.25  # s of wall time
 COMPUTING_LIMIT = 2.0  # s of computing time in one stretch
 WAITING_LIMIT = 10.0  # s of wall time in one stretch in which nothing was computed
 TOTAL_LIMIT = 20.0  # s of computing time in a whole run, or as long as the run simulates if that is longer
 SECOND_LIMIT = 100.0  # s of wall time for one simulated second, far more than any busy machine needs
-BUSY_LOOK = 0.01  # s of computing in which a busy loop sees what others have done, and leaves
-BUSY_TRIES = 100  # looks at a busy loop until it is found in the student's own code
-IDLE = 0.001  # s of computing time between two looks; more is no waiting, however busy the machine
+BUSY_CHECK = 0.01  # s of computing in which a busy loop sees what others have done, and ends
+BUSY_TRIES = 100  # checks of a busy loop until it is found in the student's own code
+IDLE = 0.001  # s of computing time between two checks; more is no waiting, however busy the machine
 
-# What must not be left half done: our own code, and imports, which hold a real lock.
-OURS = str(Path(__file__).parents[2]), "<frozen "
+# What must not be interrupted: the course's own code, and imports, which hold a real lock.
+UNINTERRUPTIBLE = str(Path(__file__).parents[2]), "<frozen "
 
 
-def _can_be_left(frame: FrameType | None) -> bool:
-    """Whether others may go on while student code stands there, in its own code or in a library's."""
+def _can_switch(frame: FrameType | None) -> bool:
+    """Whether other fibers may run while student code is there, in its own code or in a library's."""
     while frame is not None and is_library(frame.f_code.co_filename):
-        if frame.f_code.co_filename.startswith(OURS):
+        if frame.f_code.co_filename.startswith(UNINTERRUPTIBLE):
             return False
         frame = frame.f_back
     return frame is not None
 
 
 class Guard:
-    """Watches one engine while it runs student code. Needs the main thread; elsewhere it does nothing."""
+    """Watches one run while it executes student code. Needs the main thread; elsewhere it does nothing."""
 
-    def __init__(self, engine: Engine) -> None:
-        self.engine = engine
+    def __init__(self, scheduler: Scheduler, recorder: Recorder, limits: RunLimits) -> None:
+        self._scheduler, self._recorder, self._limits = scheduler, recorder, limits
         self.interrupted = False
         self.hang: Hang | None = None
         self.impatient = False  # while the run is taken down, student code gets less time
@@ -63,27 +61,27 @@ class Guard:
         self._known: set[CodeType] = set()  # where there were such loops
         self._computing = self._waiting = self._total = 0.0
         self._second, self._wall = 0, 0.0  # the simulated second under way, and the wall time that it took
-        self._total_limit = max(TOTAL_LIMIT, engine.recording.seconds)
+        self._total_limit = max(TOTAL_LIMIT, recorder.recording.seconds)
         self._seen = self._left = thread_time()
-        self._looked = monotonic()
-        self._next_look = LOOK_EVERY
-        self._asked = 0
+        self._checked = monotonic()
+        self._next_check = CHECK_EVERY
+        self._raised = 0
 
     @contextlib.contextmanager
     def watch(self) -> Iterator[None]:
-        """Install the signal handlers for a while. What happens between two whiles doesn't count."""
+        """Install the signal handlers for this block. What happens between two blocks doesn't count."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
         self._seen += thread_time() - self._left
-        self._looked = monotonic()
+        self._checked = monotonic()
         interrupt = signal.signal(signal.SIGINT, self._on_interrupt)
-        alarm = signal.signal(signal.SIGALRM, self._look)
-        users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_look, LOOK_EVERY)
+        alarm = signal.signal(signal.SIGALRM, self._check)
+        users_timer = signal.setitimer(signal.ITIMER_REAL, self._next_check, CHECK_EVERY)
         try:
             yield
         finally:
-            self._next_look = signal.setitimer(signal.ITIMER_REAL, 0)[0] or LOOK_EVERY
+            self._next_check = signal.setitimer(signal.ITIMER_REAL, 0)[0] or CHECK_EVERY
             signal.signal(signal.SIGALRM, alarm)
             signal.signal(signal.SIGINT, interrupt)
             signal.setitimer(signal.ITIMER_REAL, *users_timer)
@@ -96,20 +94,21 @@ class Guard:
 
     def _student_code(self) -> Fiber | None:
         """The fiber that the signal came into; None in the moment before it goes on: the hub still runs."""
-        return None if greenlet.getcurrent() is self.engine.hub else self.engine.current
+        return None if greenlet.getcurrent() is self._scheduler.hub else self._scheduler.current
 
     def _where(self, fiber: Fiber) -> str:
-        now = self.engine.recorder.now
+        now = self._recorder.now
         if fiber.callbacks:
             running = fiber.callbacks[-1]
             return f"{running.name} of node {running.node} at t = {now:g} s"
         return f"{fiber.name}() at t = {now:g} s"
 
-    def _look(self, number: int, frame: FrameType | None) -> None:
+    def _check(self, number: int, frame: FrameType | None) -> None:
         fiber, stretch, computed = self._student_code(), self._work(), self._computed()
         now = monotonic()
-        passed, self._looked = min(now - self._looked, LOOK_EVERY), now  # what stops the machine is no wait
-        second = self.engine.now // SECOND
+        # No more than the interval: a machine that was suspended has not waited.
+        passed, self._checked = min(now - self._checked, CHECK_EVERY), now
+        second = self._scheduler.now // SECOND
         self._second, self._wall = second, passed + (self._wall if second == self._second else 0.0)
         if fiber is None or stretch != self._stretch:
             self._begin_stretch(stretch)
@@ -120,63 +119,63 @@ class Guard:
             self._judge(fiber, frame)
 
     def _computed(self) -> float:
-        """Computing time since it was last asked for."""
+        """Computing time since the last call."""
         seen, self._seen = self._seen, thread_time()
         self._total += self._seen - seen
         return self._seen - seen
 
     def _work(self) -> int:
-        """Changes whenever control passes on. Who sends goes on, too: too much of that ends by its number."""
-        return self.engine.limits.work + self.engine.recorder.sent
+        """Changes whenever control passes on. Sending counts, too: too much of that ends by its number."""
+        return self._limits.work + self._recorder.sent
 
     def _begin_stretch(self, stretch: int, busy: bool = False) -> None:
-        self._stretch, self._asked = stretch, 0
+        self._stretch, self._raised = stretch, 0
         self._busy, self._tries = busy, 0
         self._computing = self._waiting = 0.0
         if busy:
-            self._look_soon()
+            self._check_soon()
 
-    def _look_soon(self) -> None:
-        signal.setitimer(signal.ITIMER_REAL, BUSY_LOOK, LOOK_EVERY)
+    def _check_soon(self) -> None:
+        signal.setitimer(signal.ITIMER_REAL, BUSY_CHECK, CHECK_EVERY)
 
     def _judge(self, fiber: Fiber, frame: FrameType | None) -> None:
         share = 0.1 if self.impatient or self.interrupted else 1.0
         stuck = self._computing >= share * COMPUTING_LIMIT or self._waiting >= share * WAITING_LIMIT
         long = self._total >= self._total_limit or self._wall >= SECOND_LIMIT
-        if not long and self._lets_wait(fiber, frame):
+        if not long and self._can_wait(fiber, frame):
             return
         if not stuck and (not long or self.impatient):
             return
-        self._asked += 1
+        self._raised += 1
         if self.hang is None:
             with outside_student_code():
                 self.hang = Hang(self._describe(fiber, frame, stuck))
-        if self._asked > 2:
+        if self._raised > 2:
             fiber.park()
         raise self.hang
 
-    def _lets_wait(self, fiber: Fiber, frame: FrameType | None) -> bool:
-        """Whether it may be a busy loop that looks for what others do. If so, it waits until they did."""
-        engine, program = self.engine, fiber.process
-        others = [other for other in engine.fibers if other.process is program and other is not fiber]
+    def _can_wait(self, fiber: Fiber, frame: FrameType | None) -> bool:
+        """Whether it may be a busy loop that polls what others do. If so, it waits until they have run."""
+        scheduler, program = self._scheduler, fiber.process
+        others = [other for other in scheduler.fibers if other.process is program and other is not fiber]
         ends = self.hang is not None or self.impatient or self.interrupted or self._tries > BUSY_TRIES
         if not others or ends or self._waiting >= WAITING_LIMIT:
             return False
         known = frame is not None and frame.f_code in self._known
-        if self._computing < (BUSY_LOOK if self._busy or known else COMPUTING_LIMIT):
+        if self._computing < (BUSY_CHECK if self._busy or known else COMPUTING_LIMIT):
             if self._busy:
-                self._look_soon()
+                self._check_soon()
             return self._busy
-        if not _can_be_left(frame):
+        if not _can_switch(frame):
             self._tries += 1
-            self._look_soon()
+            self._check_soon()
             return True
         self._known.add(frame.f_code)
-        engine.loops_busily()
+        scheduler.busy_loop_found()
         steps, calls = program.steps, dict(fiber.calls)
         fiber.busy = True
         try:
-            engine.wait("others to go on", ready=lambda: program.steps != steps)
+            scheduler.wait("others to go on", ready=lambda: program.steps != steps)
         finally:
             fiber.busy = False
         fiber.calls.update(calls)

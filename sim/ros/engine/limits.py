@@ -1,4 +1,4 @@
-"""How much student code may do before time has to move on, and in a second; what does more is a livelock."""
+"""How much a program may do before time has to move on, and in a second; more is a livelock."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LOOK_AFTER = 1_000  # callbacks and switches
 
 
 class RunLimits:
-    """Those of one run.
+    """The limits of one run.
 
     pace: callbacks and waits in a simulated second that a program may have for long.
     """
@@ -32,14 +32,18 @@ class RunLimits:
         """Changes whenever control passes on: the guard sees by it that student code isn't stuck."""
         return self._scheduler.switches + self._callbacks
 
+    def relax_pace(self, times: int) -> None:
+        """Multiply the pace: a program represents another process, which has a limit of its own."""
+        self.pace *= times
+
     def begin_moment(self) -> None:
-        """Time was moved: callbacks are counted anew."""
+        """Start a new time step: reset the count of its callbacks."""
         self._callbacks_before = self._callbacks
 
     def count_callback(self) -> None:
         """A callback is about to run. Raises Livelock when too many ran without time moving."""
         if self._callbacks - self._callbacks_before >= MAX_CALLBACKS_PER_INSTANT:
-            self._scheduler.refuse_to_go_on(
+            self._scheduler.raise_livelock(
                 f"{MAX_CALLBACKS_PER_INSTANT} callbacks ran at t = {self._scheduler.now / SECOND:g} s"
                 " without letting time move on"
             )
@@ -60,7 +64,7 @@ class RunLimits:
             if passed:
                 self._counted[program] = counted = min(program.steps, counted + passed * self.pace)
             if program.steps - counted > self.pace + MAX_AHEAD:
-                self._scheduler.refuse_to_go_on(
+                self._scheduler.raise_livelock(
                     f"{program.name} had more than {self.pace} callbacks or waits a second, faster than "
                     f"rclpy is on a robot, until t = {self._scheduler.now / SECOND:g} s; a timer's period or "
                     "a sleep is far too short"

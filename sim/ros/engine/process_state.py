@@ -1,6 +1,6 @@
-"""What of the whole process a run needs for itself while it works, and hands back whenever it rests.
+"""Process-wide state that a run borrows while it executes and restores when it pauses.
 
-Each of these keeps the run's own state meanwhile, so that the run carries on where it was, and the user's.
+Each class here stores the user's state while the run executes, and the run's own while it pauses.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 import rclpy
 import rclpy.context
 import rclpy.utilities
+from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 
 
@@ -26,17 +27,17 @@ class SeededRandom:
     """`random` and numpy's old generator, seeded by the run."""
 
     def __init__(self, seed: int) -> None:
-        self._own = random.Random(seed).getstate(), np.random.RandomState(seed % 2**32).get_state()
+        self._runs = random.Random(seed).getstate(), np.random.RandomState(seed % 2**32).get_state()
 
     @contextlib.contextmanager
     def borrowed(self) -> Iterator[None]:
-        """Let them be the run's for a while."""
+        """Use the run's state of them in this block."""
         users = random.getstate(), np.random.get_state()
-        self._set(self._own)
+        self._set(self._runs)
         try:
             yield
         finally:
-            self._own = random.getstate(), np.random.get_state()
+            self._runs = random.getstate(), np.random.get_state()
             self._set(users)
 
     def _set(self, states: tuple) -> None:
@@ -45,7 +46,7 @@ class SeededRandom:
 
 
 class SeededBytes:
-    """What the system's source of chance gives in a run; the students' use of `random` doesn't shift it."""
+    """The bytes of `os.urandom` in a run; the programs' use of `random` doesn't shift them."""
 
     def __init__(self, seed: int) -> None:
         self._random = random.Random(f"chance of run {seed}")
@@ -56,37 +57,37 @@ class SeededBytes:
 
 
 class FiberEventLoops(asyncio.DefaultEventLoopPolicy):
-    """Keeps for each fiber what asyncio keeps for each thread: the event loop that was set."""
+    """Stores for each fiber what asyncio stores for each thread: the event loop that was set."""
 
     def __init__(self) -> None:
-        self._kept: WeakKeyDictionary[greenlet.greenlet, Any] = WeakKeyDictionary()
+        self._locals: WeakKeyDictionary[greenlet.greenlet, Any] = WeakKeyDictionary()
         super().__init__()
 
     @property
     def _local(self) -> Any:
-        return self._kept.setdefault(greenlet.getcurrent(), self._Local())
+        return self._locals.setdefault(greenlet.getcurrent(), self._Local())
 
     @_local.setter
     def _local(self, shared: Any) -> None:
-        """The one that all fibers would share, as they are one thread, is not kept."""
+        """Ignored: all fibers are one thread, and would share it."""
 
 
 class ProcessState:
-    """Hides from the nodes what a program of their own would not find.
+    """Hides from the nodes what a process of their own would not have.
 
-    A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line words and a
-    stdin of its own. And its heap is large: one full look of the garbage collector takes 0.2 s. So the
-    collector looks only at what the run makes, and not as often: most of that is recorded, and stays.
+    A notebook's kernel runs an event loop, with which asyncio.run() fails, and has command-line arguments and
+    a stdin of its own. And its heap is large: one full garbage collection takes 0.2 s. So the collector sees
+    only what the run creates, and runs less often: most of that is recorded, and stays.
     """
 
-    NEW_OBJECTS = 3_000  # until the collector looks at them
+    NEW_OBJECTS = 3_000  # until the collector runs
 
     def __init__(self) -> None:
         self._policy = FiberEventLoops()
 
     @contextlib.contextmanager
     def borrowed(self) -> Iterator[None]:
-        """Hide it for a while."""
+        """Hide it in this block."""
         loop, policy = asyncio._get_running_loop(), asyncio.get_event_loop_policy()
         argv, stdin = sys.argv, sys.stdin
         asyncio._set_running_loop(None)
@@ -105,33 +106,34 @@ class ProcessState:
 
 
 class RclpyState:
-    """rclpy's default context, global executor and levels of loggers."""
+    """rclpy's contexts, global executor and levels of loggers. context: the one real context of the run."""
 
     def __init__(self) -> None:
+        self.context = Context()
         # The other side's levels: the user's while rclpy is lent, the run's while it isn't.
         self.log_levels: dict[str, int] = {}
         self._users_default = self._default = _rclpy.rclpy_logging_get_logger_level("")
-        self._own_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
+        self._runs_contexts = self._users_contexts = 0  # as far as rclpy counts them, for its logging
 
     @contextlib.contextmanager
     def borrowed(self) -> Iterator[None]:
-        """Let rclpy's state be the run's for a while; each program of it then has its own."""
+        """Use the run's state of rclpy in this block; each program of the run then has its own."""
         users = rclpy.utilities.g_default_context, rclpy.__dict__["__executor"]
-        self._users_contexts = rclpy.context.g_logging_ref_count - self._own_contexts
+        self._users_contexts = rclpy.context.g_logging_ref_count - self._runs_contexts
         self._swap_log_levels()
         try:
             yield
         finally:
             self._swap_log_levels()
-            self._own_contexts = rclpy.context.g_logging_ref_count - self._users_contexts
+            self._runs_contexts = rclpy.context.g_logging_ref_count - self._users_contexts
             rclpy.utilities.g_default_context, rclpy.__dict__["__executor"] = users
 
     def level_is_set(self, logger: str) -> None:
-        """Remember the user's level of a logger that gets another one now."""
+        """Store the user's level of a logger that gets another one now."""
         self.log_levels.setdefault(logger, _rclpy.rclpy_logging_get_logger_level(logger))
 
     def set_default_level(self, level: int | None) -> None:
-        """Let loggers without a level of their own have this one; None: the user's."""
+        """Set the level of loggers without one of their own; None: the user's."""
         level = self._users_default if level is None else level
         if level != self._default:
             self.level_is_set("")
@@ -139,7 +141,7 @@ class RclpyState:
             self._default = level
 
     def forget_contexts(self, but: int) -> None:
-        """Let rclpy count only so many of the run's contexts, whatever its programs left open."""
+        """Make rclpy count only so many of the run's contexts, whatever its programs left open."""
         rclpy.context.g_logging_ref_count = self._users_contexts + but
 
     def _swap_log_levels(self) -> None:

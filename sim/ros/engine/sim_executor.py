@@ -1,6 +1,6 @@
-"""What rclpy's executors do with a wait set, done by asking each entity in turn.
+"""How an executor of rclpy spins in a run: it checks each entity in turn instead of waiting on a wait set.
 
-Asking is cheaper than waiting (a wait set costs 140 us, a question 1 us) and has one order: that of creation.
+Checking is cheaper (a wait set costs 140 us, a check 1 us) and has one order: that of creation.
 Callback groups, coroutines and parallel callbacks keep the meaning that rclpy gives them.
 """
 
@@ -11,8 +11,9 @@ import inspect
 import threading
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import (
     ConditionReachedException,
     ExternalShutdownException,
@@ -20,17 +21,18 @@ from rclpy.executors import (
     TimeoutException,
     TimeoutObject,
 )
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Task
 
 from sim.nanoseconds import Nanoseconds, nanoseconds
-from sim.ros.engine.callbacks import Work, perform, state_of
-from sim.ros.engine.processes import shared_context
+from sim.ros.engine.callbacks import Work, state_of
+from sim.ros.engine.engine import Engine
 from sim.ros.engine.ready_scan import ReadyScan
-from sim.ros.fibers.exceptions import Livelock
+from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.waiter import NEVER, Waiter
 
-if TYPE_CHECKING:
-    from sim.ros.engine.engine import Engine
+RCLError = _rclpy.RCLError
 
 
 def never() -> bool:
@@ -39,7 +41,7 @@ def never() -> bool:
 
 
 class OrderedNodes(dict):
-    """Stands for an executor's set of nodes; a set's order differs from process to process."""
+    """Replaces an executor's set of nodes, whose order differs from process to process."""
 
     def add(self, node: Any) -> None:
         """As `set.add`."""
@@ -50,17 +52,19 @@ class OrderedNodes(dict):
         del self[node]
 
 
-class SimExecutor:
-    """How one executor spins in a run."""
+class SimExecutor(Waiter):
+    """One executor in a run."""
 
     def __init__(self, executor: Any, engine: Engine) -> None:
+        super().__init__()
         self.executor, self.engine = executor, engine
-        self.scan = ReadyScan(executor, engine, self._busy)
+        self.scan = ReadyScan(executor, engine, self, self._busy)
+        engine.waiters.add(self)
         self.running: list[Fiber] = []  # parallel callbacks of a multi-threaded executor
-        self._workers: list[threading.Thread] = []  # what those say they are; none is ever started
+        self._workers: list[threading.Thread] = []  # their thread objects; none is ever started
         self._pass: Iterator[Work] | None = None
         self._depth = 0  # callbacks of this executor that are on the stack
-        self._lends = False  # work is handed to student code, which runs it when and where it likes
+        self._lends = False  # work is given to student code, which runs it when and where it likes
 
     def _busy(self) -> bool:
         return bool(self._depth or self.running or self._lends or self.executor._tasks)
@@ -86,7 +90,6 @@ class SimExecutor:
         engine.current.process.check_init()
         until = self._end_of(timeout)
         try:
-            engine.eager |= parallel
             while not self._over(done, parallel):
                 if self.running:
                     self._collect()
@@ -94,7 +97,7 @@ class SimExecutor:
                     return
                 if until is not None and engine.now >= until:
                     if timeout == 0:
-                        engine.called("empty spins")
+                        engine.count_call("empty spins")
                     return
                 ready = None if done is never else done
                 engine.wait("spin()", ready=ready, until=until, spinning=self)
@@ -104,7 +107,7 @@ class SimExecutor:
     def handlers(
         self, timeout: float | TimeoutObject | None, nodes: Collection[Any] | None, done: Callable[[], bool]
     ) -> Iterator[tuple[Task, Any, Any]]:
-        """What `wait_for_ready_callbacks()` gives to an executor of the student's: (handler, entity, node).
+        """What `wait_for_ready_callbacks()` yields to a student's own executor: (handler, entity, node).
 
         One pass, for which it waits up to `timeout` simulated seconds. nodes: only these, unless None.
         Raises rclpy's exceptions for a time-out, for a shutdown, and when `done()` is true.
@@ -112,13 +115,13 @@ class SimExecutor:
         engine = self.engine
         engine.current.process.check_init()
         until = self._end_of(timeout)
-        engine.eager = self._lends = True
+        self._lends = True
         while not self._over(done, parallel=False):
             found = False
             for work in self.scan.ready(nodes):
                 found = True
                 self._begin(work)
-                body = partial(perform, engine, self.executor, work, begun=True)
+                body = partial(engine.callbacks.perform, self.executor, self, work, begun=True)
                 yield Task(body, executor=self.executor), work.entity, work.node
                 engine.student_code_ran()
             if found:
@@ -128,14 +131,31 @@ class SimExecutor:
             engine.wait("spin()", until=until, spinning=self)
         raise ShutdownException() if self.executor._is_shutdown else ConditionReachedException()
 
+    def next_due(self) -> Nanoseconds:
+        """As Waiter: from now on, the time at which a timer that isn't due yet will be."""
+        first = None
+        for timer in self.scan.timers:
+            try:
+                handle = timer.handle
+                left = None if handle.is_timer_canceled() else handle.time_until_next_call()
+            except (InvalidHandle, RCLError):  # destroyed, and still listed
+                continue
+            if left is not None and left > 0 and (first is None or left < first):
+                first = left
+        return NEVER if first is None else self.engine.now + first
+
     def end_coroutines(self) -> None:
-        """End what still waits in an `await`, as freeing it would, but under the guard: it may loop on."""
-        engine, process = self.engine, self.engine.processes[0]
+        """As Waiter, as freeing them would, but under the guard: they may loop on."""
+        engine, program = self.engine, self.engine.programs[0]
         for task, _, _ in self.executor._tasks:
             if inspect.iscoroutine(task._handler):
-                engine.spawn(task._handler.close, "the end of a coroutine", process)
-        with contextlib.suppress(Livelock):
-            engine.settle()
+                engine.spawn(task._handler.close, "the end of a coroutine", program)
+        engine.finish()
+
+    def close(self) -> None:
+        """As Waiter."""
+        with contextlib.suppress(InvalidHandle):
+            self.executor.shutdown()
 
     def _end_of(self, timeout: float | TimeoutObject | None) -> Nanoseconds | None:
         if isinstance(timeout, TimeoutObject):
@@ -160,7 +180,7 @@ class SimExecutor:
                 return True
             self._depth += 1
             try:
-                if perform(self.engine, self.executor, work):
+                if self.engine.callbacks.perform(self.executor, self, work):
                     return True
             finally:
                 self._depth -= 1
@@ -170,9 +190,9 @@ class SimExecutor:
         """Run a callback in a fiber of its own, at once."""
         engine, spinner = self.engine, self.engine.current
         self._begin(work)
-        body = partial(perform, engine, self.executor, work, begun=True)
+        body = partial(engine.callbacks.perform, self.executor, self, work, begun=True)
         fiber = engine.spawn(body, spinner.name, spinner.process, before=spinner)
-        fiber.stands_for(self._idle_worker())
+        fiber.attach_thread(self._idle_worker())
         self.running.append(fiber)
 
     def _idle_worker(self) -> threading.Thread:
@@ -186,9 +206,9 @@ class SimExecutor:
         return idle[0]
 
     def _begin(self, work: Work) -> None:
-        """Let nobody else begin it, nor what its callback group keeps out, from now on."""
+        """Mark work as begun: neither it nor what its callback group excludes is ready from now on."""
         if work.entity is None:
-            state_of(work.call).seen = self.engine.activity
+            state_of(work.call).seen_wakes = self.wakes
         elif work.entity.callback_group is not None:
             work.entity.callback_group.beginning_execution(work.entity)
 

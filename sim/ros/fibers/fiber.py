@@ -1,6 +1,6 @@
-"""Fibers: each student `main()`, thread and parallel callback is one, on a greenlet.
+"""Fibers: each `main()`, thread and parallel callback of a program runs in one, on a greenlet.
 
-A fiber runs until it would wait; then it says what it waits for and hands control back.
+A fiber runs until it has to wait; then it says what for, and returns control to the scheduler.
 """
 
 from __future__ import annotations
@@ -16,50 +16,52 @@ import greenlet
 
 from sim.nanoseconds import Nanoseconds
 from sim.ros.fibers.exceptions import RunOver
+from sim.ros.fibers.waiter import NEVER, Waiter
 
 
 class Program(Protocol):
-    """What a fiber belongs to: one program, with a state of rclpy that is its own."""
+    """What a fiber belongs to: one program, with its own module-level state of rclpy."""
 
     name: str
     nodes: list[Any]
-    from_course: bool  # it is not the student's
+    from_course: bool  # the course's, not the student's
     host: str  # the computer that it runs on
-    steps: int  # callbacks of it, and turns of its fibers, but for those that only spin
+    reader: Callable[[str, str], Any] | None  # called with "stdout" or "stderr", and text
+    steps: int  # its callbacks, and its fibers' turns except those that only poll an executor
 
     def load(self) -> None:
-        """Let rclpy's module-level state be this program's."""
+        """Make this program's state the module-level state of rclpy."""
 
 
-class Turns(Protocol):
-    """What a fiber asks of its scheduler."""
+class FiberHost(Protocol):
+    """What a fiber needs of its scheduler."""
 
     now: Nanoseconds
-    activity: int
     hub: greenlet.greenlet
 
 
 class Fiber:
-    """One line of execution of a student process."""
+    """One line of execution of a program."""
 
-    def __init__(self, scheduler: Turns, body: Callable[[], Any], name: str, process: Program) -> None:
+    def __init__(self, scheduler: FiberHost, body: Callable[[], Any], name: str, process: Program) -> None:
         self.name, self.process = name, process
         self.done = False
         self.result: Any = None
         self.error: BaseException | None = None
-        self.thrown: BaseException | None = None
+        self.thrown: BaseException | None = None  # raised where the fiber waits, at its next turn
         self.started = False
         self.daemon = False
-        self.thread: threading.Thread | None = None  # the student's thread that it stands for
-        self.spins: Any = None  # the executor's plan, while it waits in spin()
+        self.thread: threading.Thread | None = None  # the student's thread object that this fiber runs
         self.callbacks: list[Any] = []  # those on its stack, outermost first
         self.waits_for = ""
         self.ready: Callable[[], bool] | None = None
         self.wake_at: Nanoseconds | None = None
-        self.seen_activity: int | None = None
+        self.waiter: Waiter | None = None  # the executor that it spins, while it waits for work
+        self.seen_wakes = 0  # how often that one had been woken when the wait began
+        self.timer_due: Nanoseconds = NEVER  # when its next timer is due, as of the last change of time
         self.calls: dict[str, int] = {}  # since it last waited, of each kind that a busy loop may make
-        self.busy = False  # it loops without a pause, and waits until others of its program have gone on
-        self.running_loop: asyncio.AbstractEventLoop | None = None  # asyncio's, while it waits inside of one
+        self.busy = False  # it loops without a pause, and waits until others of its program have run
+        self.running_loop: asyncio.AbstractEventLoop | None = None  # asyncio's, while it waits inside one
         self._body = body
         self._scheduler = scheduler
         self.greenlet = greenlet.greenlet(self._run, parent=scheduler.hub)
@@ -74,24 +76,25 @@ class Fiber:
             self.error = error
         self.done = True
 
-    def stands_for(self, thread: threading.Thread) -> None:
-        """Let student code find this thread as its own, alive while the fiber is."""
+    def attach_thread(self, thread: threading.Thread) -> None:
+        """Make this the thread that student code finds as its own, alive while the fiber is."""
         self.thread, thread._sim = thread, self
 
     def runnable(self) -> bool:
-        """Whether what it waits for has come."""
+        """Whether what it waits for has happened."""
         if not self.started or self.thrown is not None:
             return True
-        if self.wake_at is not None and self._scheduler.now >= self.wake_at:
+        waiter, now = self.waiter, self._scheduler.now
+        if waiter is not None and (waiter.wakes != self.seen_wakes or now >= self.timer_due):
             return True
-        if self.seen_activity is not None and self.seen_activity != self._scheduler.activity:
+        if self.wake_at is not None and now >= self.wake_at:
             return True
         return self.ready is not None and bool(self.ready())
 
-    def is_asked(self) -> bool:
-        """Whether it spins and goes on only to ask whether there is work for it."""
+    def only_polls(self) -> bool:
+        """Whether it spins an executor, and its turn is only a look for work there."""
         in_time = self.wake_at is None or self._scheduler.now < self.wake_at
-        return self.spins is not None and in_time
+        return self.waiter is not None and in_time
 
     def park(self) -> None:
         """Leave this fiber where it is, for ever.

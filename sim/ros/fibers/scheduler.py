@@ -1,4 +1,4 @@
-"""The scheduler: fibers take turns in a fixed order. When nobody can go on, and only then, time is moved."""
+"""The scheduler: fibers take turns in a fixed order. The engine moves time, when none can go on."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from typing import Any, NoReturn
 
 import greenlet
 
-from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.fibers.exceptions import Livelock, RunOver
+from sim.nanoseconds import Nanoseconds
+from sim.ros.fibers.exceptions import Livelock
 from sim.ros.fibers.fiber import Fiber, Program
+from sim.ros.fibers.waiter import NEVER, Waiter, Waiters
 
-MAX_ROUNDS = 200_000  # of a settle; a run that needs more will never be quiet
 # Without a wait between them; more take time, or a busy loop would never end.
 FREE_CALLS = {"looks at a clock": 50, "empty spins": 50, "messages": 1_000, "lines": 5_000}
 CALL_COST: Nanoseconds = 1_000_000
@@ -27,11 +27,7 @@ class Scheduler:
 
     def __init__(self) -> None:
         self.now: Nanoseconds = 0
-        # Counts what can make an executor's entity ready: what a spinning fiber saw before may be stale.
-        self.activity = 0
-        # Whether any student code can do that, and not just publish(): as soon as there are services,
-        # actions, threads, coroutines or parallel callbacks.
-        self.eager = False
+        self.waiters = Waiters()
         self.switches = 0
         self.livelock: str | None = None
         self.current: Fiber | None = None
@@ -46,8 +42,9 @@ class Scheduler:
         fiber = Fiber(self, body, name, process)
         index = self.fibers.index(before) if before in self.fibers else len(self.fibers)
         self.fibers.insert(index, fiber)
-        self.activity += 1
         return fiber
+
+    # -- what a fiber calls ------------------------------------------------------------------------
 
     def wait(
         self,
@@ -55,33 +52,37 @@ class Scheduler:
         *,
         ready: Callable[[], bool] | None = None,
         until: Nanoseconds | None = None,
-        spinning: Any = None,
+        spinning: Waiter | None = None,
     ) -> None:
-        """Suspend the current fiber until `ready()` is true or time `until` has come.
+        """Suspend the current fiber until `ready()` is true or the time is `until`.
 
-        spinning: the plan of an executor that it spins; then it goes on whenever anything happened.
+        spinning: the executor that it spins; it goes on when that is woken, or one of its timers is due.
         """
         fiber = self.current
         assert fiber is not None, "only a fiber can wait"
-        fiber.ready, fiber.wake_at, fiber.waits_for, fiber.spins = ready, until, waits_for, spinning
+        fiber.ready, fiber.wake_at, fiber.waits_for, fiber.waiter = ready, until, waits_for, spinning
         if until != self.now:
             fiber.calls.clear()
         if spinning is None:
             self.student_code_ran()
         else:
-            fiber.seen_activity = self.activity
+            fiber.seen_wakes, fiber.timer_due = spinning.wakes, NEVER
         self.hub.switch()
-        fiber.ready = fiber.wake_at = fiber.seen_activity = fiber.spins = None
+        fiber.ready = fiber.wake_at = fiber.waiter = None
         if fiber.thrown is not None:
             error, fiber.thrown = fiber.thrown, None
             raise error
 
-    def student_code_ran(self) -> None:
-        """Student code went on for a while, and may have made something ready."""
-        if self.eager:
-            self.activity += 1
+    def wake_all(self) -> None:
+        """Something happened that may concern any executor: let each that is waiting look for work."""
+        self.waiters.wake_all()
 
-    def called(self, what: str, times: int = 1) -> None:
+    def student_code_ran(self) -> None:
+        """Code of a program ran for a while, and may have made work ready that only polling finds."""
+        if self.waiters.polled:
+            self.waiters.wake_polled()
+
+    def count_call(self, what: str, times: int = 1) -> None:
         """Student code did what a loop may do without end. Often enough, that takes time, as on a robot.
 
         what: a key of `FREE_CALLS`.
@@ -89,42 +90,37 @@ class Scheduler:
         calls = self.current.calls
         count = calls[what] = calls.get(what, 0) + times
         if count > FREE_CALLS[what]:
-            self.loops_busily()
+            self.busy_loop_found()
             self.wait("a busy loop", until=self.now + CALL_COST)
             calls[what] = count  # and of the others none: one that takes time is enough
 
-    def loops_busily(self) -> None:
-        """The current fiber goes on and on, without a pause in which it would need no processor."""
+    def busy_loop_found(self) -> None:
+        """The current fiber loops without a pause in which it would need no processor."""
 
-    def refuse_to_go_on(self, why: str) -> NoReturn:
-        """Raise Livelock, and keep the reason: student code may swallow the exception."""
+    def raise_livelock(self, why: str) -> NoReturn:
+        """Raise Livelock, and store the reason: student code may swallow the exception."""
         self.livelock = self.livelock or why
         raise Livelock(why)
 
-    def settle(self) -> None:
-        """Run fibers until every one of them waits for something that has not come."""
-        for _ in range(MAX_ROUNDS):
-            if not self.round():
-                return
-        self.refuse_to_go_on(
-            f"the nodes keep each other busy at t = {self.now / SECOND:g} s and time can not move on"
-        )
+    # -- what the main loop calls ------------------------------------------------------------------
 
-    def round(self) -> bool:
-        """Let each fiber that can go on do so once; whether there was one."""
+    def turn_order(self) -> list[Fiber]:
+        """The fibers in the order in which they take their turns in a round: that of their creation."""
+        return list(self.fibers)
+
+    def run_round(self) -> bool:
+        """Give each fiber that can go on one turn; whether there was one."""
         progressed = False
-        for fiber in list(self.fibers):
+        for fiber in self.turn_order():
             if not fiber.done and fiber.runnable():
                 self._switch(fiber)
                 progressed = True
         return progressed
 
     def _switch(self, fiber: Fiber) -> None:
-        if not fiber.started:
-            fiber.started = True
-            self.activity += 1
+        fiber.started = True
         self.switches += 1
-        if not (fiber.busy or fiber.is_asked()):
+        if not (fiber.busy or fiber.only_polls()):
             fiber.process.steps += 1
         fiber.process.load()
         if fiber.running_loop is not None:
@@ -138,32 +134,22 @@ class Scheduler:
             if fiber.running_loop is not None:
                 set_running_loop(None)
         if fiber.done:
-            self.activity += 1
+            self.wake_all()  # it may have been a parallel callback whose group is free now
             if fiber in self.fibers:
                 self.fibers.remove(fiber)
             self.fiber_ended(fiber)
 
-    def interrupt_all(self) -> None:
-        """Do what Ctrl-C does to every program: its main thread is interrupted, and the others are not."""
-        self._throw(KeyboardInterrupt, [fiber for fiber in self.fibers if fiber.thread is None])
+    def fiber_ended(self, fiber: Fiber) -> None:
+        """Called after a fiber's last turn."""
 
-    def end_all(self) -> None:
-        """End what is left; twice, for code that goes on."""
-        for _ in range(2):
-            self._throw(RunOver, self.fibers)
-
-    def _throw(self, stop: type[BaseException], into: list[Fiber]) -> None:
+    def throw(self, stop: type[BaseException], into: list[Fiber]) -> None:
+        """Raise this where these fibers wait, at their next turn; those that have not started never do."""
         for fiber in into:
             if fiber.started:
                 fiber.thrown = stop()
             else:
                 fiber.done = True
         self.fibers = [fiber for fiber in self.fibers if not fiber.done]
-        with contextlib.suppress(Livelock):
-            self.settle()
-
-    def fiber_ended(self, fiber: Fiber) -> None:
-        """Called after a fiber's last step."""
 
 
 _active: Scheduler | None = None
@@ -186,7 +172,7 @@ def active() -> Scheduler | None:
 
 @contextlib.contextmanager
 def outside_student_code() -> Iterator[None]:
-    """Let what is called in here be treated as not the student's: it sees real clocks, locks and threads."""
+    """Treat what is called in here as code of the course: it sees real clocks, locks and threads."""
     scheduler = engine()
     if scheduler is None:
         yield
@@ -199,7 +185,7 @@ def outside_student_code() -> Iterator[None]:
 
 
 def engine() -> Any:
-    """The engine whose student code is calling, or None: the question that every hook asks first."""
+    """The engine whose student code is calling, or None: every hook checks this first."""
     scheduler = _active
     if scheduler is None or scheduler.current is None or get_ident() != scheduler.thread:
         return None

@@ -15,7 +15,6 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 from rclpy.task import Future
 
-from sim.ros.engine.callbacks import recorded
 from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
@@ -31,12 +30,10 @@ def _action_end(owner: type, kind: str) -> None:
             original(self, node, action_type, action_name, *more, **keywords)
             run = engine()
             if run is not None:
-                run.eager = True
                 name = node.resolve_service_name(action_name)
                 serves = kind == "action server"
                 if not serves:
-                    run.has_clients = True
-                    run.endpoints_changed()
+                    run.waiters.endpoints_changed()
                 handle = self._handle if serves else self._client_handle
                 run.recorder.endpoint(kind, node, name, action_type, handle=handle)
                 run.recorder.goals.end_made(self, node, name, action_type, serves=serves)
@@ -52,7 +49,7 @@ def _counted(original: Callable) -> Callable:
     def counted(self: Any, *arguments: Any) -> Any:
         run = active()  # also where another process's end sends
         if run is not None:
-            run.exchanged += 1
+            run.transport.sent_by_middleware()
         return original(self, *arguments)
 
     return counted
@@ -79,7 +76,7 @@ def send_goal_async(original: Callable) -> Callable:
         raw = encode(goal)
         with run.recorder.calls.reaching(run.recorder.goals.discovered(self)):
             future = original(self, goal, *arguments, **keywords)
-        run.asked[f"{self._sim.action}/_action/send_goal"] += 1
+        run.transport.request_sent(f"{self._sim.action}/_action/send_goal")
         number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
         run.recorder.goals.asked(self, number, goal_id, raw)
         return future
@@ -126,7 +123,7 @@ def cancel_goal_async(original: Callable) -> Callable:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
-            run.asked[f"{self._sim.action}/_action/cancel_goal"] += 1
+            run.transport.request_sent(f"{self._sim.action}/_action/cancel_goal")
             run.recorder.goals.cancel_asked(self, goal_handle.goal_id)
         return future
 
@@ -139,7 +136,7 @@ def get_result_async(original: Callable) -> Callable:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
-            run.asked[f"{self._sim.action}/_action/get_result"] += 1
+            run.transport.request_sent(f"{self._sim.action}/_action/get_result")
         return future
 
     return _get_result_async
@@ -220,7 +217,7 @@ def execute_goal(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return await original(self, execute_callback, goal_handle)
-        await original(self, recorded(run, execute_callback, self._node), goal_handle)
+        await original(self, run.callbacks.recorded(execute_callback, self._node), goal_handle)
         future = self._result_futures.get(key(goal_handle.goal_id))
         if future is not None and future.done():
             run.recorder.goals.result(self, goal_handle.goal_id, future.result().result)

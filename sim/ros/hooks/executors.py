@@ -28,7 +28,6 @@ def executor_init(original: Callable) -> Callable:
         if run is not None:
             self._nodes = OrderedNodes()
             self._sim = SimExecutor(self, run)
-            run.executors.append(self)
 
     return __init__
 
@@ -78,7 +77,7 @@ def _changes_the_plan(name: str) -> None:
         def replacement(self: Executor, *arguments: Any, **keywords: Any) -> Any:
             run = engine()
             if run is not None:
-                run.endpoints_changed()
+                run.waiters.endpoints_changed()
             return original(self, *arguments, **keywords)
 
         return replacement
@@ -94,7 +93,7 @@ def trigger(original: Callable) -> Callable:
         run = engine()
         if run is not None:
             self._executor_triggered = True
-            run.activity += 1
+            run.wake_all()
         original(self)
 
     return trigger

@@ -18,7 +18,7 @@ from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.engine.processes import shared_context
+from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
@@ -45,12 +45,12 @@ def create_publisher(original: Callable) -> Callable:
                 )
             end = {"topic": name, "profile": publisher.qos_profile, "sender": run.recorder.name_of(self)}
             end |= {"from_course": run.recorder.is_course_node(), "events": publisher.event_handlers}
-            publisher._sim = run.topics.writer(self.handle, publisher.handle, msg_type, **end)
+            publisher._sim = run.transport.topics.writer(self.handle, publisher.handle, msg_type, **end)
             publisher._sim.context = shared_context(self.context)
             run.recorder.endpoint(
                 "publisher", self, name, msg_type, publisher.qos_profile, handle=publisher.handle
             )
-            run.endpoints_changed()
+            run.waiters.endpoints_changed()
         return publisher
 
     return create_publisher
@@ -68,10 +68,9 @@ def create_subscription(original: Callable) -> Callable:
             handle, name, profile = subscription.handle, subscription.topic_name, subscription.qos_profile
             end = {"topic": name, "profile": profile, "raw": subscription.raw}
             end |= {"subscriber": run.recorder.name_of(self), "events": subscription.event_handlers}
-            subscription._sim = run.topics.reader(self.handle, handle, msg_type, **end)
+            subscription._sim = run.transport.topics.reader(self.handle, handle, msg_type, **end)
             run.recorder.endpoint("subscription", self, name, msg_type, profile, handle=handle)
-            run.rosout_wanted |= name == "/rosout"
-            run.endpoints_changed()
+            run.waiters.endpoints_changed()
         return subscription
 
     return create_subscription
@@ -112,7 +111,7 @@ def publish(original: Callable) -> Callable:
             if not outgoing.has_room():
                 raise _rclpy.RCLError("Failed to publish: cannot publish data")
         writer.publish(raw)
-        run.called("messages")
+        run.count_call("messages")
         return None
 
     return publish
@@ -168,8 +167,8 @@ def destroy_handle(original: Callable) -> Callable:
     def destroy_when_not_in_use(self: Any) -> None:
         original(self)
         run = active()  # also for what is freed when its program has ended
-        if run is not None:
-            run.destroyed += 1
+        if run is not None and run.transport.peer is not None:
+            run.transport.peer.handle_destroyed()
 
     return destroy_when_not_in_use
 
@@ -182,11 +181,10 @@ def destroy_handle(original: Callable) -> Callable:
 def log(original: Callable) -> Callable:
     def log(severity: Any, name: str, text: str, *place: Any) -> None:
         run = engine()
-        if run is None or run.rosout_wanted or not isinstance(text, str):
+        if run is None or run.transport.topics.rosout_wanted or not isinstance(text, str):
             original(severity, name, text, *place)  # raises TypeError for what is no text
         if run is not None:
-            run.activity += run.rosout_wanted  # C++ code published it
-            run.logged(severity, name, text)
+            run.output.log(severity, name, text)
 
     return log
 

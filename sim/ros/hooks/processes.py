@@ -11,8 +11,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
 
-from sim.ros.engine.callbacks import recorded
-from sim.ros.engine.processes import SharedContext
+from sim.ros.engine.running_program import SharedContext
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
@@ -37,7 +36,7 @@ def make_context(original: Callable) -> Callable:
 def context_handle(original: property) -> property:
     def handle(self: Context) -> Any:
         own = original.fget(self)
-        return own.process.engine.context.handle if isinstance(own, SharedContext) else own
+        return own.process.rclpy.context.handle if isinstance(own, SharedContext) else own
 
     return property(handle, doc=original.__doc__)
 
@@ -47,7 +46,7 @@ def ok(original: Callable) -> Callable:
     def ok(**keywords: Any) -> bool:
         run = engine()
         if run is not None:
-            run.called("looks at a clock")
+            run.count_call("looks at a clock")
         return original(**keywords)
 
     return ok
@@ -84,7 +83,6 @@ def node_init(original: Callable) -> Callable:
             keywords["enable_rosout"] = False
         original(self, node_name, **keywords)
         process.nodes.append(self)
-        run.eager |= isinstance(self, LifecycleNodeMixin)  # its state machine publishes from C++
         run.recorder.node(self)
         if not self._allow_undeclared_parameters:
             run.recorder.parameters(self, self._parameter_overrides, declared=False)
@@ -101,7 +99,7 @@ def node_init(original: Callable) -> Callable:
 def register_callback(original: Callable) -> Callable:
     def __register_callback(self: LifecycleNodeMixin, state_id: int, callback: Callable) -> bool:
         run = engine()
-        return original(self, state_id, callback if run is None else recorded(run, callback, self))
+        return original(self, state_id, callback if run is None else run.callbacks.recorded(callback, self))
 
     return __register_callback
 

@@ -77,7 +77,7 @@ def set_ros_time_is_active(original: Callable) -> Callable:
         if engine() is None or switch is None:
             original(self, enabled)
         else:
-            switch.turn(enabled)
+            switch.set(enabled)
 
     return _set_ros_time_is_active
 
@@ -99,7 +99,7 @@ def jump_handle_init(original: Callable) -> Callable:
             self.unregister()  # rcl would call it from outside the student's code, and even when it is gone
             switch = clock.__dict__.get("_sim")
             if switch is not None and threshold.on_clock_change:
-                switch.tell(self)
+                switch.add(self)
                 self._sim = switch
 
     return __init__
@@ -110,7 +110,7 @@ def unregister(original: Callable) -> Callable:
     def unregister(self: JumpHandle) -> None:
         switch = self.__dict__.pop("_sim", None)
         if switch is not None:
-            switch.forget(self)
+            switch.remove(self)
         original(self)
 
     return unregister
@@ -122,7 +122,7 @@ def now(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self)
-        run.called("looks at a clock")
+        run.count_call("looks at a clock")
         return Time(nanoseconds=run.now + _offset(self), clock_type=self.clock_type)
 
     return now

@@ -21,9 +21,9 @@ from sim.ros.messages.codec import encode, expect
 def _seek(node: Node, service: Any) -> None:
     """Let those of another process be made first: a service has one type, and who comes later is refused."""
     run = engine()
-    if run is not None and run.link is not None:
+    if run is not None and run.transport.peer is not None:
         with contextlib.suppress(_rclpy.RCLError, TypeError):  # no name: rclpy says so, when the end is made
-            run.link.seek(node.resolve_service_name(service))
+            run.transport.peer.seek(node.resolve_service_name(service))
 
 
 @hook(Node, "create_service", "the graph")
@@ -76,8 +76,7 @@ def create_client(original: Callable) -> Callable:
         client = original(self, srv_type, srv_name, **keywords)
         run = engine()
         if run is not None:
-            run.has_clients = run.eager = True
-            run.endpoints_changed()
+            run.waiters.endpoints_changed()
             name = self.resolve_service_name(srv_name)
             run.recorder.endpoint("client", self, name, srv_type, client.qos_profile, handle=client.handle)
             run.recorder.calls.client_made(client, self, name)
@@ -89,8 +88,8 @@ def create_client(original: Callable) -> Callable:
 def _looking(original: Callable) -> Callable:
     def looking(self: Node, *arguments: Any, **keywords: Any) -> Any:
         run = engine()
-        if run is not None and run.link is not None:
-            run.link.seek()
+        if run is not None and run.transport.peer is not None:
+            run.transport.peer.seek()
         return original(self, *arguments, **keywords)
 
     return looking
@@ -112,11 +111,8 @@ def send_request(original: Callable) -> Callable:
             return lost
         number = original(self, request)
         if run is not None:  # also where another process's client asks
-            if not run.has_clients:  # a client that was made past create_client()
-                run.has_clients = run.eager = True
-                run.endpoints_changed()
-            run.asked[self.service_name] += 1
-            run.exchanged += 1
+            run.transport.request_sent(self.service_name)
+            run.transport.sent_by_middleware()
         return number
 
     return send_request

@@ -28,8 +28,7 @@ def start(original: Callable) -> Callable:
         name = f"thread {callback_name(self._target or type(self))}"
         fiber = run.spawn(self.run, name, run.current.process)
         fiber.daemon = self.daemon
-        fiber.stands_for(self)
-        run.eager = True
+        fiber.attach_thread(self)
         return None
 
     return start

@@ -31,7 +31,7 @@ def sleep(original: Callable) -> Callable:
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
         if seconds == 0:
-            run.called("looks at a clock")
+            run.count_call("looks at a clock")
         run.wait(f"time.sleep({seconds:g})", until=run.now + nanoseconds(seconds))
         return None
 
@@ -45,7 +45,7 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
             run = engine()
             if run is None:
                 return original()
-            run.called("looks at a clock")
+            run.count_call("looks at a clock")
             return convert(epoch + run.now)
 
         return read
@@ -64,7 +64,7 @@ def _clock_by_number(name: str, convert: Callable[[int], Any]) -> None:
             run = engine()
             if run is None:
                 return original(number)
-            run.called("looks at a clock")
+            run.count_call("looks at a clock")
             return convert(run.now + (EPOCH if number in CALENDAR else 0))
 
         return read
@@ -117,7 +117,7 @@ def strftime(original: Callable) -> Callable:
 def urandom(original: Callable) -> Callable:
     def urandom(size: int) -> bytes:
         run = engine()
-        return original(size) if run is None else run.chance.bytes(size)
+        return original(size) if run is None else run.random.bytes(size)
 
     return urandom
 
@@ -127,7 +127,7 @@ def default_rng(original: Callable) -> Callable:
     def default_rng(seed: Any = None) -> numpy.random.Generator:
         run = engine()
         if seed is None and run is not None:
-            seed = int.from_bytes(run.chance.bytes(8), "little")
+            seed = int.from_bytes(run.random.bytes(8), "little")
         return original(seed)
 
     return default_rng

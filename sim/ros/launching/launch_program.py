@@ -78,7 +78,7 @@ def _execute(description: Any) -> None:
 
     run = engine()
     path = list(sys.path)
-    with redirect_log(run.logged):
+    with redirect_log(run.output.log):
         service = LaunchService(noninteractive=True)
         starter = service.context.process_starter = SimProcessStarter(run)
         service.include_launch_description(description)

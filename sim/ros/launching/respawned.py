@@ -26,7 +26,7 @@ def respawned(program: Any, earliest: float, latest: float, delay: float) -> Cal
         run = engine()
         process = run.current.process
         restarted = replace(spec, remappings=[*spec.remappings, *process.spec.remappings])
-        number = [each for each in run.processes if each.from_course == process.from_course].index(process)
+        number = [each for each in run.programs if each.from_course == process.from_course].index(process)
         first = run.start(restarted, from_course=process.from_course)
         _sleep(earliest + (latest - earliest) * ((0.5 + number * _GOLDEN) % 1.0))
         kill(run, first)

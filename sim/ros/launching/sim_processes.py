@@ -62,7 +62,7 @@ class SimProcessStarter:
             raise
         others = {name for name, value in env.items() if os.environ.get(name) != value}
         if others:
-            self.run.logged(
+            self.run.output.log(
                 30,
                 "launch",
                 f"All programs of a run share one environment: {', '.join(sorted(others))} is not set.",

@@ -101,7 +101,7 @@ class PictureUpdater:
     def _topics(self, session: Session) -> list[dict[str, Any]]:
         stamp = session.recording.stamp
         if session.engine is not None and (not self._sent or self._sent[-1][0] < stamp):
-            self._sent.append((stamp, dict(session.engine.topics.sent)))
+            self._sent.append((stamp, dict(session.engine.transport.sent)))
         while len(self._sent) > 2 and stamp - self._sent[1][0] >= RATE_PERIOD:
             self._sent.popleft()
         if not self._sent:

@@ -15,7 +15,7 @@ from typing import Any
 from sim.evidence import Ended, Recording
 from sim.notebook import interrupt_error
 from sim.ros.engine import interrupts
-from sim.ros.engine.engine import INTERRUPTED
+from sim.ros.engine.main_loop import INTERRUPTED
 from sim.ros.engine.program import Process
 from sim.ros.latest import latest
 from sim.ros.play.keyboard_driver import KeyboardDriver
@@ -51,7 +51,7 @@ class Player:
         self._error: Exception | None = None
         self._context = contextvars.copy_context()  # notebook output goes to the cell that this context names
         self._context.run(session.advance, -1.0)  # opens the session
-        latest.player = self
+        latest.player, latest.recording = self, session.recording
         atexit.register(self._stop_at_exit)
 
     @property

@@ -6,7 +6,7 @@ import contextlib
 import weakref
 from collections import defaultdict, deque
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.qos import HistoryPolicy
@@ -14,10 +14,8 @@ from rclpy.qos import HistoryPolicy
 from sim.evidence import Call
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
-from sim.ros.recorder.kept import ClientRecord, Request, ServiceRecord
-
-if TYPE_CHECKING:
-    from sim.ros.recorder.recorder import Recorder
+from sim.ros.recorder.base import RecorderBase
+from sim.ros.recorder.records import ClientRecord, Request, ServiceRecord
 
 
 class Calls:
@@ -28,7 +26,7 @@ class Calls:
     what is taken is looked up there.
     """
 
-    def __init__(self, recorder: Recorder) -> None:
+    def __init__(self, recorder: RecorderBase) -> None:
         self._recorder = recorder
         self._services: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
         self._to_nobody, self._losing = 0, False
@@ -46,13 +44,14 @@ class Calls:
         service._sim = ServiceRecord(*self._recorder.maker(), service=service.service_name, inbox=inbox)
         self._services[service.service_name].append(weakref.ref(service))
 
-    def _there(self, service: str) -> list[Any]:
+    def servers(self, service: str) -> list[Any]:
+        """The services of this resolved name that exist."""
         made = (known() for known in self._services[service])
         return [server for server in made if server is not None and alive(server.handle)]
 
     def discovered(self, client: Any) -> bool:
         """Whether a request of a client would reach a server, if there is one."""
-        there = [server._sim for server in self._there(client._sim.service)]
+        there = [server._sim for server in self.servers(client._sim.service)]
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
     @contextlib.contextmanager
@@ -82,7 +81,7 @@ class Calls:
         call = Call(
             kept.service, kept.type, kept.node, raw, recorder.now, requested_by_course=kept.from_course
         )
-        there = [] if number < 0 else self._there(kept.service)
+        there = [] if number < 0 else self.servers(kept.service)
         call.lost = not there
         recorder.recording.calls.append(call)
         request = kept.requests[number] = number, [call]
@@ -113,7 +112,7 @@ class Calls:
             call.served_by_course = service._sim.from_course
         return call
 
-    def asked_services(self) -> list[Any]:
+    def services_with_requests(self) -> list[Any]:
         """Services with requests in their queues."""
         known = (service() for services in self._services.values() for service in services)
         return [found for found in known if found is not None and found._sim.inbox and alive(found.handle)]

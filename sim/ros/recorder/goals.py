@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import weakref
 from collections import defaultdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from action_msgs.msg import GoalStatus
 
 from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, ENDINGS, REJECTED, Goal, Message
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import encode, type_name
+from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.kept import ActionRecord
-
-if TYPE_CHECKING:
-    from sim.ros.recorder.recorder import Recorder
+from sim.ros.recorder.records import ActionRecord
 
 WORDS = {
     value: name.removeprefix("STATUS_").lower()
@@ -34,20 +32,24 @@ def key(goal_id: Any) -> bytes:
 class Goals:
     """The goals of one run, found again by their ids; the ends of an action carry its name and type."""
 
-    def __init__(self, recorder: Recorder) -> None:
+    def __init__(self, recorder: RecorderBase) -> None:
         self._recorder = recorder
         self._by_id: dict[tuple[str, bytes], list[Goal]] = {}
-        self.ends: list[weakref.ref[Any]] = []  # of all actions
+        self._ends: list[weakref.ref[Any]] = []  # of all actions
         self._servers: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
 
     def end_made(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
         """A node made an action server or an action client; `name` is the action's resolved name."""
-        self.ends.append(weakref.ref(end))
+        self._ends.append(weakref.ref(end))
         if serves:
             self._servers[name].append(weakref.ref(end))
         recorder = self._recorder
         kept = {"action": name, "type": type_name(type_), "node": recorder.name_of(node)}
         end._sim = ActionRecord(*recorder.maker(), **kept)
+
+    def endpoints(self) -> list[Any]:
+        """The action servers and clients that exist."""
+        return [endpoint for known in self._ends if (endpoint := known()) is not None]
 
     def known(self, action: str, goal_id: Any) -> list[Goal]:
         """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""

@@ -24,21 +24,19 @@ from sim.evidence import (
     is_node_service,
 )
 from sim.evidence.qos import settings
-from sim.nanoseconds import SECOND, Nanoseconds
+from sim.nanoseconds import SECOND
 from sim.network import LAPTOP
 from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
-from sim.ros.fibers.fiber import Fiber, Program
+from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
+from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import Calls
 from sim.ros.recorder.goals import Goals
-from sim.ros.recorder.kept import OwnEnd
+from sim.ros.recorder.records import OwnEnd
 from sim.ros.recorder.running import RunningCallback, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
 
-MAX_MESSAGES_PER_INSTANT = 20_000
-MAX_MESSAGES = 1_000_000  # of a run
-MAX_MESSAGE_BYTES = 500_000_000  # of a run
 MAX_LOG_LINES = 100_000
 MAX_PRINTED = 1_000_000  # characters
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
@@ -54,45 +52,23 @@ NO_FAULT = (
 )
 
 
-class Recorder:
+class Recorder(RecorderBase):
     """Writes into one recording, until it is closed."""
 
     def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
-        self.scheduler, self.recording = scheduler, recording
-        self.open = True
+        super().__init__(scheduler, recording)
         self.calls, self.goals = Calls(self), Goals(self)
         self.ends: list[OwnEnd] = []  # all that were made, ROS's own included
-        self._names: dict[int, str] = {}  # id of a node -> its fully qualified name
         self._ours: set[str] = set()  # names of nodes that are not the student's
         self._theirs: set[str] = set()  # and of those that are
-        self._printed = self._bytes = 0
+        self._printed = 0
         self._known: list[BaseException] = []
         self._unheard: set[tuple[str, str]] = set()  # nodes and topics
         self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
-        self.sent = 0  # messages, requests and the like of the whole run
-        self._instant, self._messages = -1, 0  # the last publish's time, and how many there were then
-
-    @property
-    def now(self) -> float:
-        """Simulated seconds since the start of the run."""
-        return self.scheduler.now / SECOND
-
-    def maker(self) -> tuple[Nanoseconds, Program | None, bool]:
-        """What is kept of who makes an end now: when, which program, and whether that is ours."""
-        fiber = self.scheduler.current
-        return self.scheduler.now, None if fiber is None else fiber.process, self.is_course_node()
-
-    def name_of(self, node: Any) -> str:
-        """Fully qualified name of a node, or of the current process for None."""
-        if node is not None:
-            return self._names.get(id(node)) or node.get_fully_qualified_name()
-        fiber = self.scheduler.current
-        nodes = fiber.process.nodes if fiber is not None else []
-        return self.name_of(nodes[0]) if nodes else f"/{fiber.process.name}" if fiber is not None else ""
 
     def node(self, node: Any) -> None:
         """A node was made."""
-        name = self._names[id(node)] = node.get_fully_qualified_name()
+        name = self.node_names[id(node)] = node.get_fully_qualified_name()
         if not self.open:
             return
         fiber = self.scheduler.current
@@ -108,11 +84,6 @@ class Recorder:
         (self._ours if from_course else self._theirs).add(name)
         self.recording.course_nodes = self._ours - self._theirs
         self.recording.shared = self._ours & self._theirs
-
-    def is_course_node(self) -> bool:
-        """Whether a program that is not the student's is at work."""
-        fiber = self.scheduler.current
-        return fiber is not None and fiber.process.from_course
 
     def endpoint(
         self, kind: str, node: Any, name: str, type_: type, qos: Any = None, *, handle: Any = None
@@ -135,28 +106,6 @@ class Recorder:
                 self.name_of(node), timer.timer_period_ns / SECOND, callback_name(timer.callback)
             )
             self.recording.graph.timers.append(info)
-
-    def count(self, sender: str, size: int) -> None:
-        """A node sent a message, request or the like, of so many bytes. Raises Livelock for too many."""
-        now = self.scheduler.now
-        if now != self._instant:
-            self._instant, self._messages = now, 0
-        self._messages += 1
-        if self._messages > MAX_MESSAGES_PER_INSTANT:
-            self.scheduler.refuse_to_go_on(
-                f"{sender} sent {MAX_MESSAGES_PER_INSTANT} messages at t = {self.now:g} s"
-                " without letting time move on"
-            )
-        if self.sent >= MAX_MESSAGES:
-            self.scheduler.refuse_to_go_on(
-                f"the nodes sent more than {MAX_MESSAGES} messages by t = {self.now:g} s"
-            )
-        self._bytes += size
-        if self._bytes > MAX_MESSAGE_BYTES:
-            self.scheduler.refuse_to_go_on(
-                f"the nodes sent more than {MAX_MESSAGE_BYTES / 1e6:g} MB by t = {self.now:g} s"
-            )
-        self.sent += 1  # not before: the guard must see that code which swallows the Livelock is stuck
 
     def message(
         self, topic: str, type_: str, sender: str, raw: bytes, from_course: bool, early: bool

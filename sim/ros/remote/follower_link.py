@@ -197,7 +197,7 @@ class FollowerLink(ProcessLink):
 
     def _reader(self, number: int) -> Reader | None:
         end = self.local.get(number)
-        return None if end is None else self.engine.topics.reader_of(end.name, end.handle)
+        return None if end is None else self.engine.transport.topics.reader_of(end.name, end.handle)
 
     HANDLERS: ClassVar[dict[type, Callable[..., None]]] = ProcessLink.HANDLERS | {
         events.MessageDelivered: _message_delivered,

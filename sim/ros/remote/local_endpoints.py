@@ -9,7 +9,7 @@ from rclpy.qos import DurabilityPolicy
 
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.kept import OwnEnd
+from sim.ros.recorder.records import OwnEnd
 from sim.ros.remote.events import EndpointDeclared, EndpointsDestroyed
 from sim.ros.remote.new_items import NewItems
 from sim.ros.remote.validation import qos_to_list

@@ -55,9 +55,9 @@ class ProcessLink:
         self._answering: dict[int, ProxyService] = {}  # requests of this process without a response yet
         self._repeated: list[tuple[str, Any]] = []  # requests to a service that both processes offer
         self._new_messages = NewItems(engine.recording.published)
-        self._destroyed = engine.destroyed
+        self._handle_destroyed = False  # since the last look
         self._incoming = EventReader()
-        engine.link = self
+        self.blocked = ""
 
     def close(self) -> None:
         """Destroy all proxies of the other process."""
@@ -65,8 +65,12 @@ class ProcessLink:
 
     def alive(self, node: str, topic: str) -> None:
         """A publisher of this process has asserted its liveliness."""
-        if self.engine.links is None:
+        if self.engine.transport.links is None:
             self.outgoing.append(LivelinessAsserted(node, topic))
+
+    def handle_destroyed(self) -> None:
+        """A handle of rclpy was destroyed in this process, so an endpoint may be gone."""
+        self._handle_destroyed = True
 
     # -- outgoing events ---------------------------------------------------------------------------
 
@@ -75,8 +79,8 @@ class ProcessLink:
         self.outgoing += self.local.declared()
         self.collect_exchanges()
         self._collect_messages()
-        if self._destroyed != self.engine.destroyed:
-            self._destroyed = self.engine.destroyed
+        if self._handle_destroyed:
+            self._handle_destroyed = False
             self.outgoing += self.local.destroyed()
 
     def collect_exchanges(self) -> None:
@@ -108,14 +112,14 @@ class ProcessLink:
 
     def must_send(self, message: Message) -> bool:
         """Whether the other process needs a message published in this one."""
-        if self.engine.links is not None:  # the simulated network delivers it
+        if self.engine.transport.links is not None:  # the simulated network delivers it
             return False
         return bool(self.proxies.wanted.get(message.topic)) or message.topic in self.local.latched
 
     def collect_requests(self) -> None:
         """Queue the requests that clients of this process have sent to services of the other."""
         for service in self.proxies.services:
-            while service.of_action or service._sim.inbox or self.engine.post is not None:
+            while service.of_action or service._sim.inbox or self.engine.transport.services is not None:
                 taken = service.take()
                 if taken is None:
                     break
@@ -159,7 +163,7 @@ class ProcessLink:
                 raise ProtocolError("an event of unknown kind")
             self.HANDLERS[type(event)](self, event)
         if received:
-            self.engine.activity += 1
+            self.engine.wake_all()
 
     def check_deadline(self) -> None:
         """Called before each incoming event."""

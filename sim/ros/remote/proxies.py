@@ -137,7 +137,7 @@ class Proxies:
             action = self.actions[number] = ProxyAction(proxies[0].handle)
             serves = kind == "action server"
             self._engine.recorder.goals.end_made(action, node, name, type_, serves=serves)
-        self._engine.endpoints_changed()
+        self._engine.waiters.endpoints_changed()
 
     def _create_later(self, number: int, node: ProxyNode, type_: type, name: str, profile: Any) -> None:
         """Defer a service: creating each node's six parameter services takes a quarter of a short run."""
@@ -161,7 +161,7 @@ class Proxies:
         calls = self._engine.recorder.calls
         if isinstance(proxy, ProxyPublisher):
             self.publishers[proxy.name].append(proxy)
-            proxy.writer = self._engine.topics.writer(
+            proxy.writer = self._engine.transport.topics.writer(
                 proxy.node.handle,
                 proxy.handle,
                 proxy.type,
@@ -176,16 +176,15 @@ class Proxies:
         elif isinstance(proxy, ProxyClient):
             self.clients[proxy.name].append(proxy)
             calls.client_made(proxy, proxy.node, proxy.name)
-            self._engine.has_clients = True
         elif proxy.of_action:
             self.action_subscriptions.append(proxy)
         else:
             self.wanted[proxy.name] += 1
-            if self._engine.links is not None:
+            if self._engine.transport.links is not None:
                 self._connect_network(number, proxy)
 
     def _connect_network(self, number: int, proxy: ProxySubscription) -> None:
-        proxy.reader = self._engine.topics.reader(
+        proxy.reader = self._engine.transport.topics.reader(
             proxy.node.handle,
             proxy.handle,
             proxy.type,
@@ -221,7 +220,7 @@ class Proxies:
             node.endpoints.discard(number)
             if not node.endpoints:
                 self.nodes.pop(key).destroy()
-        self._engine.endpoints_changed()
+        self._engine.waiters.endpoints_changed()
 
     def publisher(self, node: str, topic: str, *, newest: bool = False) -> ProxyPublisher | None:
         """The oldest or newest publisher of this node on a topic. For a topic of an action, of any node."""

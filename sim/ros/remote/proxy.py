@@ -30,14 +30,14 @@ class ProxyNode:
     """Represents a node of the other process under the same name in this process's ROS graph."""
 
     def __init__(self, engine: Engine, namespace: str, name: str) -> None:
-        context = engine.context.handle
+        context = engine.rclpy.context.handle
         with context:
             self.handle = _rclpy.Node(name, namespace, context, None, False, False)
         self.name = self.handle.get_fully_qualified_name()
         # Every node has this service. C++ makes it for real nodes; this one never responds.
         self._description = _rclpy.TypeDescriptionService(self.handle)
         self.endpoints: set[int] = set()
-        self.post = engine.post
+        self.network = engine.transport.services
 
     def get_fully_qualified_name(self) -> str:
         """As `rclpy.node.Node`."""
@@ -109,8 +109,8 @@ class ProxySubscription(Proxy):
 
     def take(self) -> bytes | None:
         """The bytes of the next message, or None."""
-        post = self.node.post
-        return self._taken() if post is None else post.action_message(self, self.node.name, self._taken)
+        network = self.node.network
+        return self._taken() if network is None else network.action_message(self, self.node.name, self._taken)
 
     def _taken(self) -> bytes | None:
         taken = self.handle.take_message(self.type, True)
@@ -129,10 +129,10 @@ class ProxyService(Proxy):
 
     def take(self) -> tuple[Any, Any] | None:
         """The next request and its header, or None."""
-        if self.node.post is None:
+        if self.node.network is None:
             request, header = self.handle.service_take_request(self.type.Request)
         else:
-            request, header = self.node.post.request(self) or (None, None)
+            request, header = self.node.network.request(self) or (None, None)
         return None if header is None else (request, header.request_id)
 
     def answer(self, key: int, response: Any) -> Any:
@@ -161,10 +161,10 @@ class ProxyClient(Proxy):
 
     def take(self) -> tuple[int, Any] | None:
         """The key of a request and the response to it, or None."""
-        if self.node.post is None:
+        if self.node.network is None:
             header, response = self.handle.take_response(self.type.Response)
         else:
-            header, response = self.node.post.response(self) or (None, None)
+            header, response = self.node.network.response(self) or (None, None)
         if header is None:
             return None
         return self.keys.pop(header.request_id.sequence_number, None), response

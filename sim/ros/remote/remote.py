@@ -78,10 +78,10 @@ class Remote:
         preparation: as for `program`.
         """
         run = engine()
-        if run.link is not None:
+        if run.transport.peer is not None:
             raise RemoteLost("Only one other process can have nodes in a run.", lives=True)
         self._waited = 0.0
-        run.limits.pace *= 10  # the other process enforces it; here it stops only a process that doesn't
+        run.limits.relax_pace(10)  # the other process enforces it; here it stops only a process that doesn't
         with outside_student_code():
             exchange = _RunExchange(self, run, preparation)
             exchange.take_turn()
@@ -142,6 +142,7 @@ class _RunExchange:
     def __init__(self, remote: Remote, run: Any, preparation: Sequence[Any]) -> None:
         self._remote, self._run = remote, run
         self.link = LeaderLink(run)
+        run.transport.connect(self.link)
         self._end = round(run.recording.seconds * SECOND)
         self.next: Nanoseconds | None = None
         self.alive, self._busy = True, False
@@ -186,7 +187,7 @@ class _RunExchange:
         self._busy, self.alive = answer.get("busy") is True, answer.get("alive") is True
         later = valid_int(answer.get("next"), "a next moment", min(run.now + 1, self._end), self._end)
         self.next = later if later > run.now else None
-        run.blocked_elsewhere = valid_text(answer.get("blocked"), "a reason", MAX_DETAIL_LENGTH)
+        self.link.blocked = valid_text(answer.get("blocked"), "a reason", MAX_DETAIL_LENGTH)
         fault = answer.get("fault")
         if fault is None:
             return

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import pkgutil
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from sim.evidence import Ended
 from sim.nanoseconds import Nanoseconds
 from sim.ros.engine.endings import blocked
-from sim.ros.engine.processes import StudentProcess
-from sim.ros.fibers.exceptions import Livelock
+from sim.ros.engine.engine import Engine
+from sim.ros.engine.running_program import RunningProgram
 from sim.ros.remote.follower_link import FollowerLink
 from sim.ros.remote.validation import MAX_STDERR_LENGTH
 from sim.ros.remote.wire import Wire, WireBroken, WireClosed, WireTimeout
-from sim.ros.session import FOREVER, Session
+from sim.ros.session import Session
 
 MAX_ROUNDS_PER_TURN = 20  # in one turn, after which the leader checks its time limits
 
@@ -97,49 +98,51 @@ class Follower(Session):
         super().__init__(nodes, None, seconds, seed, None, True, "grade")
         self._orders = orders
 
-    def _course(self, end: Nanoseconds, watched: list[StudentProcess]) -> Generator[Nanoseconds, None, Ended]:
-        link = FollowerLink(self.engine)
+    def _main_loop(self, end: Nanoseconds, watched: list[RunningProgram]) -> FollowerLoop:
+        return FollowerLoop(self.engine, self._orders, end)
+
+
+class FollowerLoop:
+    """The main loop of a run whose leader says when a step is due, and what its own nodes have done."""
+
+    due: Nanoseconds = 0
+
+    def __init__(self, engine: Engine, orders: Orders, end: Nanoseconds) -> None:
+        self._engine, self._orders, self._end = engine, orders, end
+        self._link = FollowerLink(engine)
+        engine.transport.connect(self._link)
+
+    def run(self, last: Nanoseconds, enough: Callable[[], bool]) -> Ended:
+        """As `MainLoop.run`, until the leader ends the run."""
         while (order := self._orders.next()).get("do") == "go":
-            self._move_to(order["now"])
-            link.apply(order["events"])
-            busy = self._rounds(link)
-            self._orders.answer(**self._answer(link, busy, end))
-            yield order["now"]
-        return Ended("time", self.engine.recorder.now, "The other side has ended the run.")
+            moment, events = order["now"], order["events"]
+            self._engine.transport.events.schedule_arrival(moment, partial(self._link.apply, events))
+            busy = self._engine.step(moment, _Pause(self._engine, self._link).is_due)
+            self._link.collect()
+            self._orders.answer(**self._answer(busy))
+        return Ended("time", self._engine.recorder.now, "The other side has ended the run.")
 
-    def _move_to(self, now: Nanoseconds) -> None:
-        engine = self.engine
-        if now > engine.now:
-            engine.time.move_to(now)
-            engine.begin_moment()
-
-    def _rounds(self, link: FollowerLink) -> bool:
-        """Run the nodes until they wait or have events for the leader; returns whether they could go on."""
-        engine, busy = self.engine, True
-        try:
-            for _ in range(MAX_ROUNDS_PER_TURN):
-                engine.limits.check_pace()
-                engine.round()
-                link.collect()
-                left = [fiber for fiber in engine.fibers if not fiber.done]
-                waits = any(fiber.runnable() for fiber in left) or engine.agenda.next(FOREVER) <= engine.now
-                busy = engine.fault is None and waits
-                if link.outgoing or not busy:
-                    break
-        except Livelock:  # the engine has stored the reason
-            link.collect()
-            return False
-        return busy
-
-    def _answer(self, link: FollowerLink, busy: bool, end: Nanoseconds) -> dict[str, Any]:
-        engine = self.engine
-        fault, planned = engine.fault, engine.agenda.next(end)
+    def _answer(self, busy: bool) -> dict[str, Any]:
+        engine, link, fault = self._engine, self._link, self._engine.fault
         return {
             "events": link.take_outgoing(),
             "self_reports": link.take_self_reports(),
-            "next": engine.time.next_moment(end if planned <= engine.now else planned),
-            "busy": busy,
+            "next": engine.next_moment(self._end),
+            "busy": busy and fault is None,
             "alive": any(not fiber.done for fiber in engine.fibers),
             "fault": None if fault is None else [fault.reason, fault.detail],
-            "blocked": (blocked(engine) or "") if engine.now >= end else "",
+            "blocked": (blocked(engine) or "") if engine.now >= self._end else "",
         }
+
+
+class _Pause:
+    """When a step of the follower ends early: it has events for the leader, or has taken long."""
+
+    def __init__(self, engine: Engine, link: FollowerLink) -> None:
+        self._engine, self._link, self._rounds = engine, link, 0
+
+    def is_due(self) -> bool:
+        self._engine.limits.check_pace()
+        self._link.collect()
+        self._rounds += 1
+        return bool(self._link.outgoing) or self._rounds >= MAX_ROUNDS_PER_TURN

@@ -39,10 +39,10 @@ def main() -> None:
 def _take_over_pond() -> Pond | None:
     """The world's pond, reset, after ending its own program. None if no such program is running."""
     run = engine()
-    ponds = [(node, each) for each in run.processes for node in each.nodes if isinstance(node, Turtlesim)]
+    ponds = [(node, each) for each in run.programs for node in each.nodes if isinstance(node, Turtlesim)]
     for own, process in ponds:
         if process.from_course and process.main.thrown is None:  # it is not already ending
-            run.logged(
+            run.output.log(
                 LOG_LEVEL, "launch", "The world's own turtlesim ends: this one has its pond from here on."
             )
             for fiber in run.fibers:
@@ -52,7 +52,7 @@ def _take_over_pond() -> Pond | None:
             own.scene.set_background(own.scene.world.machine.background)
             return own.scene
     if ponds:
-        run.logged(
+        run.output.log(
             LOG_LEVEL, "launch", "One more turtlesim: it has a pond of its own, which no picture shows."
         )
     return None

@@ -1,1 +1,1 @@
-"""How messages get from one end to another: queues, quality of service, and the network in between."""
+"""How messages get from a publisher to its subscriptions: queues, QoS, and the network between hosts."""

@@ -1,4 +1,4 @@
-"""What waits for the ends of actions, taken without a wait set that would say that it is there."""
+"""Takes from action servers and clients directly, because no wait set reports what is there."""
 
 from __future__ import annotations
 

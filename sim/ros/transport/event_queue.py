@@ -12,38 +12,38 @@ Event = tuple[Nanoseconds, int, Callable[[], None]]
 
 
 class EventQueue:
-    """The appointments of one run; those of one moment are kept in the order in which they were made."""
+    """The scheduled events of one run; those of one moment happen in the order of their scheduling."""
 
     def __init__(self) -> None:
         self._arrivals: list[Event] = []
-        self._limits: list[Event] = []
+        self._deadlines: list[Event] = []
         self._numbers = count()
 
     def schedule_arrival(self, moment: Nanoseconds, do: Callable[[], None]) -> None:
-        """Do this as time moves to `moment`, before any program goes on there."""
+        """Do this as time moves to `moment`, before any program runs there."""
         heapq.heappush(self._arrivals, (moment, next(self._numbers), do))
 
     def schedule_deadline(self, moment: Nanoseconds, do: Callable[[], None]) -> None:
-        """Do this at `moment` when all programs have done what they do there: who is just in time is."""
-        heapq.heappush(self._limits, (moment, next(self._numbers), do))
+        """Do this at `moment` once no program can go on there: what happens at the deadline is in time."""
+        heapq.heappush(self._deadlines, (moment, next(self._numbers), do))
 
-    def next(self, end: Nanoseconds) -> Nanoseconds:
-        """When something is to be done; `end` at the latest."""
-        for events in (self._arrivals, self._limits):
+    def next_due(self, end: Nanoseconds) -> Nanoseconds:
+        """When the next event is due; `end` at the latest."""
+        for events in (self._arrivals, self._deadlines):
             if events and events[0][0] < end:
                 end = events[0][0]
         return end
 
     def run_arrivals(self, now: Nanoseconds) -> None:
-        """Do what is to be done as a moment begins."""
-        _do(self._arrivals, now)
+        """Do what is due as a moment begins."""
+        _run(self._arrivals, now)
 
     def run_deadlines(self, now: Nanoseconds) -> bool:
-        """Do what is to be done as it ends; whether there was anything."""
-        return _do(self._limits, now)
+        """Do what is due as a moment ends; whether there was anything."""
+        return _run(self._deadlines, now)
 
 
-def _do(events: list[Event], now: Nanoseconds) -> bool:
+def _run(events: list[Event], now: Nanoseconds) -> bool:
     due = bool(events) and events[0][0] <= now
     while events and events[0][0] <= now:
         heapq.heappop(events)[2]()

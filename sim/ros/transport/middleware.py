@@ -1,4 +1,4 @@
-"""Ends of topics whose messages the middleware carries: C++ code publishes there, or tests ask for it."""
+"""Endpoints of topics whose messages the middleware carries: C++ code publishes there, or a test wants it."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from rclpy.duration import Duration
 
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
+from sim.ros.transport.endpoint import Sample
 from sim.ros.transport.qos import latches
-from sim.ros.transport.reader import Reader, Sample
+from sim.ros.transport.reader import Reader
 from sim.ros.transport.writer import Writer
 
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
@@ -26,13 +27,16 @@ class MiddlewareWriter(Writer):
 
 
 class MiddlewareReader(Reader):
-    """A reader whose messages the middleware carries. It is asked only when one was sent."""
+    """A reader whose messages the middleware carries: its executor has to poll it.
+
+    It looks only if a message was sent since it last found none.
+    """
 
     _seen: int | None = -1
 
     def take(self) -> Sample | None:
         """As `Reader.take`."""
-        sent = self.engine.topics.sent.get(self.topic)  # None: only C++ code publishes here, uncounted
+        sent = self.run.sent.get(self.topic)  # None: only C++ code publishes here, uncounted
         if sent is not None and sent == self._seen:
             return None
         taken = self.handle.take_message(self.message_class, self.raw)
@@ -42,5 +46,5 @@ class MiddlewareReader(Reader):
         message, information = taken
         if self.raw:  # DDS leaves what was in memory in gaps and behind the end
             message = canonical(type_name(self.message_class), message)
-        stamp = self.engine.time.moment_at(information["source_timestamp"])
+        stamp = self.run.moment_at(information["source_timestamp"])
         return Sample(message, stamp, information["publication_sequence_number"])

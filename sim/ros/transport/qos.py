@@ -1,4 +1,4 @@
-"""What the settings of two ends of a topic mean for the messages between them."""
+"""What the QoS profiles of two endpoints of a topic mean for the messages between them."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ DURABILITIES = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
 NO_LIMIT, FOREVER = Duration(), 2**63 - 1
 
 
-def are_compatible(offered: QoSProfile, wanted: QoSProfile) -> bool:
-    """Whether a subscription hears a publisher."""
-    compatibility, _ = qos_check_compatible(offered, wanted)
+def are_compatible(offered: QoSProfile, requested: QoSProfile) -> bool:
+    """Whether a subscription receives from a publisher."""
+    compatibility, _ = qos_check_compatible(offered, requested)
     return compatibility != QoSCompatibility.ERROR
 
 
 def latches(profile: QoSProfile) -> bool:
-    """Whether a late joiner gets earlier messages: both ends must."""
+    """Whether an endpoint is latched: a late joiner gets earlier messages if both of its endpoints are."""
     return (
         profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
         and profile.reliability is ReliabilityPolicy.RELIABLE
@@ -43,9 +43,9 @@ def queue_length(profile: QoSProfile) -> int | None:
 
 
 def resolved(profile: QoSProfile, found: Callable[[], list[dict]]) -> QoSProfile:
-    """The profile, with what the middleware has made of what was left to it.
+    """The profile, with what the middleware has chosen where the profile leaves it the choice.
 
-    found: gives rclpy's information on such ends of this topic, the newest last.
+    found: gives rclpy's information on such endpoints of this topic, the newest last.
     """
     chosen = copy.copy(profile)
     if chosen.liveliness is LivelinessPolicy.SYSTEM_DEFAULT:

@@ -1,7 +1,7 @@
 """QoS events that come as time passes: deadlines, liveliness, lost messages.
 
-The middleware tells of who comes and goes and of what doesn't fit; its clocks know nothing of a run's time.
-How Fast DDS does all this was measured: `tests/sim/ros/middleware_facts.txt`.
+The middleware reports matched and incompatible endpoints; its clocks know nothing of simulated time, so the
+rest is here. How Fast DDS does all this was measured: `tests/sim/ros/middleware_facts.txt`.
 """
 
 from __future__ import annotations
@@ -9,24 +9,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rclpy.event_handler import EventHandler, QoSPublisherEventType, QoSSubscriptionEventType
 from rclpy.qos import LivelinessPolicy, QoSProfile
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.fibers.scheduler import Scheduler
+from sim.ros.transport.context import TransportContext
+from sim.ros.transport.endpoint import TopicEndpoint
 from sim.ros.transport.qos import FOREVER
-
-if TYPE_CHECKING:
-    from sim.ros.engine.engine import Engine
-    from sim.ros.transport.writer import Writer
 
 REQUESTED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED
 CHANGED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED
 MISSED = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
 OFFERED = QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED
 LOST = QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST
-# What an event counts, for both ends: a kind of one has the number of another kind of the other.
+# What an event counts. One table for each kind of endpoint: their event types share their numbers.
 OF_WRITER = {OFFERED: ("total_count",), LOST: ("total_count",)}
 OF_READER = {
     REQUESTED: ("total_count",),
@@ -36,21 +35,21 @@ OF_READER = {
 
 
 class EventCounts:
-    """What one kind of event has counted, and what of that its callback was told."""
+    """What one kind of event has counted, and how much of that its callback has been given."""
 
-    def __init__(self, engine: Engine, counts: Iterable[str]) -> None:
-        self._engine = engine
+    def __init__(self, scheduler: Scheduler, counts: Iterable[str]) -> None:
+        self._scheduler = scheduler
         self._counts = dict.fromkeys(counts, 0)
         self._reported = dict(self._counts)
 
     def add(self, **changes: int) -> None:
-        """Count on."""
+        """Change these counts."""
         for name, change in changes.items():
             self._counts[name] += change
-        self._engine.activity += 1
+        self._scheduler.wake_all()
 
     def take(self) -> SimpleNamespace | None:
-        """What rclpy's callback gets, with all that is new since the last time; None if nothing is."""
+        """What rclpy's callback gets, with all changes since the last time; None if there are none."""
         if self._counts == self._reported:
             return None
         changes = {f"{name}_change": count - self._reported[name] for name, count in self._counts.items()}
@@ -58,114 +57,121 @@ class EventCounts:
         return SimpleNamespace(**self._counts, **changes)
 
 
-def statuses(
-    engine: Engine, handlers: Iterable[EventHandler], kinds: Mapping[Any, tuple[str, ...]]
+def event_counts(
+    run: TransportContext, handlers: Iterable[EventHandler], kinds: Mapping[Any, tuple[str, ...]]
 ) -> dict[Any, EventCounts]:
-    """For those of an end's event handlers that are told of time, by kind. kinds: those of this end."""
+    """The counts for those of an endpoint's event handlers whose events depend on time, by kind.
+
+    kinds: what such events count at this kind of endpoint.
+    """
     found = {}
     for handler in handlers:
         if handler.event_type in kinds:
-            found[handler.event_type] = handler._sim = EventCounts(engine, kinds[handler.event_type])
+            found[handler.event_type] = handler._sim = EventCounts(run.scheduler, kinds[handler.event_type])
     return found
 
 
 class Lease:
     """A length of time in which something has to happen again, once it has happened."""
 
-    def __init__(self, engine: Engine, length: Nanoseconds, over: Callable[[], bool]) -> None:
-        """over: called when it is over; whether it begins again by itself."""
-        self._engine, self._length, self._over = engine, length, over
+    def __init__(self, run: TransportContext, length: Nanoseconds, on_expired: Callable[[], bool]) -> None:
+        """on_expired: called when it expires; whether it begins again by itself."""
+        self._run, self._length, self._on_expired = run, length, on_expired
         self._due: Nanoseconds | None = None
         self._scheduled = False
 
-    def begin(self) -> None:
+    def renew(self) -> None:
         """It happened."""
-        self._due = self._engine.now + self._length
+        self._due = self._run.scheduler.now + self._length
         if not self._scheduled:
-            self._scheduled = True
-            self._engine.agenda.schedule_deadline(self._due, self._look)
+            self._schedule()
 
-    def end(self) -> None:
-        """Nobody waits for it any more."""
+    def cancel(self) -> None:
+        """It need not happen any more."""
         self._due = None
 
-    def _look(self) -> None:
+    def _schedule(self) -> None:
+        self._scheduled = True
+        self._run.events.schedule_deadline(self._due, self._check)
+
+    def _check(self) -> None:
         self._scheduled = False
         if self._due is None:
             return
-        if self._engine.now >= self._due:
-            self._due = self._due + self._length if self._over() else None
+        if self._run.scheduler.now >= self._due:
+            self._due = self._due + self._length if self._on_expired() else None
         if self._due is not None:
-            self._scheduled = True
-            self._engine.agenda.schedule_deadline(self._due, self._look)
+            self._schedule()
 
 
-def deadline(engine: Engine, profile: QoSProfile, status: EventCounts | None) -> Lease | None:
-    """What watches over an end's deadline, if it has one and somebody wants to be told."""
+def deadline_lease(run: TransportContext, profile: QoSProfile, counts: EventCounts | None) -> Lease | None:
+    """The lease of an endpoint's deadline, if it has one and a callback for missing it."""
     length = profile.deadline.nanoseconds
-    if status is None or not 0 < length < FOREVER:
+    if counts is None or not 0 < length < FOREVER:
         return None
 
-    def over() -> bool:
-        status.add(total_count=1)
+    def on_expired() -> bool:
+        counts.add(total_count=1)
         return True
 
-    return Lease(engine, length, over)
+    return Lease(run, length, on_expired)
 
 
-def liveliness_lease(engine: Engine, profile: QoSProfile, status: EventCounts | None) -> Lease | None:
-    """What watches whether a publisher gives signs of life, if it has promised to, in the same way."""
+def liveliness_lease(run: TransportContext, profile: QoSProfile, counts: EventCounts | None) -> Lease | None:
+    """The lease of a publisher's manual liveliness, if it has one and a callback for losing it."""
     length = profile.liveliness_lease_duration.nanoseconds
     manual = profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC
-    if status is None or not manual or not 0 < length < FOREVER:
+    if counts is None or not manual or not 0 < length < FOREVER:
         return None
-    return Lease(engine, length, lambda: bool(status.add(total_count=1)))
+    return Lease(run, length, lambda: bool(counts.add(total_count=1)))
 
 
 class LivelinessMonitor:
     """Which publishers are alive for a subscription with a lease. length: that of the lease.
 
-    Automatic ones are as long as they are there; others from a sign of life on, for the lease.
+    Automatic ones are as long as they exist; others from an assertion on, for the lease.
     """
 
-    def __init__(self, engine: Engine, length: Nanoseconds, status: EventCounts) -> None:
-        self._engine, self._length, self._status = engine, length, status
-        self._alive: dict[Writer, bool] = {}
-        self._limits: dict[Writer, Lease] = {}
+    def __init__(self, run: TransportContext, length: Nanoseconds, counts: EventCounts) -> None:
+        self._run, self._length, self._counts = run, length, counts
+        self._alive: dict[TopicEndpoint, bool] = {}
+        self._leases: dict[TopicEndpoint, Lease] = {}
 
-    def matched(self, writer: Writer) -> None:
-        """They have found each other."""
+    def matched(self, writer: TopicEndpoint) -> None:
+        """A publisher and the subscription are connected."""
         if writer.profile.liveliness is not LivelinessPolicy.MANUAL_BY_TOPIC:
             self._alive[writer] = True
-            self._status.add(alive_count=1)
+            self._counts.add(alive_count=1)
             return
-        self._limits[writer] = Lease(self._engine, self._length, partial(self._over, writer))
+        self._leases[writer] = Lease(self._run, self._length, partial(self._on_expired, writer))
 
-    def assert_liveliness(self, writer: Writer) -> None:
-        """A publisher gave a sign of life: a message came, or it said so."""
-        limit = self._limits.get(writer)
-        if limit is None:
+    def assert_liveliness(self, writer: TopicEndpoint) -> None:
+        """A message of a publisher came, or its assertion."""
+        lease = self._leases.get(writer)
+        if lease is None:
             return
         if not self._alive.get(writer):
-            self._status.add(alive_count=1, not_alive_count=-1 if writer in self._alive else 0)
+            self._counts.add(alive_count=1, not_alive_count=-1 if writer in self._alive else 0)
             self._alive[writer] = True
-        limit.begin()
+        lease.renew()
 
-    def unmatched(self, writer: Writer) -> None:
-        """It is not there any more."""
-        if writer in self._limits:
-            self._limits.pop(writer).end()
+    def unmatched(self, writer: TopicEndpoint) -> None:
+        """A publisher was destroyed."""
+        if writer in self._leases:
+            self._leases.pop(writer).cancel()
         alive = self._alive.pop(writer, None)
         if alive is not None:
-            self._status.add(**{"alive_count" if alive else "not_alive_count": -1})
+            self._counts.add(**{"alive_count" if alive else "not_alive_count": -1})
 
-    def _over(self, writer: Writer) -> bool:
+    def _on_expired(self, writer: TopicEndpoint) -> bool:
         self._alive[writer] = False
-        self._status.add(alive_count=-1, not_alive_count=1)
+        self._counts.add(alive_count=-1, not_alive_count=1)
         return False
 
 
-def liveliness(engine: Engine, profile: QoSProfile, status: EventCounts | None) -> LivelinessMonitor | None:
-    """What watches over the publishers of a subscription, if it has a lease and somebody wants to know."""
+def liveliness_monitor(
+    run: TransportContext, profile: QoSProfile, counts: EventCounts | None
+) -> LivelinessMonitor | None:
+    """What watches the publishers of a subscription, if it has a lease and a callback for changes."""
     length = profile.liveliness_lease_duration.nanoseconds
-    return LivelinessMonitor(engine, length, status) if status and 0 < length < FOREVER else None
+    return LivelinessMonitor(run, length, counts) if counts and 0 < length < FOREVER else None

@@ -7,7 +7,7 @@ import pytest
 
 from sim import run
 from sim.ros.engine import guard
-from sim.ros.recorder import recorder
+from sim.ros.recorder import base as recorder
 from tests.sim.ros.evidence import raised, said, times, why
 from tests.students.engine import adversaries, mains
 

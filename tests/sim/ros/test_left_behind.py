@@ -18,7 +18,7 @@ from rclpy.node import Node
 from std_msgs.msg import Int32
 
 from sim import run
-from sim.ros.engine.processes import StudentProcess
+from sim.ros.engine.running_program import RunningProgram
 from sim.ros.fibers.scheduler import active
 from tests.students.engine import actions, errors, mains, services, threads
 
@@ -127,7 +127,7 @@ def test_rclpy_is_as_it_was_without_an_init():
     run(mains.own_context, mains.shuts_itself_down, seconds=3, quiet=True)
     assert not rclpy.ok()
     assert rclpy.utilities.g_default_context is None or not rclpy.utilities.g_default_context.ok()
-    assert (active(), StudentProcess.loaded) == (None, None)
+    assert (active(), RunningProgram.loaded) == (None, None)
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ import pytest
 from geometry_msgs.msg import Twist
 
 from sim import Process, Teleop, World, play, run
-from sim.ros.engine.processes import StudentProcess
+from sim.ros.engine.running_program import RunningProgram
 from sim.ros.fibers.scheduler import active
 from sim.ros.play.teleop import RATE
 from tests.patience import PATIENCE
@@ -136,7 +136,7 @@ def test_what_until_raises_ends_it_and_reaches_who_asks():
     assert made.recording.ended[::2] == ("interrupted", "`until` raised ZeroDivisionError: division by zero")
     with pytest.raises(ZeroDivisionError):
         made.result()
-    assert active() is None and StudentProcess.loaded is None
+    assert active() is None and RunningProgram.loaded is None
 
 
 def test_until_can_stop_it_but_not_move_it_on():

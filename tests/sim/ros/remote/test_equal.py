@@ -167,7 +167,7 @@ def test_proxies_of_services_are_created_when_a_node_looks_them_up(follower, loo
             self.create_timer(0.5, self.look)
 
         def look(self):
-            if link := engine().link:
+            if link := engine().transport.peer:
                 made.append(len(link.proxies.services))
             self.get_logger().info(f"{look(self)}")
 

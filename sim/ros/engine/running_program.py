@@ -1,9 +1,8 @@
-"""Student processes: on a robot each `main()` is a program of its own, with its own rclpy.init() and ok().
+"""The programs of a run: on a robot each `main()` is a process, with its own rclpy.init() and ok().
 
-In a run they share one thread and one real rcl context, because two contexts of one process don't hear each
-other.
-What each of them must have for itself is its default context and its global executor: those are swapped in
-whenever one of its fibers runs, so that rclpy's own functions need no change.
+In a run they share one thread and one real rcl context, because two contexts of one process don't discover
+each other. What each of them must have for itself is its default context and its global executor: those are
+swapped in whenever one of its fibers runs, so that rclpy's own functions need no change.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import inspect
 import sys
 from collections.abc import Callable, Sequence
 from itertools import count, pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import rclpy
 import rclpy.utilities
@@ -26,18 +25,17 @@ from rclpy.node import Node
 
 from sim.network import LAPTOP, ROBOT
 from sim.ros.engine.keyboard import keyboard
+from sim.ros.engine.process_state import RclpyState
 from sim.ros.engine.program import Process, as_process, program_name
 from sim.ros.fibers.fiber import Fiber
+from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.lenient import lenient_fields
-
-if TYPE_CHECKING:
-    from sim.ros.engine.engine import Engine
 
 
 class SharedContext:
-    """Stands where rclpy keeps its handle to a context; one per init(), over the run's one real context."""
+    """Replaces rclpy's handle to a context; one per init(), over the run's one real context."""
 
-    def __init__(self, process: StudentProcess, arguments: Sequence[str]) -> None:
+    def __init__(self, process: RunningProgram, arguments: Sequence[str]) -> None:
         self.process, self.alive = process, True
         if process.borrowed_init is None:
             process.borrowed_init = False
@@ -55,11 +53,11 @@ class SharedContext:
         if not self.alive:
             raise _rclpy.RCLError("failed to shutdown: rcl_shutdown already called on the given context")
         self.alive = False
-        self.process.engine.activity += 1
+        self.process.scheduler.wake_all()
 
     def get_domain_id(self) -> int:
         """As rcl's context."""
-        return self.process.engine.context.get_domain_id()
+        return self.process.rclpy.context.get_domain_id()
 
     def destroy_when_not_in_use(self) -> None:
         """As rcl's context, for this process alone."""
@@ -73,23 +71,27 @@ class SharedContext:
 
 
 def shared_context(context: Context) -> SharedContext:
-    """What a context that was initialised in a run holds in place of rcl's handle."""
+    """What a context that was initialised in a run has in place of rcl's handle."""
     return context._Context__context
 
 
-class StudentProcess:
-    """The state of one program in a run."""
+class RunningProgram:
+    """One program in a run, with its state.
 
-    loaded: StudentProcess | None = None  # whose default context rclpy sees at the moment
+    rclpy: the state of rclpy that all programs of the run share. from_course: it is the course's, not the
+    student's.
+    """
 
-    def __init__(self, engine: Engine, spec: Process, from_course: bool) -> None:
-        self.engine, self.from_course = engine, from_course
+    loaded: RunningProgram | None = None  # whose state is the module-level one at the moment
+
+    def __init__(self, scheduler: Scheduler, rclpy: RclpyState, spec: Process, from_course: bool) -> None:
+        self.scheduler, self.rclpy, self.from_course = scheduler, rclpy, from_course
         self._become(spec)
         self.context: Context | None = None
         self.executor: Any = None
         self.nodes: list[Node] = []
         self.steps = 0  # as in `Program`
-        self.reader: Callable[[str, str], Any] | None = None  # of what it writes to "stdout" or "stderr"
+        self.reader: Callable[[str, str], Any] | None = None  # called with "stdout" or "stderr", and text
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
@@ -103,7 +105,7 @@ class StudentProcess:
         self.argv, self.stdin = [self.name], keyboard(self.spec.stdin)
 
     def _read_settings(self) -> None:
-        """Done as the program starts, so that what is wrong in them is the program's error."""
+        """Done as the program starts, so that a mistake in them is the program's error."""
         sys.argv, sys.stdin = [self.name, *self.spec.command_line()], self.stdin
 
     def set_log_levels(self) -> None:
@@ -116,35 +118,29 @@ class StudentProcess:
                     set_logger_level(logger, severity)
                 else:
                     self.log_level = severity
-        self.engine.rclpy.set_default_level(self.log_level)
-
-    def show(self, stream: str, text: str) -> None:
-        """What it writes goes to the screen, and to its reader."""
-        self.engine.echo(text)
-        if self.reader is not None:
-            self.reader(stream, text)
+        self.rclpy.set_default_level(self.log_level)
 
     def load(self) -> None:
-        """Let the module-level state of rclpy and `sys` be this process's."""
-        if StudentProcess.loaded is self:
+        """Make this program's state the module-level state of rclpy and `sys`."""
+        if RunningProgram.loaded is self:
             return
-        if StudentProcess.loaded is not None:
-            StudentProcess.loaded.unload()
+        if RunningProgram.loaded is not None:
+            RunningProgram.loaded.unload()
         rclpy.utilities.g_default_context = self.context
         rclpy.__dict__["__executor"] = self.executor
-        self.engine.rclpy.set_default_level(self.log_level)
+        self.rclpy.set_default_level(self.log_level)
         sys.argv, sys.stdin = self.argv, self.stdin
-        StudentProcess.loaded = self
+        RunningProgram.loaded = self
 
     def unload(self) -> None:
-        """Keep what that state is now."""
+        """Store what that state is now."""
         self.context = rclpy.utilities.g_default_context
         self.executor = rclpy.__dict__["__executor"]
         self.argv, self.stdin = sys.argv, sys.stdin
-        StudentProcess.loaded = None
+        RunningProgram.loaded = None
 
     def run(self) -> None:
-        """The body of the process's first fiber: what `python3 node.py` would do."""
+        """The body of the program's first fiber: what `python3 node.py` would do."""
         with lenient_fields() if self.spec.lenient else contextlib.nullcontext():
             self._run()
 
@@ -200,9 +196,9 @@ class StudentProcess:
 
 
 def destroy(node: Any) -> None:
-    """Free a node with all it holds; destroy_node() forgets action servers and clients.
+    """Destroy a node with all its entities; destroy_node() leaves out action servers and clients.
 
-    For that time it is a plain Node: what a student's class has made of rclpy's methods must not run here.
+    For that time it is a plain Node: rclpy's methods as a student's class overrides them must not run here.
     """
     students_class = type(node)
     with contextlib.suppress(TypeError):  # a class with __slots__ has another layout, and stays what it is

@@ -1,7 +1,9 @@
-"""What a run keeps of the objects of rclpy and Python: on each hangs one attribute, `_sim`, of its type.
+"""What a run stores with objects of rclpy and Python: one attribute, `_sim`, of one type per kind of object.
 
-Here are those of services and actions. A publisher has its Writer and a subscription its Reader; an executor
-has its Plan, a task its Suspended, a thread its Fiber.
+Service: ServiceRecord, Client: ClientRecord, ActionServer and ActionClient: ActionRecord, all here.
+Publisher: Writer, Subscription: Reader, EventHandler of an event of time: EventCounts, in sim.ros.transport.
+Executor: SimExecutor, Task: TaskState, ROSClock and JumpHandle: ClockSwitch, in sim.ros.engine.
+Thread: Fiber, in sim.ros.fibers.
 """
 
 from __future__ import annotations
@@ -55,7 +57,8 @@ class ServiceRecord(EndRecord):
     service: str  # resolved name
     inbox: deque[Request]
     node: str = ""
-    asked: int = 0  # so many requests were sent when its queue was empty
+    called: bool = False  # a request was sent to it at some time
+    has_requests: bool = True  # one may wait in its queue
 
 
 @dataclass(slots=True, kw_only=True)
@@ -66,7 +69,7 @@ class ActionRecord(EndRecord):
     type: str
     node: str
     goals: dict[bytes | int, Goal] = field(default_factory=dict)
-    seen: int = -1  # the engine's `exchanged` when nothing had come for it
+    has_news: bool = True  # something may wait in its queues
     swept: Nanoseconds = -1  # when it last looked for goals that have expired
 
 
