@@ -1,4 +1,4 @@
-"""The world of a run: it moves along with time, and where everything truly is gets written down."""
+"""The world of a run: it moves along with time, and the true poses of everything in it are recorded."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class GroundTruth:
         self._next: Nanoseconds = 0
 
     def move_to(self, moment: Nanoseconds) -> None:
-        """Let the world be where it is at `moment`, before any node does something then."""
+        """Advance the world to `moment`, before any node runs there."""
         self.scene.advance(moment / SECOND)
         if moment >= self._next:
             self._next = (moment // self._every + 1) * self._every
             self._track(moment / SECOND)
 
     def _track(self, stamp: float) -> None:
-        """Write down where everything is at `stamp`, in simulated seconds: path, tracks and contacts."""
+        """Record where everything is at `stamp`, in simulated seconds: path, tracks and contacts."""
         scene, recording = self.scene, self._recording
         first = scene.world.driven_body
         for body, pose in zip(scene.bodies, scene.poses, strict=True):

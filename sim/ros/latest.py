@@ -1,4 +1,4 @@
-"""What this process has run last: whoever asks what is going on is told of this."""
+"""The current play and the last run of this process, for `%ros2` in a cell."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sim.evidence import Recording
 
 @dataclass
 class Latest:
-    """The play under way, if one is, and the recording of the last run or play."""
+    """The current play, if any, and the recording of the last run or play."""
 
     player: Any = None  # a sim.ros.play.player.Player, which is above this
     recording: Recording | None = None

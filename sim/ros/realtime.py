@@ -1,4 +1,4 @@
-"""The programs of a world as an ordinary ROS 2 process: in real time, heard by others on this machine."""
+"""The programs of a world as an ordinary ROS 2 process: in real time, visible to others on this machine."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from sim.ros.messages.codec import type_name
 from sim.ros.robots.world_programs import programs_of
 from sim.world import Scene, World, simulate
 
-MAX_GAP = 0.5  # s; a process that was stopped for longer goes on from there instead of catching up
+MAX_GAP = 0.5  # s; a process that was stopped for longer continues from there instead of catching up
 CHATTER = INFRASTRUCTURE_TOPICS - {"/clock"}
 PATIENCE = 0.1  # s until a stop is noticed when nothing else happens
 
 
 class ArgumentsError(Exception):
-    """ROS can't read what stands after --ros-args."""
+    """ROS can't read the arguments after --ros-args."""
 
 
 def own_words(words: Sequence[str]) -> list[str]:
@@ -39,9 +39,9 @@ def own_words(words: Sequence[str]) -> list[str]:
 def _readable(words: Sequence[str]) -> Iterator[None]:
     try:
         yield
-    except RuntimeError as error:  # of rcl, which has said more on stderr
-        asked = " ".join(words[words.index("--ros-args") :])
-        raise ArgumentsError(f"ROS can't read {asked}: {error}") from None
+    except RuntimeError as error:  # of rcl, which has written more to stderr
+        arguments = " ".join(words[words.index("--ros-args") :])
+        raise ArgumentsError(f"ROS can't read {arguments}: {error}") from None
 
 
 class _Executor(SingleThreadedExecutor):
@@ -88,7 +88,7 @@ class RealTimeRun:
         rclpy.try_shutdown()
 
     def _move_on(self) -> None:
-        """Let the scene go along with the wall clock, whatever time the nodes name: theirs may be set."""
+        """Advance the scene with the wall clock, whatever the nodes' clocks show: those may be set."""
         now = monotonic()
         self._time += min(now - self._seen, MAX_GAP)
         self._seen = now
@@ -96,7 +96,7 @@ class RealTimeRun:
         self.scene.discard_history()
 
     def add(self, node: Node) -> None:
-        """Run one more node. In a run nobody asks robots for their parameters; here `ros2 param` may."""
+        """Run one more node. Only here does a robot's node get parameter services, for `ros2 param`."""
         if not any(service.srv_name.endswith("/get_parameters") for service in node.services):
             ParameterService(node)
         self.nodes.append(node)

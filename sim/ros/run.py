@@ -1,4 +1,4 @@
-"""The door of the engine: run nodes, get a recording."""
+"""The public entry of the engine: run nodes, get a recording."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def run(
         launch files: the words after `ros2 launch`, a path, or a LaunchDescription. All run side by side, as
         programs of their own; what one raises or hangs in is in the recording and never raised here.
     companions: further programs, started before these: the recording knows whose nodes are whose.
-    world: name of a world or a World, with a robot in it that hears /cmd_vel; None for no robot.
+    world: name of a world or a World, with a robot in it that subscribes to /cmd_vel; None for no robot.
     seconds: simulated time at which the run ends at the latest.
     seed: for the sensors' noise, and for `random` and numpy's generators in the nodes.
     until: called with the recording so far whenever time is about to move on; True ends the run.

@@ -170,13 +170,13 @@ class Session:
 
     def _close(self, ended: Ended) -> None:
         self.over, self.recording.ended = True, ended
-        vars(self.recording).pop("digest", None)  # `until` may have asked too early
+        vars(self.recording).pop("digest", None)  # `until` may have computed it
         if self._loop is not None:
             self._loop = None
             self.engine.close()
 
     def _clean_up(self) -> None:
-        self.engine.recorder.complained(self._stderr.close())
+        self.engine.recorder.add_stderr(self._stderr.close())
         self._screen.close()
         self._interrupted = self.engine.guard.interrupted
         self.engine = self.truth = None  # they and rclpy's nodes are full of cycles
@@ -184,7 +184,7 @@ class Session:
 
 
 def _names_around(target: Any) -> dict[str, Any]:
-    """The global names that a class or function sees, as far as that can be asked."""
+    """The global names that a class or function sees, as far as they can be found."""
     try:
         return getattr(target, "__globals__", None) or vars(sys.modules[target.__module__])
     except Exception:  # a student's class may answer such questions in any way

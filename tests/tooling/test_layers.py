@@ -37,9 +37,6 @@ SIM_ROS = (
     *("ground_truth", "latest", "launching", "session", "play", "remote", "run", "realtime"),
 )
 
-# Packages of sim and grader whose imports for annotations still form cycles.
-STILL_CYCLIC = ("sim.ros.engine", "sim.ros.recorder")
-
 # The folders of ros_packages/ that are on Python's path, and the packages that no module in them imports.
 ROS_PACKAGES = ("ros_packages/python", "ros_packages/interfaces")
 COURSE = re.compile(rf"sim|grader|{JUPYTER.pattern}|{PICTURES.pattern}|{NBGRADER.pattern}")
@@ -216,11 +213,9 @@ def test_only_the_two_packages_are_installed_and_both_have_modules():
 
 
 def test_no_imports_form_a_cycle():
-    """Not even imports for annotations, except in `STILL_CYCLIC`."""
+    """Not even imports for annotations."""
     files = {module_name(file): source for file, source in modules()}
-    assert find_cycle(import_graph(files, annotations=False)) == []
-    rest = {name: source for name, source in files.items() if not name.startswith(STILL_CYCLIC)}
-    assert find_cycle(import_graph(rest, annotations=True)) == []
+    assert find_cycle(import_graph(files, annotations=True)) == []
 
 
 def test_sim_ros_imports_in_one_direction():

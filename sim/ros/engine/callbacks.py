@@ -17,7 +17,7 @@ from sim.ros.recorder.running import RunningCallback, callback_name
 
 
 class Work(NamedTuple):
-    """One callback that is ready. entity is None for a task that goes on."""
+    """One callback that is ready. entity is None for a task."""
 
     kind: str
     entity: Any
@@ -113,7 +113,7 @@ class Callbacks:
             raise
         finally:
             stack.pop()
-            self._recorder.callback(running)
+            self._recorder.callback_returned(running)
 
     async def _recorded_coroutine(self, work: Work, running: RunningCallback) -> Any:
         self.suspended.append(running)
@@ -124,7 +124,7 @@ class Callbacks:
             raise
         finally:
             self.suspended.remove(running)
-            self._recorder.callback(running)
+            self._recorder.callback_returned(running)
             if running.group is not None:
                 running.group.ending_execution(work.entity)
 

@@ -172,7 +172,7 @@ class Engine(Scheduler):
         self.output.silent = True
         for waiter in list(self.waiters.all):
             waiter.end_coroutines()
-        for _ in range(2):  # twice, for code that goes on
+        for _ in range(2):  # twice, for code that swallows the first
             self._throw(RunOver, self.fibers)
 
     def _throw(self, stop: type[BaseException], into: list[Fiber]) -> None:
@@ -217,7 +217,7 @@ class Engine(Scheduler):
         elif error is not None:
             self.current = fiber  # for the names of its program
             if isinstance(error, SystemExit) and fiber is program.main:
-                self.recorder.exited(error, fiber.name)
+                self.recorder.program_exited(error, fiber.name)
             else:
                 self.recorder.error(error, fiber.name)
             self.current = None

@@ -57,7 +57,7 @@ class Guard:
         self.hang: Hang | None = None
         self.impatient = False  # while the run is taken down, student code gets less time
         self._stretch = -1
-        self._busy, self._tries = False, 0  # whether the stretch goes on with a busy loop
+        self._busy, self._tries = False, 0  # whether the stretch continues a busy loop
         self._known: set[CodeType] = set()  # where there were such loops
         self._computing = self._waiting = self._total = 0.0
         self._second, self._wall = 0, 0.0  # the simulated second under way, and the wall time that it took
@@ -93,7 +93,7 @@ class Guard:
             raise KeyboardInterrupt  # what a program on a robot gets
 
     def _student_code(self) -> Fiber | None:
-        """The fiber that the signal came into; None in the moment before it goes on: the hub still runs."""
+        """The fiber that the signal came into; None in the moment before it continues: the hub still runs."""
         return None if greenlet.getcurrent() is self._scheduler.hub else self._scheduler.current
 
     def _where(self, fiber: Fiber) -> str:

@@ -1,4 +1,4 @@
-"""The Stop button while something plays: an idle notebook's kernel ignores it, so the player listens."""
+"""The Stop button during a play: an idle notebook's kernel ignores it, so the player handles it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import FrameType
 
 TRIES, PAUSE = 30, 1 / 30  # s of wall time
 
-_to: Callable[[], None] | None = None  # who is told
+_to: Callable[[], None] | None = None  # called for each interrupt
 _installed = False
 
 
@@ -24,7 +24,7 @@ def _main_thread() -> bool:
 
 
 def listen(to: Callable[[], None]) -> None:
-    """Have interrupts told to somebody, where they are ignored: while a cell runs they are the cell's."""
+    """Call this for interrupts where they are ignored; while a cell runs, they are the cell's."""
     global _to, _installed
     _to = to
     if _main_thread() and signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -33,7 +33,7 @@ def listen(to: Callable[[], None]) -> None:
 
 
 async def leave(to: Callable[[], None]) -> None:
-    """Have them ignored again, unless somebody else listens by now."""
+    """Ignore them again, unless another callback is registered by now."""
     global _to, _installed
     _to = None if _to == to else _to
     for _ in range(TRIES):  # while a cell runs, the kernel has put its own handler there

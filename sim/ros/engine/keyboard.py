@@ -1,4 +1,4 @@
-"""What a program reads from stdin: the lines it was given, for in a run nobody types."""
+"""What a program reads from stdin: the lines that it was given, because a run has no keyboard."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TextIO
 
 def keyboard(lines: Sequence[str] | None) -> TextIO:
     """The stdin of a program that is given these lines; None: it is not expected to read any."""
-    return _Nobody() if lines is None else _Lines("".join(f"{line}\n" for line in lines))
+    return _NoInput() if lines is None else _Lines("".join(f"{line}\n" for line in lines))
 
 
 class _NoTerminal(io.TextIOBase):
@@ -26,8 +26,8 @@ class _Lines(_NoTerminal, io.StringIO):
     pass
 
 
-class _Nobody(_NoTerminal):
-    """Refuses to be read, where a robot's terminal would wait for ever."""
+class _NoInput(_NoTerminal):
+    """Raises when it is read, where a robot's terminal would wait for ever."""
 
     def read(self, size: int | None = -1, /) -> str:
         """As `TextIO.read`. Raises RuntimeError."""

@@ -1,4 +1,4 @@
-"""What the programs of a run print and log: shown to the user, given to who started them, and recorded."""
+"""What the programs of a run print and log: shown to the user, passed to a launch file, and recorded."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class ProgramOutput:
 
     def stdout(self, text: str) -> None:
         """The current program wrote to stdout."""
-        self._write("stdout", text, self._recorder.printed)
+        self._write("stdout", text, self._recorder.add_stdout)
 
     def stderr(self, text: str) -> None:
         """The current program wrote to stderr."""
-        self._write("stderr", text, self._recorder.complained)
+        self._write("stderr", text, self._recorder.add_stderr)
 
     def log(self, severity: Any, logger: str, text: str) -> None:
         """A node of the current program wrote a log line."""

@@ -35,7 +35,7 @@ class Process:
     host: str | None = None
 
     def command_line(self) -> list[str]:
-        """The words after the program's name that say the same."""
+        """The equivalent command-line arguments."""
         rules = [("__node", self.name)] if self.name else []
         if self.namespace:  # launch_ros, too, takes one without a slash
             rules.append(("__ns", f"{'' if str(self.namespace).startswith('/') else '/'}{self.namespace}"))

@@ -14,13 +14,13 @@ COMPLETE = "Questions._complete"  # the name of a response's callback in recordi
 
 def service_work(calls: Calls, service: Any, node: Any, request: Any, header: Any) -> Work:
     """The work of a service that has taken a request: run its callback, and send the response."""
-    call = calls.taken(service, node, header.request_id.sequence_number, request)
+    call = calls.request_taken(service, node, header.request_id.sequence_number, request)
 
     def respond(response: Any) -> None:
         expect(response, service.srv_type.Response)
         raw = encode(response)
         service.send_response(response, header)
-        calls.answered(call, raw)
+        calls.response_sent(call, raw)
 
     def answer() -> None:
         with calls.answering(call):
@@ -42,7 +42,7 @@ def response_work(calls: Calls, executor: Any, client: Any, node: Any, header: A
             future = client.get_pending_request(header.request_id.sequence_number)
         except KeyError:  # the request was removed
             return
-        calls.received(client, header.request_id.sequence_number)
+        calls.response_received(client, header.request_id.sequence_number)
         future._set_executor(executor)
         future.set_result(response)
 

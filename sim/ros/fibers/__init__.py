@@ -1,1 +1,1 @@
-"""Everything in a run happens on one thread, in one order: fibers, who goes on when, locks between them."""
+"""Everything in a run happens on one thread, in one order: fibers, their scheduler, and locks for them."""

@@ -18,10 +18,10 @@ class Hang(BaseException):
 class RemoteLost(BaseException):
     """Another process, in which nodes of the run live, is gone, silent, or sends what can't be.
 
-    It ends the run and leaves `sim.run`. A BaseException, so that nobody takes it for a node's own error.
+    It ends the run and leaves `sim.run`. A BaseException, so that it isn't handled as a node's own error.
 
-    reason: one sentence that says so. lives: whether the process is still there and listens: then it can be
-    led on, to something else. mistake: what this side ran into, where the mistake is ours.
+    reason: one sentence. lives: whether the process still runs and receives: then it can be used again.
+    mistake: the exception in this process, if the mistake is the course's.
     """
 
     def __init__(self, reason: str, lives: bool = False, mistake: Exception | None = None) -> None:

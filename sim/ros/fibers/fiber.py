@@ -1,6 +1,6 @@
 """Fibers: each `main()`, thread and parallel callback of a program runs in one, on a greenlet.
 
-A fiber runs until it has to wait; then it says what for, and returns control to the scheduler.
+A fiber runs until it has to wait; then it stores what for, and returns control to the scheduler.
 """
 
 from __future__ import annotations

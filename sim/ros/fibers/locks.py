@@ -1,4 +1,4 @@
-"""Locks for fibers: a real lock held by one would stop, for ever, the one thread that all of them share."""
+"""Locks for fibers: waiting for a real one would block, for ever, the thread that all of them share."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class FiberRLock:
             self._lock.release()
 
     def locked(self) -> bool:
-        """As `threading.RLock.locked`, which Python has since 3.14: its Condition asks for it."""
+        """As `threading.RLock.locked`, which Python has since 3.14, for its Condition."""
         return self._lock.locked()
 
     def __enter__(self) -> bool:
@@ -88,7 +88,7 @@ class FiberRLock:
     def __exit__(self, *exception: object) -> None:
         self.release()
 
-    # What threading.Condition asks of its lock:
+    # What threading.Condition needs of its lock:
 
     def _is_owned(self) -> bool:
         return self._owner == self._me()

@@ -56,7 +56,7 @@ class Scheduler:
     ) -> None:
         """Suspend the current fiber until `ready()` is true or the time is `until`.
 
-        spinning: the executor that it spins; it goes on when that is woken, or one of its timers is due.
+        spinning: the executor that it spins; it continues when that is woken, or one of its timers is due.
         """
         fiber = self.current
         assert fiber is not None, "only a fiber can wait"

@@ -17,7 +17,7 @@ class Waiter:
     """
 
     def __init__(self) -> None:
-        self.wakes = 0  # a fiber that saw fewer when it began to wait goes on
+        self.wakes = 0  # a fiber that saw fewer when it began to wait is runnable
         self.outdated = True  # entities were created or destroyed since it last looked
 
     def wake(self) -> None:
@@ -32,7 +32,7 @@ class Waiter:
         """Close what is still suspended in an `await`."""
 
     def close(self) -> None:
-        """Free what it stands for: the run is over."""
+        """The run is over: free the executor."""
 
 
 class Waiters:

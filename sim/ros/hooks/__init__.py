@@ -1,1 +1,1 @@
-"""Every place where a run reaches into rclpy or Python, with the reason."""
+"""Everything in rclpy and Python that a run replaces, with the reason."""

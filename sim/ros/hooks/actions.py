@@ -1,7 +1,7 @@
-"""Who offers and calls which action; goals for the recording.
+"""Action servers and clients for the graph; goals for the recording.
 
-What an action sends goes through C++: its topics and services never pass Python's publishers and clients. So
-it is written down where rclpy's Python decides on it.
+What an action sends goes through C++, past Python's publishers and clients. So it is recorded where rclpy's
+Python code decides on it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def _action_end(owner: type, kind: str) -> None:
                     run.waiters.endpoints_changed()
                 handle = self._handle if serves else self._client_handle
                 run.recorder.endpoint(kind, node, name, action_type, handle=handle)
-                run.recorder.goals.end_made(self, node, name, action_type, serves=serves)
+                run.recorder.goals.endpoint_created(self, node, name, action_type, serves=serves)
 
         return __init__
 
@@ -47,7 +47,7 @@ _action_end(ActionClient, "action client")
 
 def _counted(original: Callable) -> Callable:
     def counted(self: Any, *arguments: Any) -> Any:
-        run = active()  # also where another process's end sends
+        run = active()  # also where a proxy of another process sends
         if run is not None:
             run.transport.sent_by_middleware()
         return original(self, *arguments)
@@ -63,7 +63,7 @@ for _owner, _names in (
     (_rclpy.Publisher, ("publish_raw",)),
 ):
     for _name in _names:
-        hook(_owner, _name, "the ends of actions are asked only when something was sent")(_counted)
+        hook(_owner, _name, "endpoints of actions are polled only when something was sent")(_counted)
 
 
 @hook(ActionClient, "send_goal_async", "every goal is recorded as the bytes that are sent")
@@ -74,11 +74,11 @@ def send_goal_async(original: Callable) -> Callable:
             return original(self, goal, *arguments, **keywords)
         expect(goal, self._action_type.Goal)
         raw = encode(goal)
-        with run.recorder.calls.reaching(run.recorder.goals.discovered(self)):
+        with run.recorder.calls.sending(run.recorder.goals.discovered(self)):
             future = original(self, goal, *arguments, **keywords)
         run.transport.request_sent(f"{self._sim.action}/_action/send_goal")
         number, goal_id = next(reversed(self._goal_sequence_number_to_goal_id.items()))
-        run.recorder.goals.asked(self, number, goal_id, raw)
+        run.recorder.goals.goal_sent(self, number, goal_id, raw)
         return future
 
     return send_goal_async
@@ -88,7 +88,7 @@ def send_goal_async(original: Callable) -> Callable:
 def send_goal_request(original: Callable) -> Callable:
     def send_goal_request(self: Any, request: Any) -> int:
         run = engine()
-        lost = None if run is None else run.recorder.calls.lost_number()
+        lost = None if run is None else run.recorder.calls.lost_request_number()
         if lost is not None:
             return lost
         return _counted(original)(self, request)
@@ -96,18 +96,18 @@ def send_goal_request(original: Callable) -> Callable:
     return send_goal_request
 
 
-@hook(ActionClient, "server_is_ready", "who waited for a server has discovered it")
+@hook(ActionClient, "server_is_ready", "a client that finds a server ready has discovered it")
 def server_is_ready(original: Callable) -> Callable:
     def server_is_ready(self: ActionClient) -> bool:
         ready = original(self)
         if engine() is not None and ready and "_sim" in self.__dict__:
-            self._sim.looked = True
+            self._sim.server_seen = True
         return ready
 
     return server_is_ready
 
 
-@hook(ActionClient, "send_goal", "its TypeError has no words")
+@hook(ActionClient, "send_goal", "its TypeError has no text")
 def send_goal(original: Callable) -> Callable:
     def send_goal(self: ActionClient, goal: Any, **keywords: Any) -> Any:
         if engine() is not None:
@@ -117,20 +117,20 @@ def send_goal(original: Callable) -> Callable:
     return send_goal
 
 
-@hook(ActionClient, "_cancel_goal_async", "the recording knows when a client wanted to cancel")
+@hook(ActionClient, "_cancel_goal_async", "the recording has the time of each cancel request")
 def cancel_goal_async(original: Callable) -> Callable:
     def _cancel_goal_async(self: ActionClient, goal_handle: Any) -> Future:
         future = original(self, goal_handle)
         run = engine()
         if run is not None:
             run.transport.request_sent(f"{self._sim.action}/_action/cancel_goal")
-            run.recorder.goals.cancel_asked(self, goal_handle.goal_id)
+            run.recorder.goals.cancel_sent(self, goal_handle.goal_id)
         return future
 
     return _cancel_goal_async
 
 
-@hook(ActionClient, "_get_result_async", "a plain service may stand for an action server's")
+@hook(ActionClient, "_get_result_async", "a plain service may replace an action server's")
 def get_result_async(original: Callable) -> Callable:
     def _get_result_async(self: ActionClient, goal_handle: Any) -> Future:
         future = original(self, goal_handle)
@@ -142,21 +142,21 @@ def get_result_async(original: Callable) -> Callable:
     return _get_result_async
 
 
-@hook(ActionServer, "_execute_goal_request", "the recording knows which goals were rejected")
+@hook(ActionServer, "_execute_goal_request", "the recording has the goals that were rejected")
 def execute_goal_request(original: Callable) -> Callable:
     async def _execute_goal_request(self: ActionServer, request_header_and_message: tuple) -> None:
         run = engine()
         if run is None:
             return await original(self, request_header_and_message)
         _, request = request_header_and_message
-        goal = run.recorder.goals.taken(self, request.goal_id, request.goal)
+        goal = run.recorder.goals.goal_taken(self, request.goal_id, request.goal)
         await original(self, request_header_and_message)
-        return run.recorder.goals.decided(goal)
+        return run.recorder.goals.goal_handled(goal)
 
     return _execute_goal_request
 
 
-@hook(ServerGoalHandle, "__init__", "a handle is made for goals that are accepted, before anything else")
+@hook(ServerGoalHandle, "__init__", "a handle is created first of all for each accepted goal")
 def goal_handle_init(original: Callable) -> Callable:
     def __init__(
         self: ServerGoalHandle, action_server: ActionServer, goal_info: Any, goal_request: Any
@@ -164,7 +164,7 @@ def goal_handle_init(original: Callable) -> Callable:
         original(self, action_server, goal_info, goal_request)
         run = engine()
         if run is not None:
-            run.recorder.goals.accepted(action_server, goal_info.goal_id)
+            run.recorder.goals.goal_accepted(action_server, goal_info.goal_id)
 
     return __init__
 
@@ -175,7 +175,7 @@ def update_state(original: Callable) -> Callable:
         original(self, event)
         run, handle = engine(), self._goal_handle
         if run is not None and handle is not None:
-            run.recorder.goals.changed(self._action_server, self.goal_id, handle.get_status())
+            run.recorder.goals.status_changed(self._action_server, self.goal_id, handle.get_status())
 
     return _update_state
 
@@ -188,21 +188,21 @@ def publish_feedback(original: Callable) -> Callable:
             return original(self, feedback)
         expect(feedback, self._action_server.action_type.Feedback)
         original(self, feedback)
-        return run.recorder.goals.feedback(self._action_server, self.goal_id, feedback)
+        return run.recorder.goals.feedback_published(self._action_server, self.goal_id, feedback)
 
     return publish_feedback
 
 
-@hook(ActionServer, "_execute_cancel_request", "the recording knows which goals could not be canceled")
+@hook(ActionServer, "_execute_cancel_request", "the recording has the goals that could not be canceled")
 def execute_cancel_request(original: Callable) -> Callable:
     async def _execute_cancel_request(self: ActionServer, request_header_and_message: tuple) -> None:
         run = engine()
         if run is None:
             return await original(self, request_header_and_message)
         _, request = request_header_and_message
-        goal, before = run.recorder.goals.to_cancel(self, request.goal_info.goal_id)
+        goal, before = run.recorder.goals.cancel_taken(self, request.goal_info.goal_id)
         await original(self, request_header_and_message)
-        return run.recorder.goals.cancel_decided(goal, before)
+        return run.recorder.goals.cancel_handled(goal, before)
 
     return _execute_cancel_request
 
@@ -210,7 +210,7 @@ def execute_cancel_request(original: Callable) -> Callable:
 @hook(
     ActionServer,
     "_execute_goal",
-    "rclpy prints an exception of an execute callback and goes on; the recording keeps it, and the result",
+    "rclpy prints an exception of an execute callback and continues; the recording has it, and the result",
 )
 def execute_goal(original: Callable) -> Callable:
     async def _execute_goal(self: ActionServer, execute_callback: Any, goal_handle: Any) -> None:
@@ -220,7 +220,7 @@ def execute_goal(original: Callable) -> Callable:
         await original(self, run.callbacks.recorded(execute_callback, self._node), goal_handle)
         future = self._result_futures.get(key(goal_handle.goal_id))
         if future is not None and future.done():
-            run.recorder.goals.result(self, goal_handle.goal_id, future.result().result)
+            run.recorder.goals.result_ready(self, goal_handle.goal_id, future.result().result)
         return None
 
     return _execute_goal

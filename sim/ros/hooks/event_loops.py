@@ -1,4 +1,4 @@
-"""asyncio's event loops, and `select()`, wait in simulated time, and other fibers go on meanwhile."""
+"""asyncio's event loops, and `select()`, wait in simulated time while other fibers run."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def _wait(run: Any, what: str, timeout: float | None, is_ready: Callable[[], Any
         run.wait(what, ready=is_ready, until=until)
 
 
-@hook(selectors.DefaultSelector, "select", "event loops wait in it, for wall time, and no fiber could go on")
+@hook(selectors.DefaultSelector, "select", "event loops wait in it, in wall time, and no fiber could run")
 def select(original: Callable) -> Callable:
     def select(self: selectors.BaseSelector, timeout: float | None = None) -> list[Any]:
         run = engine()
@@ -32,7 +32,7 @@ def select(original: Callable) -> Callable:
     return select
 
 
-@hook(polling, "select", "it waits for wall time, and no fiber could go on")
+@hook(polling, "select", "it waits in wall time, and no fiber could run")
 def select_files(original: Callable) -> Callable:
     def select(
         rlist: Iterable[Any], wlist: Iterable[Any], xlist: Iterable[Any], timeout: float | None = None, /

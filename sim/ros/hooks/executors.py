@@ -1,4 +1,4 @@
-"""rclpy's executors ask their entities in a fixed order, and wait in simulated time."""
+"""rclpy's executors check their entities in a fixed order, and wait in simulated time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from sim.ros.engine.sim_executor import OrderedNodes, SimExecutor, never
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
-PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number; rclpy's answer depends on the machine
+PARALLEL_CALLBACKS = 4  # of a MultiThreadedExecutor() without a number: rclpy's default varies
 
 
 @hook(Executor, "__init__", "an executor's nodes are a set, whose order differs from process to process")
@@ -46,10 +46,10 @@ def _spin_once_impl(owner: type, parallel: bool) -> None:
     @hook(owner, "_spin_once_impl", "waiting for callbacks takes simulated time, and they come in one order")
     def spin(original: Callable) -> Callable:
         def _spin_once_impl(self: Any, timeout_sec: Any = None, wait_condition: Callable = never) -> None:
-            plan = self.__dict__.get("_sim")
-            if plan is None or engine() is not plan.engine:
+            sim = self.__dict__.get("_sim")
+            if sim is None or engine() is not sim.engine:
                 return original(self, timeout_sec, wait_condition)
-            return plan.spin_once(timeout_sec, wait_condition, parallel)
+            return sim.spin_once(timeout_sec, wait_condition, parallel)
 
         return _spin_once_impl
 
@@ -58,21 +58,21 @@ _spin_once_impl(SingleThreadedExecutor, parallel=False)
 _spin_once_impl(MultiThreadedExecutor, parallel=True)
 
 
-@hook(Executor, "_wait_for_ready_callbacks", "an executor of the student's own waits in simulated time, too")
+@hook(Executor, "_wait_for_ready_callbacks", "a student's own executor waits in simulated time, too")
 def wait_for_ready_callbacks(original: Callable) -> Callable:
     def _wait_for_ready_callbacks(
         self: Executor, timeout_sec: Any = None, nodes: Any = None, condition: Callable = never
     ) -> Iterator[tuple[Any, Any, Any]]:
-        plan = self.__dict__.get("_sim")
-        if plan is None or engine() is not plan.engine:
+        sim = self.__dict__.get("_sim")
+        if sim is None or engine() is not sim.engine:
             return original(self, timeout_sec, nodes, condition)
-        return plan.handlers(timeout_sec, nodes, condition)
+        return sim.handlers(timeout_sec, nodes, condition)
 
     return _wait_for_ready_callbacks
 
 
-def _changes_the_plan(name: str) -> None:
-    @hook(Executor, name, "the order of questions is planned anew when entities come or go")
+def _changes_entities(name: str) -> None:
+    @hook(Executor, name, "executors list their entities anew when some are created or destroyed")
     def method(original: Callable) -> Callable:
         def replacement(self: Executor, *arguments: Any, **keywords: Any) -> Any:
             run = engine()
@@ -84,7 +84,7 @@ def _changes_the_plan(name: str) -> None:
 
 
 for _name in ("wake", "add_node", "remove_node"):
-    _changes_the_plan(_name)
+    _changes_entities(_name)
 
 
 @hook(GuardCondition, "trigger", "there is no wait set to notice that a guard condition was triggered")

@@ -1,4 +1,4 @@
-"""What student code says and declares, for the recording: messages, endpoints, timers, log lines."""
+"""Messages, endpoints, timers and log lines of student code, for the recording."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LONGEST_BLOCKING: Nanoseconds = SECOND // 10  # of publish() while the history i
 FOR_EVER = Duration(seconds=-1)
 
 
-@hook(Node, "create_publisher", "the graph, and who sends what")
+@hook(Node, "create_publisher", "the graph, and the senders of messages")
 def create_publisher(original: Callable) -> Callable:
     def create_publisher(
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
@@ -82,7 +82,7 @@ def create_timer(original: Callable) -> Callable:
         timer = original(self, *arguments, **keywords)
         run = engine()
         if run is not None:
-            run.recorder.timer(self, timer)
+            run.recorder.timer_created(self, timer)
         return timer
 
     return create_timer
@@ -117,7 +117,7 @@ def publish(original: Callable) -> Callable:
     return publish
 
 
-@hook(Publisher, "assert_liveliness", "a sign of life counts at the run's time")
+@hook(Publisher, "assert_liveliness", "an assertion counts at the run's time")
 def assert_liveliness(original: Callable) -> Callable:
     def assert_liveliness(self: Publisher) -> None:
         original(self)
@@ -127,7 +127,7 @@ def assert_liveliness(original: Callable) -> Callable:
     return assert_liveliness
 
 
-@hook(Publisher, "wait_for_all_acked", "it waits in simulated time for what is under way")
+@hook(Publisher, "wait_for_all_acked", "it waits in simulated time for messages on the network")
 def wait_for_all_acked(original: Callable) -> Callable:
     def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
         run = engine()
@@ -142,7 +142,7 @@ def wait_for_all_acked(original: Callable) -> Callable:
     return wait_for_all_acked
 
 
-@hook(Publisher, "destroy", "its topic forgets it")
+@hook(Publisher, "destroy", "its topic removes it")
 def destroy_publisher(original: Callable) -> Callable:
     def destroy(self: Publisher) -> None:
         original(self)
@@ -152,7 +152,7 @@ def destroy_publisher(original: Callable) -> Callable:
     return destroy
 
 
-@hook(Subscription, "destroy", "its topic forgets it")
+@hook(Subscription, "destroy", "its topic removes it")
 def destroy_subscription(original: Callable) -> Callable:
     def destroy(self: Subscription) -> None:
         original(self)
@@ -162,11 +162,11 @@ def destroy_subscription(original: Callable) -> Callable:
     return destroy
 
 
-@hook(_rclpy.Destroyable, "destroy_when_not_in_use", "what stands elsewhere for an end goes with it")
+@hook(_rclpy.Destroyable, "destroy_when_not_in_use", "its proxy in another process is destroyed with it")
 def destroy_handle(original: Callable) -> Callable:
     def destroy_when_not_in_use(self: Any) -> None:
         original(self)
-        run = active()  # also for what is freed when its program has ended
+        run = active()  # also for what is freed after its program has ended
         if run is not None and run.transport.peer is not None:
             run.transport.peer.handle_destroyed()
 
@@ -182,7 +182,7 @@ def log(original: Callable) -> Callable:
     def log(severity: Any, name: str, text: str, *place: Any) -> None:
         run = engine()
         if run is None or run.transport.topics.rosout_wanted or not isinstance(text, str):
-            original(severity, name, text, *place)  # raises TypeError for what is no text
+            original(severity, name, text, *place)  # raises TypeError for what is not a str
         if run is not None:
             run.output.log(severity, name, text)
 

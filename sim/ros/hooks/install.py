@@ -1,4 +1,4 @@
-"""Puts the hooks in their places."""
+"""Installs the hooks."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     ros_time,
     services,
     threads,
-    time_and_chance,
+    time_and_random,
 )
 from sim.ros.hooks.table import HOOKS, Hook
 from sim.ros.hooks.verify import check_arguments, original_of
@@ -31,7 +31,7 @@ def install() -> None:
     """Install all hooks, once per process; raise HookError, and install none, if one doesn't fit."""
     if _replaced:
         return
-    for hook, original, replacement in [(hook, *_made(hook)) for hook in HOOKS]:
+    for hook, original, replacement in [(hook, *_replacement(hook)) for hook in HOOKS]:
         if isinstance(hook.owner, ModuleType):
             _replaced[id(original)] = (original, replacement)
         static = isinstance(vars(hook.owner)[hook.name], staticmethod)
@@ -43,8 +43,8 @@ def install() -> None:
             rebind(vars(module))
 
 
-def _made(hook: Hook) -> tuple[Any, Any]:
-    """The original that a hook reaches into, and its replacement. Raises HookError."""
+def _replacement(hook: Hook) -> tuple[Any, Any]:
+    """What a hook replaces, and its replacement. Raises HookError."""
     original = original_of(hook)
     original = original.__func__ if isinstance(original, staticmethod) else original
     replacement = hook.make(original)
@@ -53,7 +53,7 @@ def _made(hook: Hook) -> tuple[Any, Any]:
 
 
 def rebind(names: dict[str, Any]) -> None:
-    """Let names bound earlier (`from time import sleep` in a cell before) mean the hooks."""
+    """Replace names bound earlier (`from time import sleep` in a previous cell) by the hooks."""
     for name, value in list(names.items()):
         entry = _replaced.get(id(value))
         if entry is not None and entry[0] is value:

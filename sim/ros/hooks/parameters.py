@@ -1,4 +1,4 @@
-"""What a node declares as its parameters, and what others ask of them."""
+"""The parameters that nodes declare, and that others get and set."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_parameters, resolve_parameter_name
 
 
-@hook(Node, "declare_parameters", "the recording knows which names that others give or ask for are nobody's")
+@hook(Node, "declare_parameters", "the recording has the names, so that a misspelt one is found")
 def declare_parameters(original: Callable) -> Callable:
     def declare_parameters(
         self: Node, namespace: str, parameters: Sequence[Any], *more: Any, **keywords: Any
@@ -30,9 +30,9 @@ def declare_parameters(original: Callable) -> Callable:
     return declare_parameters
 
 
-@hook(ParameterService, "_get_parameters_callback", "a program that is forgiven a slip has what is asked for")
+@hook(ParameterService, "_get_parameters_callback", "lenient programs find a parameter despite a typo")
 def get_parameters(original: Callable) -> Callable:
-    @functools.wraps(original)  # a callback is told of by its name
+    @functools.wraps(original)  # the callback is recorded by its name
     def _get_parameters_callback(self: ParameterService, request: Any, response: Any) -> Any:
         if engine() is not None:
             request.names = [
@@ -43,7 +43,7 @@ def get_parameters(original: Callable) -> Callable:
     return _get_parameters_callback
 
 
-@hook(ParameterService, "_set_parameters_callback", "a program that is forgiven a slip has what is set")
+@hook(ParameterService, "_set_parameters_callback", "lenient programs set a parameter despite a typo")
 def set_parameters(original: Callable) -> Callable:
     @functools.wraps(original)
     def _set_parameters_callback(self: ParameterService, request: Any, response: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Student processes: each has its own rclpy.init(), ok() and shutdown(), over one real context."""
+"""The programs of a run: each has its own rclpy.init(), ok() and shutdown(), over one real context."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
 
-@hook(_rclpy, "Context", "two real contexts of one process would not hear each other")
+@hook(_rclpy, "Context", "two real contexts of one process would not discover each other")
 def make_context(original: Callable) -> Callable:
     def make(arguments: Sequence[str], domain_id: int) -> Any:
         run = engine()
@@ -32,7 +32,7 @@ def make_context(original: Callable) -> Callable:
     return make
 
 
-@hook(Context, "handle", "what rclpy's C++ side gets must be the real context")
+@hook(Context, "handle", "rclpy's C++ code needs the real context")
 def context_handle(original: property) -> property:
     def handle(self: Context) -> Any:
         own = original.fget(self)
@@ -66,7 +66,7 @@ _no_signal_handlers("install_signal_handlers")
 _no_signal_handlers("uninstall_signal_handlers")
 
 
-@hook(Node, "__init__", "a node gets its process's arguments, and is freed at the end of its process")
+@hook(Node, "__init__", "a node gets its program's arguments, and is destroyed when that ends")
 def node_init(original: Callable) -> Callable:
     def __init__(self: Node, node_name: str, **keywords: Any) -> None:
         run = engine()
@@ -83,7 +83,7 @@ def node_init(original: Callable) -> Callable:
             keywords["enable_rosout"] = False
         original(self, node_name, **keywords)
         process.nodes.append(self)
-        run.recorder.node(self)
+        run.recorder.node_created(self)
         if not self._allow_undeclared_parameters:
             run.recorder.parameters(self, self._parameter_overrides, declared=False)
         return None
@@ -94,7 +94,7 @@ def node_init(original: Callable) -> Callable:
 @hook(
     LifecycleNodeMixin,
     "_LifecycleNodeMixin__register_callback",
-    "rclpy swallows what the callback of a transition raises; the recording keeps it",
+    "rclpy swallows what the callback of a transition raises; the recording has it",
 )
 def register_callback(original: Callable) -> Callable:
     def __register_callback(self: LifecycleNodeMixin, state_id: int, callback: Callable) -> bool:
@@ -104,7 +104,7 @@ def register_callback(original: Callable) -> Callable:
     return __register_callback
 
 
-@hook(_rclpy, "rclpy_logging_set_logger_level", "a level set in one run must not be there in the next")
+@hook(_rclpy, "rclpy_logging_set_logger_level", "a level set in one run must not last until the next")
 def set_logger_level(original: Callable) -> Callable:
     def set_level(name: str, level: Any, *more: Any) -> Any:
         run = engine()

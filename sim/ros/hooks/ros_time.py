@@ -19,7 +19,7 @@ from sim.ros.engine.clock_switch import ClockSwitch
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
-# So long before the start of a run the computer was switched on: a steady clock has shown times before now.
+# Simulated uptime at the start of a run, so that the steady clock does not start at zero.
 UP: Nanoseconds = 3600 * SECOND
 ON_SWITCH = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
 
@@ -70,7 +70,7 @@ def attach_clock(original: Callable) -> Callable:
     return attach_clock
 
 
-@hook(ROSClock, "_set_ros_time_is_active", "who asked to be told is told, and time stays the run's")
+@hook(ROSClock, "_set_ros_time_is_active", "jump callbacks are called, and time stays the run's")
 def set_ros_time_is_active(original: Callable) -> Callable:
     def _set_ros_time_is_active(self: ROSClock, enabled: bool) -> None:
         switch = self.__dict__.get("_sim")
@@ -82,7 +82,7 @@ def set_ros_time_is_active(original: Callable) -> Callable:
     return _set_ros_time_is_active
 
 
-@hook(ROSClock, "ros_time_is_active", "rcl's own answer is yes for each clock that shows the run's time")
+@hook(ROSClock, "ros_time_is_active", "rcl returns true for each clock that shows the run's time")
 def ros_time_is_active(original: property) -> property:
     def ros_time_is_active(self: ROSClock) -> bool:
         switch = self.__dict__.get("_sim")
@@ -91,12 +91,12 @@ def ros_time_is_active(original: property) -> property:
     return property(ros_time_is_active)
 
 
-@hook(JumpHandle, "__init__", "in a run time passes, as on a robot, and never jumps, however it is moved on")
+@hook(JumpHandle, "__init__", "in a run time passes, as on a robot, and never jumps, whatever a step is")
 def jump_handle_init(original: Callable) -> Callable:
     def __init__(self: JumpHandle, *, clock: Clock, threshold: JumpThreshold, **callbacks: Any) -> None:
         original(self, clock=clock, threshold=threshold, **callbacks)
         if engine() is not None:
-            self.unregister()  # rcl would call it from outside the student's code, and even when it is gone
+            self.unregister()  # rcl would call it from outside student code, and after its destruction
             switch = clock.__dict__.get("_sim")
             if switch is not None and threshold.on_clock_change:
                 switch.add(self)
@@ -105,7 +105,7 @@ def jump_handle_init(original: Callable) -> Callable:
     return __init__
 
 
-@hook(JumpHandle, "unregister", "whoever is told of a switch is told by the run")
+@hook(JumpHandle, "unregister", "the run calls the callbacks for a switch")
 def unregister(original: Callable) -> Callable:
     def unregister(self: JumpHandle) -> None:
         switch = self.__dict__.pop("_sim", None)
@@ -128,7 +128,7 @@ def now(original: Callable) -> Callable:
     return now
 
 
-@hook(Clock, "sleep_until", "it waits in C++, where neither time nor an interrupt could reach it")
+@hook(Clock, "sleep_until", "it waits in C++, which neither simulated time nor an interrupt would end")
 def sleep_until(original: Callable) -> Callable:
     def sleep_until(self: Clock, until: Time, context: Context | None = None) -> bool:
         run = engine()

@@ -1,4 +1,4 @@
-"""Who offers and calls which service; requests for the recording."""
+"""Services and clients for the graph; requests for the recording."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from sim.ros.messages.codec import encode, expect
 
 
 def _seek(node: Node, service: Any) -> None:
-    """Let those of another process be made first: a service has one type, and who comes later is refused."""
+    """Create the proxies of another process first: an endpoint with another type than theirs is refused."""
     run = engine()
     if run is not None and run.transport.peer is not None:
-        with contextlib.suppress(_rclpy.RCLError, TypeError):  # no name: rclpy says so, when the end is made
+        with contextlib.suppress(_rclpy.RCLError, TypeError):  # not a name: rclpy raises later
             run.transport.peer.seek(node.resolve_service_name(service))
 
 
@@ -41,7 +41,7 @@ def create_service(original: Callable) -> Callable:
     return create_service
 
 
-@hook(LifecycleNodeMixin, "__init__", "the graph: its services are made past create_service()")
+@hook(LifecycleNodeMixin, "__init__", "the graph: its services are created without create_service()")
 def lifecycle_init(original: Callable) -> Callable:
     def __init__(self: LifecycleNodeMixin, **keywords: Any) -> None:
         original(self, **keywords)
@@ -58,18 +58,18 @@ def lifecycle_init(original: Callable) -> Callable:
     return __init__
 
 
-@hook(Service, "__init__", "requests wait in a service's queue; the recording knows who sent them")
+@hook(Service, "__init__", "requests wait in a service's queue; the recording has their senders")
 def service_init(original: Callable) -> Callable:
     def __init__(self: Service, *arguments: Any, **keywords: Any) -> None:
         original(self, *arguments, **keywords)
         run = engine()
         if run is not None:
-            run.recorder.calls.service_made(self)
+            run.recorder.calls.service_created(self)
 
     return __init__
 
 
-@hook(Node, "create_client", "the graph; and services are asked for requests only once there is a client")
+@hook(Node, "create_client", "the graph")
 def create_client(original: Callable) -> Callable:
     def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
         _seek(self, srv_name)
@@ -79,7 +79,7 @@ def create_client(original: Callable) -> Callable:
             run.waiters.endpoints_changed()
             name = self.resolve_service_name(srv_name)
             run.recorder.endpoint("client", self, name, srv_type, client.qos_profile, handle=client.handle)
-            run.recorder.calls.client_made(client, self, name)
+            run.recorder.calls.client_created(client, self, name)
         return client
 
     return create_client
@@ -96,21 +96,21 @@ def _looking(original: Callable) -> Callable:
 
 
 for _name in ("get_service_names_and_types", "get_service_names_and_types_by_node", "count_services"):
-    hook(Node, _name, "services of another process are made when somebody looks for them")(_looking)
+    hook(Node, _name, "another process's services get proxies when a node looks for them")(_looking)
 
 
 @hook(
     _rclpy.Client,
     "send_request",
-    "a request before discovery is lost; and services are asked for requests only when one was sent",
+    "a request before discovery is lost; and services are polled only when a request was sent",
 )
 def send_request(original: Callable) -> Callable:
     def send_request(self: Any, request: Any) -> int:
         run = active()
-        if run is not None and (lost := run.recorder.calls.lost_number()) is not None:
+        if run is not None and (lost := run.recorder.calls.lost_request_number()) is not None:
             return lost
         number = original(self, request)
-        if run is not None:  # also where another process's client asks
+        if run is not None:  # also for a proxy of another process's client
             run.transport.request_sent(self.service_name)
             run.transport.sent_by_middleware()
         return number
@@ -126,26 +126,26 @@ def call_async(original: Callable) -> Callable:
             return original(self, request)
         expect(request, self.srv_type.Request)
         raw, calls = encode(request), run.recorder.calls
-        with calls.reaching(calls.discovered(self)):
+        with calls.sending(calls.discovered(self)):
             future = original(self, request)
-        calls.asked(self, next(reversed(self._pending_requests)), raw)
+        calls.request_sent(self, next(reversed(self._pending_requests)), raw)
         return future
 
     return call_async
 
 
-@hook(Client, "service_is_ready", "who waited for a service has discovered it")
+@hook(Client, "service_is_ready", "a client that finds a service ready has discovered it")
 def service_is_ready(original: Callable) -> Callable:
     def service_is_ready(self: Client) -> bool:
         ready = original(self)
         if engine() is not None and ready and "_sim" in self.__dict__:
-            self._sim.looked = True
+            self._sim.server_seen = True
         return ready
 
     return service_is_ready
 
 
-@hook(Client, "call", "its TypeError has no words")
+@hook(Client, "call", "its TypeError has no text")
 def call(original: Callable) -> Callable:
     def call(self: Client, request: Any, timeout_sec: float | None = None) -> Any:
         if engine() is not None:

@@ -1,8 +1,8 @@
 """The table of all hooks.
 
-A hook replaces one attribute, once per process, when `sim` is imported. It asks first whether student code
-of a run is calling; if not, it does just what the original does. So the hooks are inert outside a run, and
-names that a student binds early (`from time import sleep`) go through them too.
+A hook replaces one attribute, once per process, when `sim` is imported. It checks first whether student code
+of a run is calling; if not, it does exactly what the original does. So the hooks are inert outside a run, and
+names that a student binds early (`from time import sleep`) are hooked, too.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Hook:
-    """One replaced attribute: `make(original)` gives the replacement."""
+    """One replaced attribute: `make(original)` returns the replacement."""
 
     owner: Any
     name: str
@@ -26,7 +26,7 @@ HOOKS: list[Hook] = []
 
 
 def hook(owner: Any, name: str, reason: str) -> Callable[[Callable[[Any], Any]], Callable[[Any], Any]]:
-    """Declare a hook. The decorated function gets the original and returns the replacement."""
+    """Declare a hook. The decorated function takes the original and returns the replacement."""
 
     def declare(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
         HOOKS.append(Hook(owner, name, reason, make))

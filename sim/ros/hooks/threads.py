@@ -24,7 +24,7 @@ def start(original: Callable) -> Callable:
         if run is None:
             return original(self)
         self._started.set()
-        # Not the thread's name: it counts all threads of the kernel, and would make every run different.
+        # Not the thread's name, which counts all threads of the kernel and would make every run different.
         name = f"thread {callback_name(self._target or type(self))}"
         fiber = run.spawn(self.run, name, run.current.process)
         fiber.daemon = self.daemon
@@ -49,7 +49,7 @@ def join(original: Callable) -> Callable:
     return join
 
 
-@hook(threading.Thread, "is_alive", "a thread that is a fiber has no thread to ask")
+@hook(threading.Thread, "is_alive", "a thread that is a fiber has no thread of the system")
 def is_alive(original: Callable) -> Callable:
     def is_alive(self: threading.Thread) -> bool:
         fiber: Fiber | None = getattr(self, "_sim", None)
@@ -94,15 +94,15 @@ def get_ident(original: Callable) -> Callable:
     return get_ident
 
 
-def _students_own(depth: int = 2) -> bool:
-    """Whether student code asks: in a run, or in a notebook cell (a lock made there may be used in a run)."""
+def _is_student_code(depth: int = 2) -> bool:
+    """Whether student code calls: in a run, or in a notebook cell, whose locks may be used in a run."""
     return engine() is not None or sys._getframe(depth).f_globals.get("__name__") == "__main__"
 
 
 @hook(threading, "Lock", "a lock held across a wait must not stop the other fibers")
 def lock(original: Callable) -> Callable:
     def Lock() -> Any:
-        return FiberLock() if _students_own() else original()
+        return FiberLock() if _is_student_code() else original()
 
     return Lock
 
@@ -110,7 +110,7 @@ def lock(original: Callable) -> Callable:
 @hook(threading, "RLock", "a real RLock belongs to a thread, and all fibers are one thread")
 def rlock(original: Callable) -> Callable:
     def RLock() -> Any:
-        return FiberRLock() if _students_own() else original()
+        return FiberRLock() if _is_student_code() else original()
 
     return RLock
 
@@ -118,7 +118,7 @@ def rlock(original: Callable) -> Callable:
 @hook(
     threading,
     "_allocate_lock",
-    "Condition.wait() sleeps on such a lock; Event, Queue, Semaphore and Barrier rest on it",
+    "Condition.wait() sleeps on such a lock; Event, Queue, Semaphore and Barrier use it",
 )
 def allocate_lock(original: Callable) -> Callable:
     def allocate_lock() -> Any:

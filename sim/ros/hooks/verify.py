@@ -1,4 +1,4 @@
-"""Looks whether the places that hooks reach into are what they were written for."""
+"""Verifies that what the hooks replace is what they were written for."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 class HookError(ImportError):
-    """A place that a hook reaches into is another one in the version that is installed."""
+    """What a hook replaces is different in the version that is installed."""
 
 
 def original_of(hook: Hook) -> Any:
-    """What stands now where the hook is to reach in. Raises HookError for nothing."""
+    """The attribute that the hook is to replace. Raises HookError if there is none."""
     try:
         return vars(hook.owner)[hook.name]
     except KeyError:
@@ -54,7 +54,7 @@ def _parameters(function: Callable[..., Any]) -> dict[str, Any]:
 
 
 def _rest(kind: Any) -> set[Any]:
-    """What has to take the rest, for an argument of this kind to be among it."""
+    """The kinds of variadic parameters that take an argument of this kind."""
     return {
         Parameter.POSITIONAL_OR_KEYWORD: set(_VARIADIC),
         Parameter.KEYWORD_ONLY: {Parameter.VAR_KEYWORD},

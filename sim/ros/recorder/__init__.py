@@ -1,1 +1,1 @@
-"""Writes down what a run leaves behind: messages, calls, goals, logs; and the file that they are kept in."""
+"""Records what happens in a run: messages, calls, goals, logs."""

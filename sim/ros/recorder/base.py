@@ -1,4 +1,4 @@
-"""What all parts of the recorder share: the recording, its limits, and who is running."""
+"""What all parts of the recorder share: the recording, its limits, and the running program."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class RecorderBase:
         """Simulated seconds since the start of the run."""
         return self.scheduler.now / SECOND
 
-    def maker(self) -> tuple[Nanoseconds, Program | None, bool]:
-        """What is kept of who makes an end now: when, which program, and whether that is ours."""
+    def creator(self) -> tuple[Nanoseconds, Program | None, bool]:
+        """Of an endpoint that is created now: the time, the program, and whether it is the course's."""
         fiber = self.scheduler.current
         return self.scheduler.now, None if fiber is None else fiber.process, self.is_course_node()
 
@@ -44,7 +44,7 @@ class RecorderBase:
         return self.name_of(nodes[0]) if nodes else f"/{fiber.process.name}" if fiber is not None else ""
 
     def is_course_node(self) -> bool:
-        """Whether a program that is not the student's is at work."""
+        """Whether a program of the course is running."""
         fiber = self.scheduler.current
         return fiber is not None and fiber.process.from_course
 

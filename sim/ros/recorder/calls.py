@@ -1,4 +1,4 @@
-"""Writes down the calls of services: who asked, who answered, when, and what."""
+"""Records the calls of services: client, server, request, response, and their times."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from sim.ros.recorder.records import ClientRecord, Request, ServiceRecord
 class Calls:
     """The calls of one run.
 
-    What a server takes doesn't say who sent it: rclpy hides that part of a request's header. But requests
-    come in the order they were sent. So each service has an inbox, which forgets what its queue forgets, and
-    what is taken is looked up there.
+    The client of a request that a server takes is unknown: rclpy hides that part of its header. But
+    requests arrive in the order in which they were sent. So each service has an inbox, which drops what its
+    queue drops, and what is taken is looked up there.
     """
 
     def __init__(self, recorder: RecorderBase) -> None:
         self._recorder = recorder
         self._services: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
-        self._to_nobody, self._losing = 0, False
+        self._lost_number, self._losing = 0, False
 
-    def client_made(self, client: Any, node: Any, name: str) -> None:
-        """A node made a client of the service of this resolved name."""
-        kept = {"service": name, "type": type_name(client.srv_type), "node": self._recorder.name_of(node)}
-        client._sim = ClientRecord(*self._recorder.maker(), **kept)
+    def client_created(self, client: Any, node: Any, name: str) -> None:
+        """A node created a client of the service of this resolved name."""
+        fields = {"service": name, "type": type_name(client.srv_type), "node": self._recorder.name_of(node)}
+        client._sim = ClientRecord(*self._recorder.creator(), **fields)
 
-    def service_made(self, service: Any) -> None:
-        """A node made a service: from now on requests reach it."""
+    def service_created(self, service: Any) -> None:
+        """A node created a service: from now on requests reach it."""
         profile = service.qos_profile
         keeps_last = profile.history is HistoryPolicy.KEEP_LAST
         inbox: deque[Request] = deque(maxlen=max(profile.depth, 1) if keeps_last else None)
-        service._sim = ServiceRecord(*self._recorder.maker(), service=service.service_name, inbox=inbox)
+        service._sim = ServiceRecord(*self._recorder.creator(), service=service.service_name, inbox=inbox)
         self._services[service.service_name].append(weakref.ref(service))
 
     def servers(self, service: str) -> list[Any]:
@@ -55,46 +55,45 @@ class Calls:
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
     @contextlib.contextmanager
-    def reaching(self, discovered: bool) -> Iterator[None]:
-        """For the time in which a request or a goal is sent; it is lost where nobody was discovered."""
+    def sending(self, discovered: bool) -> Iterator[None]:
+        """A request or a goal is sent in this block; it is lost if no server was discovered."""
         self._losing = not discovered
         try:
             yield
         finally:
             self._losing = False
 
-    def lost_number(self) -> int | None:
-        """The number of a request that nobody gets, below 0; None where requests are sent."""
+    def lost_request_number(self) -> int | None:
+        """The number, below 0, of a request that reaches no server; None if requests are sent now."""
         if not self._losing:
             return None
-        self._to_nobody -= 1
-        return self._to_nobody
+        self._lost_number -= 1
+        return self._lost_number
 
-    def asked(self, client: Any, number: int, raw: bytes) -> None:
+    def request_sent(self, client: Any, number: int, raw: bytes) -> None:
         """A client sent a request; one of a number below 0 gets lost."""
         recorder = self._recorder
         if not recorder.open:
             return
-        kept: ClientRecord = client._sim
-        recorder.count(kept.node, len(raw))
-        raw = canonical(f"{kept.type}_Request", raw)
-        call = Call(
-            kept.service, kept.type, kept.node, raw, recorder.now, requested_by_course=kept.from_course
-        )
-        there = [] if number < 0 else self.servers(kept.service)
+        record: ClientRecord = client._sim
+        recorder.count(record.node, len(raw))
+        raw = canonical(f"{record.type}_Request", raw)
+        about = record.service, record.type, record.node, raw, recorder.now
+        call = Call(*about, requested_by_course=record.from_course)
+        there = [] if number < 0 else self.servers(record.service)
         call.lost = not there
         recorder.recording.calls.append(call)
-        request = kept.requests[number] = number, [call]
+        request = record.requests[number] = number, [call]
         for server in there:
             server._sim.inbox.append(request)
 
-    def taken(self, service: Any, node: Any, number: int, request: Any) -> Call:
-        """A service took a request; gives the call that goes on with it."""
+    def request_taken(self, service: Any, node: Any, number: int, request: Any) -> Call:
+        """A service took a request; returns the call that it belongs to."""
         recorder, type_ = self._recorder, type_name(service.srv_type)
         raw = canonical(f"{type_}_Request", encode(request))
-        calls = self.sent(service, number, raw)
+        calls = self.calls_of(service, number, raw)
         call = calls[0] if calls and not calls[0].server else None
-        if call is None:  # another server has this request too, or it was sent past rclpy's clients
+        if call is None:  # another server has this request too, or no rclpy Client sent it
             first = calls[0] if calls else Call("", "", "", b"", None)
             call = Call(
                 service._sim.service,
@@ -117,13 +116,13 @@ class Calls:
         known = (service() for services in self._services.values() for service in services)
         return [found for found in known if found is not None and found._sim.inbox and alive(found.handle)]
 
-    def sent(self, service: Any, number: int, raw: bytes) -> list[Call]:
-        """The calls of a request that a service's queue gave out; [] for one sent past rclpy's clients."""
+    def calls_of(self, service: Any, number: int, raw: bytes) -> list[Call]:
+        """The calls of a request that a service has taken; [] for one that no rclpy Client sent."""
         return _take(service._sim.inbox, number, raw)
 
     @contextlib.contextmanager
     def answering(self, call: Call) -> Iterator[None]:
-        """For the time in which a service's callback runs and its response is sent."""
+        """A service's callback runs and its response is sent in this block."""
         try:
             yield
         except Exception as error:
@@ -131,24 +130,24 @@ class Calls:
                 call.raised = type(error).__name__
             raise
 
-    def answered(self, call: Call, raw: bytes) -> None:
+    def response_sent(self, call: Call, raw: bytes) -> None:
         """A service sent its response."""
         recorder = self._recorder
         if recorder.open:
             recorder.count(call.server, len(raw))
             call.raw_response, call.answered = canonical(f"{call.type}_Response", raw), recorder.now
 
-    def received(self, client: Any, number: int) -> None:
+    def response_received(self, client: Any, number: int) -> None:
         """A client's future got the first response to a request."""
-        kept: ClientRecord | None = client.__dict__.get("_sim")
-        _, calls = kept.requests.pop(number, (number, [])) if kept is not None else (number, [])
+        record: ClientRecord | None = client.__dict__.get("_sim")
+        _, calls = record.requests.pop(number, (number, [])) if record is not None else (number, [])
         answered = [call for call in calls if call.answered is not None]
         if answered and self._recorder.open:
             min(answered, key=lambda call: call.answered).received = self._recorder.now
 
 
 def alive(handle: Any) -> bool:
-    """Whether what rclpy has this handle for was not destroyed yet."""
+    """Whether the object of rclpy that has this handle was not destroyed yet."""
     try:
         with handle:
             return True

@@ -1,4 +1,4 @@
-"""Writes down the goals of actions: asked, accepted, executed, canceled; feedback and results."""
+"""Records the goals of actions: sent, accepted, executed, canceled; feedback and results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ WORDS = {
     if name.startswith("STATUS_")
 }
 
-BEYOND_CANCEL = ("canceling", *ENDINGS)  # statuses in which rclpy refuses to cancel, and asks nobody
+BEYOND_CANCEL = ("canceling", *ENDINGS)  # statuses in which rclpy refuses to cancel, and calls no callback
 
 
 def key(goal_id: Any) -> bytes:
@@ -30,7 +30,7 @@ def key(goal_id: Any) -> bytes:
 
 
 class Goals:
-    """The goals of one run, found again by their ids; the ends of an action carry its name and type."""
+    """The goals of one run, by their ids."""
 
     def __init__(self, recorder: RecorderBase) -> None:
         self._recorder = recorder
@@ -38,46 +38,46 @@ class Goals:
         self._ends: list[weakref.ref[Any]] = []  # of all actions
         self._servers: dict[str, list[weakref.ref[Any]]] = defaultdict(list)
 
-    def end_made(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
-        """A node made an action server or an action client; `name` is the action's resolved name."""
+    def endpoint_created(self, end: Any, node: Any, name: str, type_: type, *, serves: bool) -> None:
+        """A node created an action server or an action client; `name` is the action's resolved name."""
         self._ends.append(weakref.ref(end))
         if serves:
             self._servers[name].append(weakref.ref(end))
         recorder = self._recorder
-        kept = {"action": name, "type": type_name(type_), "node": recorder.name_of(node)}
-        end._sim = ActionRecord(*recorder.maker(), **kept)
+        fields = {"action": name, "type": type_name(type_), "node": recorder.name_of(node)}
+        end._sim = ActionRecord(*recorder.creator(), **fields)
 
     def endpoints(self) -> list[Any]:
         """The action servers and clients that exist."""
         return [endpoint for known in self._ends if (endpoint := known()) is not None]
 
-    def known(self, action: str, goal_id: Any) -> list[Goal]:
-        """Goals of this id, the first first: more than one if an id is used again, or two servers take it."""
+    def with_id(self, action: str, goal_id: Any) -> list[Goal]:
+        """Goals of this id, oldest first: more than one if an id is used again, or two servers take it."""
         return self._by_id.setdefault((action, key(goal_id)), [])
 
     def _known(self, end: Any, goal_id: Any) -> list[Goal]:
-        return self.known(end._sim.action, goal_id)
+        return self.with_id(end._sim.action, goal_id)
 
     def _event(self, goal: Goal | None, word: str) -> None:
         if goal is not None and self._recorder.open:
             goal.events.append((self._recorder.now, word))
 
-    def new(self, end: Any, client: str, goal_id: Any, raw: bytes, asked: float | None) -> Goal:
-        """Begin the record of a goal; `end` is its client, or a server that took what no client here sent."""
-        kept: ActionRecord = end._sim
-        self._recorder.count(kept.node, len(raw))
-        raw = canonical(f"{kept.type}_Goal", raw)
-        goal = Goal(kept.action, kept.type, client, key(goal_id).hex(), raw, asked)
+    def add(self, end: Any, client: str, goal_id: Any, raw: bytes, requested: float | None) -> Goal:
+        """Begin to record a goal; `end` is its client, or a server that took what no client here sent."""
+        record: ActionRecord = end._sim
+        self._recorder.count(record.node, len(raw))
+        raw = canonical(f"{record.type}_Goal", raw)
+        goal = Goal(record.action, record.type, client, key(goal_id).hex(), raw, requested)
         self._recorder.recording.goals.append(goal)
         self._known(end, goal_id).append(goal)
         return goal
 
     # -- what clients do ---------------------------------------------------------------------------
 
-    def asked(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
+    def goal_sent(self, client: Any, number: int, goal_id: Any, raw: bytes) -> None:
         """A client sent a goal; one of a number below 0 gets lost."""
         if self._recorder.open:
-            goal = self.new(client, client._sim.node, goal_id, raw, self._recorder.now)
+            goal = self.add(client, client._sim.node, goal_id, raw, self._recorder.now)
             client._sim.goals[number], goal.requested_by_course = goal, client._sim.from_course
             goal.lost = number < 0 or not self._there(goal.action)
 
@@ -91,23 +91,23 @@ class Goals:
         return client._sim.reaches(there, self._recorder.scheduler.now)
 
     def client_of(self, action: str, goal_id: Any) -> str:
-        """The node that sent a goal; nothing for one sent past rclpy's clients."""
-        known = self.known(action, goal_id)
+        """The node that sent a goal; "" for one that no ActionClient sent."""
+        known = self.with_id(action, goal_id)
         return known[0].client if known else ""
 
     def server_of(self, action: str) -> str:
-        """The node that takes goals of this action; nothing where none does."""
+        """The node that takes goals of this action; "" if none does."""
         servers = (known() for known in self._servers[action])
         return next((server._sim.node for server in servers if server is not None), "")
 
-    def cancel_asked(self, client: Any, goal_id: Any) -> None:
-        """A client asked for a goal to be canceled."""
+    def cancel_sent(self, client: Any, goal_id: Any) -> None:
+        """A client requested the cancellation of a goal."""
         for goal in self._known(client, goal_id):
             if goal.status != REJECTED:
                 self._event(goal, CANCEL_REQUESTED)
 
     def client_took(self, client: Any, data: dict[str, Any]) -> None:
-        """A client took from its queues what it waited for, as rclpy's take_data() gives it."""
+        """A client took this from its queues, as rclpy's take_data() returns it."""
         if not self._recorder.open:
             return
         goal = client._sim.goals.pop(data["goal"][0], None) if "goal" in data else None
@@ -122,45 +122,45 @@ class Goals:
 
     # -- what servers do ---------------------------------------------------------------------------
 
-    def taken(self, server: Any, goal_id: Any, request: Any) -> Goal | None:
-        """A server took the request for a goal; gives the goal, or None after the end of the run."""
+    def goal_taken(self, server: Any, goal_id: Any, request: Any) -> Goal | None:
+        """A server took the request for a goal; returns the goal, or None after the end of the run."""
         if not self._recorder.open:
             return None
         known = self._known(server, goal_id)
         goal = next((goal for goal in known if not goal.server and not goal.lost), None)
-        if goal is None:  # another server has it too, or it was sent past rclpy's clients
-            client, asked = (known[0].client, known[0].requested) if known else ("", None)
-            goal = self.new(server, client, goal_id, encode(request), asked)
+        if goal is None:  # another server has it too, or no ActionClient sent it
+            client, requested = (known[0].client, known[0].requested) if known else ("", None)
+            goal = self.add(server, client, goal_id, encode(request), requested)
             goal.requested_by_course = known[0].requested_by_course
         goal.server, goal.served_by_course = server._sim.node, server._sim.from_course
         if key(goal_id) not in server._goal_handles:  # rclpy refuses an id that it knows already
             server._sim.goals[key(goal_id)] = goal
         return goal
 
-    def decided(self, goal: Goal | None) -> None:
-        """A server is done with the request for a goal; what it accepted is written down already."""
+    def goal_handled(self, goal: Goal | None) -> None:
+        """A server has handled the request for a goal; an accepted one is recorded already."""
         if goal is not None and not goal.status:
             self._event(goal, REJECTED)
 
-    def accepted(self, server: Any, goal_id: Any) -> None:
+    def goal_accepted(self, server: Any, goal_id: Any) -> None:
         """A server accepted a goal."""
         self._event(server._sim.goals.get(key(goal_id)), "accepted")
 
-    def changed(self, server: Any, goal_id: Any, status: int) -> None:
+    def status_changed(self, server: Any, goal_id: Any, status: int) -> None:
         """A goal has another status: a number of action_msgs/msg/GoalStatus."""
         self._event(server._sim.goals.get(key(goal_id)), WORDS[status])
 
-    def to_cancel(self, server: Any, goal_id: Any) -> tuple[Goal | None, str]:
-        """A server took the request to cancel a goal; gives the goal and its status."""
+    def cancel_taken(self, server: Any, goal_id: Any) -> tuple[Goal | None, str]:
+        """A server took the request to cancel a goal; returns the goal and its status."""
         goal = server._sim.goals.get(key(goal_id))
         return goal, goal.status if goal is not None else ""
 
-    def cancel_decided(self, goal: Goal | None, before: str) -> None:
-        """A server is done with the request to cancel a goal that had this status before."""
+    def cancel_handled(self, goal: Goal | None, before: str) -> None:
+        """A server has handled the request to cancel a goal that had this status before."""
         if goal is not None and (before in BEYOND_CANCEL or goal.at("canceling") is None):
             self._event(goal, CANCEL_REJECTED)
 
-    def feedback(self, server: Any, goal_id: Any, message: Any) -> None:
+    def feedback_published(self, server: Any, goal_id: Any, message: Any) -> None:
         """A server published feedback on a goal."""
         goal, recorder = server._sim.goals.get(key(goal_id)), self._recorder
         if goal is not None and recorder.open:
@@ -170,8 +170,8 @@ class Goals:
             raw = canonical(type_, raw)
             goal.feedback.append(Message(recorder.now, topic, type_, goal.server, raw, goal.served_by_course))
 
-    def result(self, server: Any, goal_id: Any, message: Any) -> None:
-        """A server has the result of a goal, which it gives to those who ask."""
+    def result_ready(self, server: Any, goal_id: Any, message: Any) -> None:
+        """A server has the result of a goal, which clients can get."""
         goal = server._sim.goals.get(key(goal_id))
         if goal is not None and self._recorder.open:
             goal.raw_result = canonical(f"{goal.type}_Result", encode(message))

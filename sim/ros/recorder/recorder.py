@@ -1,4 +1,4 @@
-"""Fills the recording while the run goes on: the hooks report here what student code does."""
+"""Fills the recording during the run: the hooks report here what programs do."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from sim.ros.messages.codec import type_name
 from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import Calls
 from sim.ros.recorder.goals import Goals
-from sim.ros.recorder.records import OwnEnd
+from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.recorder.running import RunningCallback, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
 
@@ -58,49 +58,49 @@ class Recorder(RecorderBase):
     def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
         super().__init__(scheduler, recording)
         self.calls, self.goals = Calls(self), Goals(self)
-        self.ends: list[OwnEnd] = []  # all that were made, ROS's own included
-        self._ours: set[str] = set()  # names of nodes that are not the student's
-        self._theirs: set[str] = set()  # and of those that are
+        self.declared: list[DeclaredEndpoint] = []  # all endpoints, ROS's own included
+        self._course_nodes: set[str] = set()  # names
+        self._student_nodes: set[str] = set()
         self._printed = 0
         self._known: list[BaseException] = []
-        self._unheard: set[tuple[str, str]] = set()  # nodes and topics
+        self._undelivered: set[tuple[str, str]] = set()  # nodes and topics
         self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
 
-    def node(self, node: Any) -> None:
-        """A node was made."""
+    def node_created(self, node: Any) -> None:
+        """A node was created."""
         name = self.node_names[id(node)] = node.get_fully_qualified_name()
         if not self.open:
             return
         fiber = self.scheduler.current
-        self.named(
+        self.node_named(
             name, from_course=self.is_course_node(), host=LAPTOP if fiber is None else fiber.process.host
         )
 
-    def named(self, name: str, *, from_course: bool, host: str = LAPTOP) -> None:
-        """There is a node of this full name, of a program that is ours or the student's."""
+    def node_named(self, name: str, *, from_course: bool, host: str = LAPTOP) -> None:
+        """There is a node of this full name, of a program of the course or of the student."""
         self.recording.graph.nodes.append(name)
         if self.recording.network is not None:
             self.recording.hosts[name] = host
-        (self._ours if from_course else self._theirs).add(name)
-        self.recording.course_nodes = self._ours - self._theirs
-        self.recording.shared = self._ours & self._theirs
+        (self._course_nodes if from_course else self._student_nodes).add(name)
+        self.recording.course_nodes = self._course_nodes - self._student_nodes
+        self.recording.shared = self._course_nodes & self._student_nodes
 
     def endpoint(
         self, kind: str, node: Any, name: str, type_: type, qos: Any = None, *, handle: Any = None
     ) -> None:
-        """A node declared one end of a topic, service or action. handle: rclpy's, if it has one."""
+        """A node created an endpoint of a topic, service or action. handle: rclpy's, if it has one."""
         if not self.open:
             return
         of = self.name_of(node)
         if handle is not None:
-            self.ends.append(OwnEnd(kind, node.handle, of, name, type_, qos, handle))
+            self.declared.append(DeclaredEndpoint(kind, node.handle, of, name, type_, qos, handle))
         if name not in INFRASTRUCTURE_TOPICS and not is_node_service(name):
             chosen = {} if qos is None else settings(qos)
             end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_course_node())
             self.recording.graph.endpoints.append(end)
 
-    def timer(self, node: Any, timer: Any) -> None:
-        """A node made a timer."""
+    def timer_created(self, node: Any, timer: Any) -> None:
+        """A node created a timer."""
         if self.open:
             info = TimerInfo(
                 self.name_of(node), timer.timer_period_ns / SECOND, callback_name(timer.callback)
@@ -117,25 +117,25 @@ class Recorder(RecorderBase):
         self.recording.published.append(Message(self.now, topic, type_, sender, raw, from_course, early))
 
     def log(self, severity: int, logger: str, text: str) -> LogLine | None:
-        """A node wrote a log line; None if it isn't kept."""
+        """A node wrote a log line; None if it isn't recorded."""
         if not self.open or len(self.recording.logs) >= MAX_LOG_LINES:
             return None
         line = LogLine(self.now, LEVELS.get(int(severity), "INFO"), logger, text, self.is_course_node())
         self.recording.logs.append(line)
         return line
 
-    def printed(self, text: str) -> None:
+    def add_stdout(self, text: str) -> None:
         """Student code wrote to stdout."""
         self._printed += len(text)
         if self.open and self._printed < MAX_PRINTED:
             self.recording.prints.append((self.now, text))
 
-    def complained(self, text: str) -> None:
+    def add_stderr(self, text: str) -> None:
         """Student code, or a library that it called, wrote to stderr."""
         if len(self.recording.stderr) < MAX_PRINTED:
             self.recording.stderr += text
 
-    def callback(self, running: RunningCallback) -> None:
+    def callback_returned(self, running: RunningCallback) -> None:
         """A callback has returned."""
         if self.open:
             began = running.began / SECOND
@@ -145,14 +145,14 @@ class Recorder(RecorderBase):
             )
 
     def error(self, error: BaseException, callback: str, node: str | None = None) -> None:
-        """An exception left a callback, a thread or a main(). The same one is kept once."""
+        """An exception left a callback, a thread or a main(). The same one is recorded once."""
         if not isinstance(error, NO_FAULT):
-            self._keep(error, callback, node)
+            self._record(error, callback, node)
 
     def undelivered(self, sender: str, topic: str) -> None:
-        """A message was too early for a listener; the first one of a node on a topic is kept."""
-        if (sender, topic) not in self._unheard:
-            self._unheard.add((sender, topic))
+        """A message was sent before a subscription was discovered; recorded once for a node and topic."""
+        if (sender, topic) not in self._undelivered:
+            self._undelivered.add((sender, topic))
             if self.open and topic not in INFRASTRUCTURE_TOPICS:
                 self.recording.undelivered.append(UndeliveredMessage(self.now, sender, topic))
 
@@ -163,14 +163,14 @@ class Recorder(RecorderBase):
             self.recording.parameters += [ParameterName(self.now, of, name, declared) for name in names]
 
     def crossing(self, topic: str, sender: str, listener: str) -> Crossing:
-        """Where to count what becomes of messages on the network from this node to that one."""
+        """The counts of what happens to messages on the network from this node to that one."""
         row = Crossing(topic, sender, listener)
         if self.open and topic not in INFRASTRUCTURE_TOPICS:
             self.recording.crossings.append(row)
         return row
 
     def busy_loop(self, fiber: Fiber, line: str) -> None:
-        """A fiber loops without a pause; kept once. line: where, as the end of a sentence."""
+        """A fiber loops without a pause; recorded once. line: where, as the end of a sentence."""
         if not self.open or fiber.process.from_course:
             return
         running = fiber.callbacks[-1] if fiber.callbacks else None
@@ -179,25 +179,25 @@ class Recorder(RecorderBase):
             self._busy.add((node, what))
             self.recording.busy_loops.append(BusyLoop(self.now, node, f"{what}{line}"))
 
-    def exited(self, exit_: SystemExit, program: str) -> None:
-        """A program ended itself; as for a shell, every status but 0 says that it failed."""
+    def program_exited(self, exit_: SystemExit, program: str) -> None:
+        """A program ended itself; as for a shell, every status except 0 is a failure."""
         if exit_.code:
-            self._keep(exit_, program, None)
+            self._record(exit_, program, None)
 
-    def _keep(self, error: BaseException, callback: str, node: str | None) -> None:
+    def _record(self, error: BaseException, callback: str, node: str | None) -> None:
         if not self.open or any(known is error for known in self._known):
             return
         self._known.append(error)
         name = node if node is not None else self.name_of(None)
-        kept = CallbackError(
+        row = CallbackError(
             self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
         )
-        self.recording.errors.append(kept)
+        self.recording.errors.append(row)
         if self.is_course_node():
-            self.recording.course_errors.append(kept)
+            self.recording.course_errors.append(row)
 
     def close(self) -> None:
-        """The run is over: what student code does while it is taken down is not evidence."""
+        """The run is over: what student code does while it is torn down is not evidence."""
         self.open = False
         self._known.clear()
-        self.ends.clear()
+        self.declared.clear()

@@ -22,26 +22,26 @@ Request = tuple[int, list[Call]]
 
 
 @dataclass(slots=True)
-class EndRecord:
-    """Of any end of a service or an action. program: None for an end that stands for another process's."""
+class EndpointRecord:
+    """Of any endpoint of a service or an action. program: None if it represents one of another process."""
 
-    made: Nanoseconds
+    created_at: Nanoseconds
     program: Program | None
-    from_course: bool = False  # made by a program that is not the student's
-    looked: bool = field(default=False, init=False)  # a client that was told that a server is there
+    from_course: bool = False  # created by a program of the course
+    server_seen: bool = field(default=False, init=False)  # a client has found that a server is ready
 
-    def knows(self, server: EndRecord, now: Nanoseconds) -> bool:
+    def has_discovered(self, server: EndpointRecord, now: Nanoseconds) -> bool:
         """Whether a client has discovered a server. Two programs need time for that, or one waits for it."""
-        at_home = self.program is not None and self.program is server.program
-        return self.looked or at_home or now > max(self.made, server.made)
+        same_program = self.program is not None and self.program is server.program
+        return self.server_seen or same_program or now > max(self.created_at, server.created_at)
 
-    def reaches(self, servers: Sequence[EndRecord], now: Nanoseconds) -> bool:
-        """Whether what a client sends gets to a server; where there is none, that is no question."""
-        return not servers or any(self.knows(server, now) for server in servers)
+    def reaches(self, servers: Sequence[EndpointRecord], now: Nanoseconds) -> bool:
+        """Whether what a client sends reaches a server, if there is one."""
+        return not servers or any(self.has_discovered(server, now) for server in servers)
 
 
 @dataclass(slots=True, kw_only=True)
-class ClientRecord(EndRecord):
+class ClientRecord(EndpointRecord):
     """Of a client."""
 
     service: str  # resolved name
@@ -51,8 +51,8 @@ class ClientRecord(EndRecord):
 
 
 @dataclass(slots=True, kw_only=True)
-class ServiceRecord(EndRecord):
-    """Of a service. What its queue forgets, the inbox forgets."""
+class ServiceRecord(EndpointRecord):
+    """Of a service. The inbox drops what its queue drops."""
 
     service: str  # resolved name
     inbox: deque[Request]
@@ -62,8 +62,8 @@ class ServiceRecord(EndRecord):
 
 
 @dataclass(slots=True, kw_only=True)
-class ActionRecord(EndRecord):
-    """Of an action server, with the goals that it goes on with, by id; or of a client, by their number."""
+class ActionRecord(EndpointRecord):
+    """Of an action server, with its unfinished goals by id; or of a client, with them by number."""
 
     action: str  # resolved name
     type: str
@@ -73,8 +73,8 @@ class ActionRecord(EndRecord):
     swept: Nanoseconds = -1  # when it last looked for goals that have expired
 
 
-class OwnEnd(NamedTuple):
-    """One end of a topic, service or action that a node of this process has, with rclpy's own handles."""
+class DeclaredEndpoint(NamedTuple):
+    """An endpoint of a topic, service or action that a node of this process has, with rclpy's handles."""
 
     kind: str
     node: Any

@@ -31,7 +31,7 @@ def student_traceback(error: BaseException) -> str:
 
 
 def text_of(error: BaseException) -> str:
-    """What an exception says."""
+    """The text of an exception."""
     try:
         return str(error)
     except Exception:  # a student's class may raise here too
@@ -39,7 +39,7 @@ def text_of(error: BaseException) -> str:
 
 
 def student_line(frame: FrameType | None) -> str:
-    """Where in the student's own code a stack stands, for the end of a sentence."""
+    """Where in the student's own code a stack is, for the end of a sentence."""
     while frame is not None and is_library(frame.f_code.co_filename):
         frame = frame.f_back
     if frame is None:

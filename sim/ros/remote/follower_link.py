@@ -172,11 +172,11 @@ class FollowerLink(ProcessLink):
         """Record the response, where the client in this process looks for it, then send it."""
         for open_call in self._calls:
             if open_call.key == key:
-                self.engine.recorder.calls.answered(open_call.call, raw)
+                self.engine.recorder.calls.response_sent(open_call.call, raw)
         request = super().answered(key, service, response, raw)
         if service.name.endswith(RESULT_SERVICE):
             action = service.name.removesuffix(RESULT_SERVICE)
-            for goal in self.engine.recorder.goals.known(action, request.goal_id):
+            for goal in self.engine.recorder.goals.with_id(action, request.goal_id):
                 goal.raw_result = goal.raw_result or encode(response.result)
         return request
 

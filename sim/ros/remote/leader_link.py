@@ -81,7 +81,7 @@ class LeaderLink(ProcessLink):
         """Record the response, then send it to the client."""
         call = self._calls.pop(key, None)
         if call is not None:
-            self.engine.recorder.calls.answered(call, raw)
+            self.engine.recorder.calls.response_sent(call, raw)
         return super().answered(key, service, response, raw)
 
     # -- calls within the follower, and progress of calls -------------------------------------------
@@ -113,12 +113,12 @@ class LeaderLink(ProcessLink):
         if event.key in self._answering:
             raise ProtocolError("a response without a receiver")
         _, bytes_ = valid_message(event.raw, message_class(f"{call.type}_Response"), "a response")
-        self.engine.recorder.calls.answered(call, bytes_)
+        self.engine.recorder.calls.response_sent(call, bytes_)
 
     def _call_received(self, event: events.CallReceived) -> None:
         if valid_int(event.key, "a key") in self._sent:
             client, asked = self._sent.pop(event.key)
-            self.engine.recorder.calls.received(client, asked)
+            self.engine.recorder.calls.response_received(client, asked)
         else:
             self._known(event.key, self._calls, "a call").received = self._now
 
@@ -134,7 +134,7 @@ class LeaderLink(ProcessLink):
             raise ProtocolError("an invalid goal id") from None
         _, bytes_ = valid_message(event.raw, cls.Goal, "a goal")
         if not event.client:  # a goal of the leader, taken by a server of the follower
-            waiting = [goal for goal in goals.known(action, goal_id) if not goal.server and not goal.lost]
+            waiting = [goal for goal in goals.with_id(action, goal_id) if not goal.server and not goal.lost]
             if not waiting:
                 raise ProtocolError("a goal that no client has sent")
             self._goals[key] = waiting[0]
@@ -143,7 +143,7 @@ class LeaderLink(ProcessLink):
         end = self.proxies.action(client, action, type_name(cls))
         if end is None:
             raise ProtocolError(f"a goal of {action!r}, of which {client!r} has no client")
-        goal = self._goals[key] = goals.new(end, client, goal_id, bytes_, self._now)
+        goal = self._goals[key] = goals.add(end, client, goal_id, bytes_, self._now)
         goal.lost = bool(event.lost)
 
     def _goal_started(self, event: events.GoalStarted) -> None:

@@ -9,7 +9,7 @@ from rclpy.qos import DurabilityPolicy
 
 from sim.ros.messages.codec import type_name
 from sim.ros.recorder.calls import alive
-from sim.ros.recorder.records import OwnEnd
+from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.remote.events import EndpointDeclared, EndpointsDestroyed
 from sim.ros.remote.new_items import NewItems
 from sim.ros.remote.validation import qos_to_list
@@ -22,17 +22,17 @@ class LocalEndpoints:
     latched: topics whose late subscribers get earlier messages.
     """
 
-    def __init__(self, endpoints: list[OwnEnd], keys: Iterator[int]) -> None:
+    def __init__(self, endpoints: list[DeclaredEndpoint], keys: Iterator[int]) -> None:
         self._new, self._keys = NewItems(endpoints), keys
         self._nodes: dict[int, int] = {}  # id of a node's handle -> its number
-        self._endpoints: dict[int, OwnEnd] = {}  # by number, while they exist
+        self._endpoints: dict[int, DeclaredEndpoint] = {}  # by number, while they exist
         self.latched: set[str] = set()
 
     def skip_new(self) -> None:
         """Ignore endpoints that were just added on behalf of the other process."""
         self._new.take()
 
-    def get(self, number: Any) -> OwnEnd | None:
+    def get(self, number: Any) -> DeclaredEndpoint | None:
         """The endpoint with this number, or None if it does not exist."""
         return self._endpoints.get(number)
 

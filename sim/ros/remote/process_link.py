@@ -51,7 +51,7 @@ class ProcessLink:
         self.seek = self.proxies.seek
         self.outgoing: list[Any] = []  # events for the other process
         self.keys = itertools.count(keys, 2)
-        self.local = LocalEndpoints(engine.recorder.ends, self.keys)
+        self.local = LocalEndpoints(engine.recorder.declared, self.keys)
         self._answering: dict[int, ProxyService] = {}  # requests of this process without a response yet
         self._repeated: list[tuple[str, Any]] = []  # requests to a service that both processes offer
         self._new_messages = NewItems(engine.recording.published)
@@ -134,7 +134,7 @@ class ProcessLink:
         key, raw, call = next(self.keys), encode(request), None
         if not service.of_action:
             raw = canonical(f"{type_name(service.type)}_Request", raw)
-            calls = self.engine.recorder.calls.sent(service, header.sequence_number, raw)
+            calls = self.engine.recorder.calls.calls_of(service, header.sequence_number, raw)
             call = calls[0] if calls else None
         service.waiting[key] = header, request
         self._answering[key] = service
@@ -222,7 +222,7 @@ class ProcessLink:
             self._repeated.append((service, request))
         number = client.send(key, request)
         if not client.of_action:
-            self.engine.recorder.calls.asked(client, number, bytes_)
+            self.engine.recorder.calls.request_sent(client, number, bytes_)
             self.request_received(key, client, number)
 
     def request_received(self, key: int, client: ProxyClient, number: int) -> None:

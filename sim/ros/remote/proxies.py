@@ -136,7 +136,7 @@ class Proxies:
         if kind in ACTIONS and proxies:
             action = self.actions[number] = ProxyAction(proxies[0].handle)
             serves = kind == "action server"
-            self._engine.recorder.goals.end_made(action, node, name, type_, serves=serves)
+            self._engine.recorder.goals.endpoint_created(action, node, name, type_, serves=serves)
         self._engine.waiters.endpoints_changed()
 
     def _create_later(self, number: int, node: ProxyNode, type_: type, name: str, profile: Any) -> None:
@@ -147,7 +147,7 @@ class Proxies:
         self._deferred[number] = name, partial(self._create, number, node, "service", type_, name, profile)
 
     def _is_looked_up(self, service: str) -> bool:
-        return any(end.kind == "client" and end.name == service for end in self._engine.recorder.ends)
+        return any(end.kind == "client" and end.name == service for end in self._engine.recorder.declared)
 
     def seek(self, service: str | None = None) -> None:
         """Create the deferred services that a node looks up: those of this name, or all."""
@@ -171,11 +171,11 @@ class Proxies:
             )
         elif isinstance(proxy, ProxyService):
             self.services.append(proxy)
-            calls.service_made(proxy)
+            calls.service_created(proxy)
             proxy._sim.node = proxy.node.name
         elif isinstance(proxy, ProxyClient):
             self.clients[proxy.name].append(proxy)
-            calls.client_made(proxy, proxy.node, proxy.name)
+            calls.client_created(proxy, proxy.node, proxy.name)
         elif proxy.of_action:
             self.action_subscriptions.append(proxy)
         else:

@@ -200,7 +200,7 @@ class _RunExchange:
         answer = self._remote._exchange(do="over")
         self._remote._open = False
         try:
-            self._run.recorder.complained(valid_text(answer.get("stderr"), "a stderr", MAX_STDERR_LENGTH))
+            self._run.recorder.add_stderr(valid_text(answer.get("stderr"), "a stderr", MAX_STDERR_LENGTH))
         except ProtocolError as error:
             raise _remote_lost(error) from None
 

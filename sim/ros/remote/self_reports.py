@@ -76,7 +76,7 @@ class SelfReports:
     # -- kinds of reports ----------------------------------------------------------------------------
 
     def _node_created(self, node: Any) -> None:
-        self._engine.recorder.named(self._node(node), from_course=False)
+        self._engine.recorder.node_named(self._node(node), from_course=False)
 
     def _timer(self, node: Any, period: Any, callback: Any) -> None:
         seconds = valid_float(period, "a timer's period", 0, MAX_TIMER_PERIOD)
@@ -91,7 +91,7 @@ class SelfReports:
             self._recording.logs.append(LogLine(self._now, level, logger, line))
 
     def _printed(self, line: Any) -> None:
-        self._engine.recorder.printed(self._texts.take(line, "a print"))
+        self._engine.recorder.add_stdout(self._texts.take(line, "a print"))
 
     def _error(self, *parts: Any) -> None:
         texts = (self._texts.take(part, "an error") for part in parts)

@@ -103,7 +103,7 @@ class Follower(Session):
 
 
 class FollowerLoop:
-    """The main loop of a run whose leader says when a step is due, and what its own nodes have done."""
+    """The main loop of a run whose leader sends the moment of each step, and what its own nodes have done."""
 
     due: Nanoseconds = 0
 

@@ -1,9 +1,9 @@
 """The channel of messages from a publisher on one host to a subscription on another: lost, late, sent again.
 
 What is reliable follows Fast DDS, as ROS sets it up, which was measured on a network that loses packets (see
-`tests/sim/ros/middleware_facts.txt`): a subscription that misses a message says so only when a heartbeat asks
-for it. One is sent every 3 s while something is not acknowledged, and with each message that fills the
-publisher's history. Until then nothing of what came later is handed over.
+`tests/sim/ros/middleware_facts.txt`): a subscription that misses a message requests it after a heartbeat.
+One is sent every 3 s while something is not acknowledged, and with each message that fills the publisher's
+history. Until then nothing of what came later is handed over.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from rclpy.qos import (
 # All others leave the choice to the middleware.
 RELIABILITIES = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
 DURABILITIES = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
-# How rclpy says "without limit", and how the middleware, in nanoseconds.
+# "Without limit" in rclpy, and in the middleware, in nanoseconds.
 NO_LIMIT, FOREVER = Duration(), 2**63 - 1
 
 

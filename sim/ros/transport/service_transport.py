@@ -115,7 +115,7 @@ class ServiceTransport:
             client = recorder.goals.client_of(action, _goal_id(request))
             return self._due(KINDS[part], action, client, server), []
         raw = canonical(f"{type_name(service.srv_type)}_Request", encode(request))
-        calls = recorder.calls.sent(service, number, raw)
+        calls = recorder.calls.calls_of(service, number, raw)
         if not calls:
             return self._run.scheduler.now, []
         return self._due("request", name, calls[0].client, server, len(raw), calls[0].requested), calls

@@ -1,7 +1,8 @@
 """What is published in a run goes straight into the queues of the run's subscriptions, as bytes.
 
 The middleware knows all endpoints as well, for the graph and for QoS events. It carries messages only on
-topics on which C++ code publishes; and on all where the environment says so, for tests, with the same result.
+topics on which C++ code publishes; and, for tests, on all if an environment variable is set, with the same
+result.
 """
 
 from __future__ import annotations

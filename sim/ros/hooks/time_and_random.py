@@ -1,4 +1,4 @@
-"""Python's clocks, its sources of chance, and the few calls that would end or block the whole process."""
+"""Python's clocks, its random generators, and the few calls that would end or block the whole process."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def default_rng(original: Callable) -> Callable:
     return default_rng
 
 
-@hook(builtins, "input", "the lines are those that the program was given, and never the user's keyboard")
+@hook(builtins, "input", "the lines are those that the program was given, not the user's keyboard")
 def read_input(original: Callable) -> Callable:
     def input(*prompt: Any) -> str:
         if engine() is None:
@@ -157,16 +157,16 @@ def exit_now(original: Callable) -> Callable:
     return _exit
 
 
-@hook(subprocess.Popen, "_wait", "another process works in wall time, which takes no simulated time")
+@hook(subprocess.Popen, "_wait", "another process runs in wall time, which takes no simulated time")
 def wait_for_child(original: Callable) -> Callable:
     def _wait(self: subprocess.Popen, timeout: float | None) -> int:
-        with outside_student_code():  # it sleeps between two looks, and its time-out is by the wall's clock
+        with outside_student_code():  # it sleeps between two polls, and its time-out is in wall time
             return original(self, timeout)
 
     return _wait
 
 
-@hook(multiprocessing.connection, "wait", "another process works in wall time, which takes no simulated time")
+@hook(multiprocessing.connection, "wait", "another process runs in wall time, which takes no simulated time")
 def wait_for_connections(original: Callable) -> Callable:
     def wait(object_list: Iterable[Any], timeout: float | None = None) -> list[Any]:
         with outside_student_code():
