@@ -19,7 +19,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     time_and_random,
 )
 from sim.ros.hooks.table import HOOKS, Hook
-from sim.ros.hooks.verify import check_arguments, original_of
+from sim.ros.hooks.verify import check_arguments, check_internals, original_of
 
 # Modules of Python that bound a clock by name, for their timeouts.
 READS_CLOCKS = ("queue", "sched", "threading")
@@ -31,6 +31,7 @@ def install() -> None:
     """Install all hooks, once per process; raise HookError, and install none, if one doesn't fit."""
     if _replaced:
         return
+    check_internals()
     for hook, original, replacement in [(hook, *_replacement(hook)) for hook in HOOKS]:
         if isinstance(hook.owner, ModuleType):
             _replaced[id(original)] = (original, replacement)

@@ -11,6 +11,7 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from sim.distro import RCLPY_DISTRIBUTION
+from sim.ros.hooks.rclpy_internals import missing
 from sim.ros.hooks.table import Hook
 
 WRITTEN_FOR = {"rclpy": "7.1.6", "numpy": "2.4.6", "Python": "3.11 to 3.14"}
@@ -20,6 +21,17 @@ _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 class HookError(ImportError):
     """What a hook replaces is different in the version that is installed."""
+
+
+def check_internals() -> None:
+    """Raise HookError unless rclpy has all that a run uses of it beside the hooks."""
+    names = missing()
+    if names:
+        installed = version(_DISTRIBUTIONS["rclpy"])
+        raise HookError(
+            f"A run uses {', '.join(names)}, which rclpy {installed} does not have, or has with other "
+            f"arguments: this course was written for rclpy {WRITTEN_FOR['rclpy']}."
+        )
 
 
 def original_of(hook: Hook) -> Any:

@@ -1,5 +1,6 @@
 """The hooks: each has a reason, each is inert outside a run, and names bound early go through them."""
 
+import ast
 import builtins
 import os
 import platform
@@ -11,23 +12,26 @@ import sys
 import threading
 import time
 from importlib import metadata
+from pathlib import Path
 
 import numpy as np
 import pytest
 import rclpy
+from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
+from rclpy.time_source import TimeSource
 from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
 from sim import run
-from sim.ros.hooks import verify
+from sim.ros.hooks import rclpy_internals, verify
 from sim.ros.hooks.install import install
 from sim.ros.hooks.table import HOOKS, Hook
-from sim.ros.hooks.verify import WRITTEN_FOR, HookError, check_arguments, original_of
+from sim.ros.hooks.verify import WRITTEN_FOR, HookError, check_arguments, check_internals, original_of
 from tests.students.engine import mains, timing
 
 
@@ -130,6 +134,86 @@ def test_a_hook_that_does_not_fit_is_said_on_import_and_none_is_installed():
         f"this course was written for rclpy {rclpy_version}.\nTrue\n",
         "",
     )
+
+
+@pytest.fixture
+def internals(monkeypatch):
+    """Puts an entry into one of the tables of rclpy's internals, and nothing into the others."""
+
+    def only(table, entry):
+        for name, empty in (("ATTRIBUTES", {}), ("VARIABLES", ()), ("FUNCTIONS", {})):
+            monkeypatch.setattr(rclpy_internals, name, entry if name == table else empty)
+
+    return only
+
+
+@pytest.mark.parametrize(
+    ("table", "entry", "name"),
+    [
+        ("ATTRIBUTES", {Node: ("_time_sources",)}, "rclpy.node.Node._time_sources"),
+        ("VARIABLES", ((rclpy, ("__executors",)),), "rclpy.__executors"),
+        ("FUNCTIONS", {"Node.__init__": 7}, "rclpy._rclpy_pybind11.Node.__init__"),
+        ("FUNCTIONS", {"Node.create_timer": 1}, "rclpy._rclpy_pybind11.Node.create_timer"),
+        ("FUNCTIONS", {"rclpy_serialize": 1}, "rclpy._rclpy_pybind11.rclpy_serialize"),
+    ],
+)
+def test_what_rclpy_has_changed_beside_the_hooks_is_named(monkeypatch, internals, table, entry, name):
+    monkeypatch.setattr(verify, "version", {"ros-jazzy-rclpy": "8.0.0"}.__getitem__)
+    internals(table, entry)
+    with pytest.raises(HookError) as caught:
+        check_internals()
+    assert str(caught.value) == (
+        f"A run uses {name}, which rclpy 8.0.0 does not have, or has with other arguments: "
+        f"this course was written for rclpy {WRITTEN_FOR['rclpy']}."
+    )
+
+
+@pytest.mark.parametrize(
+    ("table", "entry"),
+    [
+        ("ATTRIBUTES", {TimeSource: ("_clock_sub",), ActionClient: ("_is_feedback_ready",)}),
+        ("VARIABLES", ((rclpy, ("__executor",)),)),
+        ("FUNCTIONS", {"Node.__init__": 6, "rclpy_serialize": 2}),
+    ],
+)
+def test_what_is_as_it_was_is_not_named(internals, table, entry):
+    internals(table, entry)
+    assert rclpy_internals.missing() == []
+
+
+# Private names of Python's own modules, of named tuples, and of messages, that sim/ros uses.
+PYTHONS = {"_PySimpleQueue", "_Local", "_asdict", "_fields", "_getframe", "_get_running_loop", "_max_workers",
+           "_replace", "_set_running_loop", "_started", "_target", "_thread_name_prefix"}  # fmt: skip
+OF_MESSAGES = {"_check_fields"}
+
+
+def private_names(files):
+    """Private attributes that these sources use and do not define; and the names they use of `_rclpy`."""
+    used, own, cpp = set(), set(), set()
+    for file in files:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                own.add(node.name)
+            elif isinstance(node, ast.AnnAssign | ast.Assign) and not isinstance(node.value, ast.Attribute):
+                own |= {name.id for name in getattr(node, "targets", [getattr(node, "target", None)])
+                        if isinstance(name, ast.Name)}  # fmt: skip
+            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "_rclpy":
+                cpp.add(node.attr)
+            elif isinstance(node, ast.Attribute) and node.attr.startswith("_") and node.attr[1] != "_":
+                mine = isinstance(node.ctx, ast.Store) and ast.unparse(node.value) == "self"
+                (own if mine else used).add(node.attr)
+    return used - own, cpp
+
+
+def test_every_private_name_of_rclpy_that_a_run_uses_is_in_the_list():
+    used, cpp = private_names(sorted((Path(rclpy_internals.__file__).parents[1]).rglob("*.py")))
+    listed = {name for names in rclpy_internals.ATTRIBUTES.values() for name in names}
+    listed |= {name for _, names in rclpy_internals.VARIABLES for name in names}
+    hooked = {hook.name for hook in HOOKS}
+    assert sorted(used - listed - hooked - PYTHONS - OF_MESSAGES - {"_sim"}) == []
+    functions = {name.split(".")[0] for name in rclpy_internals.FUNCTIONS}
+    owners = {getattr(hook.owner, "__name__", "") for hook in HOOKS}
+    assert sorted(cpp - functions - listed - hooked - owners - {"__name__"}) == []
 
 
 def test_a_place_of_pythons_own_is_named_with_pythons_versions():
