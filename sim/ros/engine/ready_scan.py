@@ -19,7 +19,7 @@ from sim.ros.fibers.waiter import Waiter
 from sim.ros.recorder.records import ActionRecord, ServiceRecord
 from sim.ros.transport.action_endpoints import take_at_client, take_at_server
 from sim.ros.transport.middleware import MiddlewareReader
-from sim.ros.transport.reader import Reader
+from sim.ros.transport.reader import DataReader
 from sim.ros.transport.service_transport import ServiceTransport
 
 RCLError = _rclpy.RCLError
@@ -112,7 +112,7 @@ class ReadyScan:
         clock = node._time_source._clock_sub
         found = [subscription for subscription in node.subscriptions if subscription is not clock]
         for subscription in found:
-            reader: Reader = subscription._sim
+            reader: DataReader = subscription._sim
             reader.waiter = self._waiter
             if isinstance(reader, MiddlewareReader):
                 self._poll()

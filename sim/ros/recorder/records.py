@@ -1,7 +1,8 @@
 """What a run stores with objects of rclpy and Python: one attribute, `_sim`, of one type per kind of object.
 
 Service: ServiceRecord, Client: ClientRecord, ActionServer and ActionClient: ActionRecord, all here.
-Publisher: Writer, Subscription: Reader, EventHandler of an event of time: EventCounts, in sim.ros.transport.
+Publisher: DataWriter, Subscription: DataReader, EventHandler of an event of time: EventCounts, in
+sim.ros.transport.
 Executor: SimExecutor, Task: TaskState, ROSClock and JumpHandle: ClockSwitch, in sim.ros.engine.
 Thread: Fiber, in sim.ros.fibers.
 """

@@ -16,7 +16,7 @@ from sim.ros.remote.new_items import NewItems
 from sim.ros.remote.process_link import ProcessLink
 from sim.ros.remote.proxy import ProxyClient, ProxyPublisher, ProxyService
 from sim.ros.transport.endpoint import Sample
-from sim.ros.transport.reader import Reader
+from sim.ros.transport.reader import DataReader
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -195,7 +195,7 @@ class FollowerLink(ProcessLink):
         if publisher is not None and reader.liveliness is not None:
             reader.liveliness.assert_liveliness(publisher.writer)
 
-    def _reader(self, number: int) -> Reader | None:
+    def _reader(self, number: int) -> DataReader | None:
         end = self.local.get(number)
         return None if end is None else self.engine.transport.topics.reader_of(end.name, end.handle)
 

@@ -17,8 +17,8 @@ from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile
 from sim.ros.remote import events
 from sim.ros.transport.endpoint import Sample
 from sim.ros.transport.qos import NO_LIMIT
-from sim.ros.transport.reader import Reader
-from sim.ros.transport.writer import Writer
+from sim.ros.transport.reader import DataReader
+from sim.ros.transport.writer import DataWriter
 
 if TYPE_CHECKING:
     from sim.ros.engine.engine import Engine
@@ -65,10 +65,10 @@ class ProxyPublisher(Proxy):
     """Publishes here what the publisher of the other process has published."""
 
     handle_class = _rclpy.Publisher
-    writer: Writer
+    writer: DataWriter
 
 
-class ProxyReader(Reader):
+class ProxyReader(DataReader):
     """Receives what the simulated network delivers to a subscription of the other process.
 
     number: of that subscription. arrivals: the list to which the events for the other process are added.
@@ -81,21 +81,21 @@ class ProxyReader(Reader):
             self.liveliness = self
 
     def receive(self, sample: Sample) -> None:
-        """As `Reader.receive`: it goes to the other process."""
+        """As `DataReader.receive`: it goes to the other process."""
         raw, stamp, number, expires = sample
         event = events.MessageDelivered(self._number, raw, stamp, number, expires, self._gap)
         self._arrivals.append(event)
         self._gap = 0
 
     def on_lost(self, count: int) -> None:
-        """As `Reader.on_lost`."""
+        """As `DataReader.on_lost`."""
         self._gap += count
 
-    def assert_liveliness(self, writer: Writer) -> None:
+    def assert_liveliness(self, writer: DataWriter) -> None:
         """As `LivelinessMonitor.assert_liveliness`: the other process tracks the leases."""
         self._arrivals.append(events.LivelinessDelivered(self._number, writer.sender))
 
-    def matched(self, writer: Writer) -> None:
+    def matched(self, writer: DataWriter) -> None:
         """As `LivelinessMonitor.matched`: the other process notices this itself."""
 
     unmatched = matched

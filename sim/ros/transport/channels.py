@@ -14,7 +14,7 @@ from functools import partial
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.transport.endpoint import PublisherEndpoint, Sample
 from sim.ros.transport.history import History
-from sim.ros.transport.reader import Reader
+from sim.ros.transport.reader import DataReader
 
 RESPONSE: Nanoseconds = SECOND // 200  # until either side answers the other's heartbeat or request
 
@@ -27,7 +27,7 @@ class Channel:
 
     reliable = False
 
-    def __init__(self, writer: PublisherEndpoint, reader: Reader) -> None:
+    def __init__(self, writer: PublisherEndpoint, reader: DataReader) -> None:
         self.writer, self.reader = writer, reader
         self.open = True
         run = self._run = writer.run
@@ -96,7 +96,7 @@ class ReliableChannel(Channel):
 
     reliable = True
 
-    def __init__(self, writer: PublisherEndpoint, reader: Reader, history: History) -> None:
+    def __init__(self, writer: PublisherEndpoint, reader: DataReader, history: History) -> None:
         super().__init__(writer, reader)
         self.unacknowledged: set[int] = set()
         self._history = history

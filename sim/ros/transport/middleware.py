@@ -8,25 +8,25 @@ from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 from sim.ros.transport.endpoint import Sample
 from sim.ros.transport.qos import latches
-from sim.ros.transport.reader import Reader
-from sim.ros.transport.writer import Writer
+from sim.ros.transport.reader import DataReader
+from sim.ros.transport.writer import DataWriter
 
 REPLAY_WAIT = Duration(seconds=2)  # wall time; measured at 0.1 s
 
 
-class MiddlewareWriter(Writer):
+class MiddlewareWriter(DataWriter):
     """A writer whose messages the middleware carries."""
 
     def _hand_over(self, raw: bytes) -> None:
         self.handle.publish_raw(raw)
 
-    def match(self, reader: Reader) -> None:
+    def match(self, reader: DataReader) -> None:
         """Wait, in wall time, for what a late joiner of a latched topic gets."""
         if latches(self.profile) and latches(reader.profile):
             self.handle.wait_for_all_acked(REPLAY_WAIT._duration_handle)
 
 
-class MiddlewareReader(Reader):
+class MiddlewareReader(DataReader):
     """A reader whose messages the middleware carries: its executor has to poll it.
 
     It looks only if a message was sent since it last found none.
@@ -35,7 +35,7 @@ class MiddlewareReader(Reader):
     _seen: int | None = -1
 
     def take(self) -> Sample | None:
-        """As `Reader.take`."""
+        """As `DataReader.take`."""
         sent = self.run.sent.get(self.topic)  # None: only C++ code publishes here, uncounted
         if sent is not None and sent == self._seen:
             return None

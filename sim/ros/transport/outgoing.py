@@ -7,7 +7,7 @@ from rclpy.qos import ReliabilityPolicy
 from sim.ros.transport.channels import Channel, ReliableChannel
 from sim.ros.transport.endpoint import PublisherEndpoint, Sample
 from sim.ros.transport.history import History
-from sim.ros.transport.reader import Reader
+from sim.ros.transport.reader import DataReader
 
 
 class OutgoingChannels:
@@ -19,7 +19,7 @@ class OutgoingChannels:
         self.has_room, self.all_acknowledged = self._history.has_room, self._history.all_acknowledged
         self.channels: list[Channel] = []
 
-    def connect(self, reader: Reader, latched: list[Sample]) -> None:
+    def connect(self, reader: DataReader, latched: list[Sample]) -> None:
         """Send what is published to this subscription, too, and these messages at once."""
         writer = self._writer
         endpoints = writer.profile, reader.profile
@@ -45,7 +45,7 @@ class OutgoingChannels:
             else:
                 self._writer.run.recorder.undelivered(self._writer.sender, self._writer.topic)
 
-    def disconnect(self, reader: Reader) -> None:
+    def disconnect(self, reader: DataReader) -> None:
         """A subscription was destroyed."""
         for channel in [channel for channel in self.channels if channel.reader is reader]:
             channel.open = False

@@ -28,7 +28,7 @@ from sim.ros.transport.qos_events import (
 NO_EXECUTOR = Waiter()
 
 
-class Reader(TopicEndpoint):
+class DataReader(TopicEndpoint):
     """The endpoint of a subscription, with the messages that wait there to be taken.
 
     raw: it takes bytes. subscriber: the node's name. events: handlers of what happens to it. The other

@@ -14,8 +14,8 @@ from typing import Any
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.endpoint import TopicEndpoint
 from sim.ros.transport.middleware import MiddlewareReader, MiddlewareWriter
-from sim.ros.transport.reader import Reader
-from sim.ros.transport.writer import Writer
+from sim.ros.transport.reader import DataReader
+from sim.ros.transport.writer import DataWriter
 
 MIDDLEWARE = "SIM_MIDDLEWARE"  # with this variable in the environment, the middleware carries all messages
 CPP_TOPICS = "/transition_event", "/_service_event"
@@ -30,20 +30,22 @@ class Topics:
         self.sent = run.sent
         self.rosout_wanted = False  # a node has subscribed to /rosout
         self._all_by_middleware = MIDDLEWARE in os.environ and run.links is None
-        self._writers: dict[str, list[Writer]] = defaultdict(list)
-        self._readers: dict[str, list[Reader]] = defaultdict(list)
+        self._writers: dict[str, list[DataWriter]] = defaultdict(list)
+        self._readers: dict[str, list[DataReader]] = defaultdict(list)
 
-    def writer(self, *handles: Any, topic: str, **more: Any) -> Writer:
-        """A new publisher's endpoint; the arguments are those of `Writer`."""
-        kind = MiddlewareWriter if self._by_middleware(topic) else Writer
+    def writer(self, *handles: Any, topic: str, **more: Any) -> DataWriter:
+        """A new publisher's endpoint; the arguments are those of `DataWriter`."""
+        kind = MiddlewareWriter if self._by_middleware(topic) else DataWriter
         writer = kind(self._run, *handles, topic=topic, on_close=self._remove, **more)
         self._writers[topic].append(writer)
         for reader in self._readers[topic]:
             writer.match(reader)
         return writer
 
-    def reader(self, *handles: Any, topic: str, kind: type[Reader] = Reader, **more: Any) -> Reader:
-        """A new subscription's endpoint; the arguments are those of `Reader`, or of this kind of it."""
+    def reader(
+        self, *handles: Any, topic: str, kind: type[DataReader] = DataReader, **more: Any
+    ) -> DataReader:
+        """A new subscription's endpoint; the arguments are those of `DataReader`, or of this kind of it."""
         kind = MiddlewareReader if self._by_middleware(topic) else kind
         reader = kind(self._run, *handles, topic=topic, on_close=self._remove, **more)
         self._readers[topic].append(reader)
@@ -52,7 +54,7 @@ class Topics:
             writer.match(reader)
         return reader
 
-    def reader_of(self, topic: str, handle: Any) -> Reader | None:
+    def reader_of(self, topic: str, handle: Any) -> DataReader | None:
         """The endpoint of the subscription that has this handle."""
         return next((reader for reader in self._readers[topic] if reader.handle is handle), None)
 
@@ -62,7 +64,7 @@ class Topics:
         for endpoints in (writers, self._readers[endpoint.topic]):
             if endpoint in endpoints:
                 endpoints.remove(endpoint)
-        if isinstance(endpoint, Reader):
+        if isinstance(endpoint, DataReader):
             for writer in writers:
                 writer.unmatch(endpoint)
 

@@ -24,7 +24,7 @@ from sim.ros.transport.qos_events import (
     event_counts,
     liveliness_lease,
 )
-from sim.ros.transport.reader import Reader
+from sim.ros.transport.reader import DataReader
 
 
 class ContextHandle(Protocol):
@@ -33,7 +33,7 @@ class ContextHandle(Protocol):
     alive: bool  # not shut down
 
 
-class Writer(PublisherEndpoint):
+class DataWriter(PublisherEndpoint):
     """The endpoint of a publisher.
 
     from_course: the program that made it is the course's, not the student's. context: that program's. events:
@@ -63,7 +63,7 @@ class Writer(PublisherEndpoint):
         self._deadline = deadline_lease(run, self.profile, counts.get(OFFERED))
         self._liveliness = liveliness_lease(run, self.profile, counts.get(LOST))
         self._lifespan = profile.lifespan.nanoseconds or FOREVER
-        self.readers: list[Reader] = []
+        self.readers: list[DataReader] = []
         self.outgoing = None if run.links is None else OutgoingChannels(self)  # to other hosts
         self._all_known_after = self.created_at  # from later on, all readers have had time to be discovered
         self._latched: deque[Sample] = deque(maxlen=queue_length(profile) if latches(self.profile) else 0)
@@ -101,7 +101,7 @@ class Writer(PublisherEndpoint):
         if self.outgoing is not None:
             self.outgoing.send(sample)
 
-    def match(self, reader: Reader) -> None:
+    def match(self, reader: DataReader) -> None:
         """If a subscription is compatible, send messages there from now on, and the latched ones at once."""
         both_elsewhere = self.program is None and reader.program is None  # they match in the other process
         if both_elsewhere or not are_compatible(self.profile, reader.profile):
@@ -117,7 +117,7 @@ class Writer(PublisherEndpoint):
         else:
             self.outgoing.connect(reader, list(latched))
 
-    def _matched_readers(self) -> list[Reader]:
+    def _matched_readers(self) -> list[DataReader]:
         """Those on this host and on others."""
         channels = () if self.outgoing is None else self.outgoing.channels
         return [*self.readers, *(channel.reader for channel in channels)]
@@ -135,7 +135,7 @@ class Writer(PublisherEndpoint):
             for channel in () if self.outgoing is None else self.outgoing.channels:
                 channel.assert_liveliness()
 
-    def unmatch(self, reader: Reader) -> None:
+    def unmatch(self, reader: DataReader) -> None:
         """A subscription was destroyed."""
         if reader in self.readers:
             self.readers.remove(reader)
