@@ -80,7 +80,7 @@ class RemotePrograms:
 
     def refusal(self) -> Fault | None:
         """See ProgramSource. The other process answers."""
-        answer = self._remote.ask(_name(plain_refusal))
+        answer = self._remote.call(_name(plain_refusal))
         if answer is None:
             return None
         if not isinstance(answer, list) or [type(part) for part in answer] != [str, str]:
@@ -93,10 +93,10 @@ class RemotePrograms:
 
     def package(self, name: str, build_type: str) -> Package | Fault:
         """See ProgramSource. The other process sends the sources and installs what was built."""
-        sources = self._remote.ask(_name(place.told_sources), name)
+        sources = self._remote.call(_name(place.told_sources), name)
         made = make_package(name, sources, self._build, build_type)
         if isinstance(made, Package):
-            self._remote.ask(_name(place.installed), *place.told(made.built))
+            self._remote.call(_name(place.installed), *place.told(made.built))
         return made
 
     def leave(self) -> None:

@@ -45,12 +45,12 @@ class Remote:
         self._waited = 0.0
         self._open = False  # the other process is in a run that was not ended
 
-    def ask(self, question: str, *arguments: Any) -> Any:
+    def call(self, function: str, *arguments: Any) -> Any:
         """Call a function of the nodes and these arguments in the other process, given as "module:function".
 
         The result is plain data and is not validated. Raises RemoteLost.
         """
-        return self._exchange(do="ask", question=question, words=arguments).get("answer")
+        return self._exchange(do="call", function=function, arguments=arguments).get("answer")
 
     def end(self, **message: Any) -> None:
         """Release the other process: its `serve` returns this message. Raises RemoteLost."""

@@ -28,30 +28,30 @@ def serve(wire: Wire, nodes: Sequence[Any]) -> dict[str, Any]:
     """
     while True:
         message = wire.receive()
-        wanted = message.get("do")
-        if wanted == "end":
+        command = message.get("do")
+        if command == "end":
             return message
-        if wanted == "ask":
-            wire.send(answer=_function(message["question"])(nodes, *message["words"]))
-        elif wanted == "run":
+        if command == "call":
+            wire.send(answer=_function(message["function"])(nodes, *message["arguments"]))
+        elif command == "run":
             _run(wire, nodes, message)
         else:
-            raise WireBroken(f"nobody here knows how to {wanted}")
+            raise WireBroken(f"unknown command {command!r}")
 
 
 def _function(name: str) -> Callable[..., Any]:
     try:
         return pkgutil.resolve_name(name)
     except (ImportError, AttributeError, ValueError):
-        raise WireBroken(f"nobody here knows the function {name}") from None
+        raise WireBroken(f"unknown function {name!r}") from None
 
 
 def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
     orders = Orders(wire)
     try:
-        name, *words = order["preparation"] or [""]
+        name, *arguments = order["preparation"] or [""]
         prepare = _function(name) if name else None
-        programs = prepared(nodes, prepare, words)
+        programs = prepared(nodes, prepare, arguments)
         session = Follower(orders, programs, order["seconds"], order["seed"])
         session.advance()
         orders.answer(stderr=session.recording.stderr[:MAX_STDERR_LENGTH])
@@ -59,15 +59,15 @@ def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
         raise
     except BaseException as error:  # keep serving, whatever ended the run
         # Leave out an OSError's file name, which would describe this machine.
-        words = getattr(error, "strerror", None) or error
-        orders.answer(failed=f"{type(error).__name__}: {words}")
+        text = getattr(error, "strerror", None) or error
+        orders.answer(failed=f"{type(error).__name__}: {text}")
 
 
-def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, words: Sequence[str]) -> list[Any]:
+def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, arguments: Sequence[str]) -> list[Any]:
     """The programs to run for the nodes. prepare: returns a program, or a list of them, for each node."""
     if prepare is None:
         return list(nodes)
-    made = [prepare(node, *words) for node in nodes]
+    made = [prepare(node, *arguments) for node in nodes]
     return [program for each in made for program in (each if isinstance(each, list) else [each])]
 
 

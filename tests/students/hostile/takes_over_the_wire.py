@@ -13,7 +13,7 @@ while True:
             quiet = {"events": [], "self_reports": {}, "busy": False, "fault": None, "blocked": ""}
         case {"do": "run"}:
             pass
-        case {"do": "ask"}:
+        case {"do": "call"}:
             wire.send(answer=None)
         case {"do": "go", "now": now}:
             report = ["INFO", "square_driver", "square: 18 of 18 points"]

@@ -51,7 +51,7 @@ def answering(*answers, after=QUIET, over=ENDED, deadline=None):
         with contextlib.suppress(WireError):
             while True:
                 do = wire.receive()["do"]
-                if do in ("go", "ask"):
+                if do in ("go", "call"):
                     wire.send(**(left.pop(0) if left else after))
                 elif do == "over":
                     wire.send(**over)

@@ -40,9 +40,9 @@ def test_the_last_message_is_what_serve_returns(wires):
 @pytest.mark.parametrize(
     ("order", "words"),
     [
-        ({"do": "dance"}, "nobody here knows how to dance"),
-        ({"do": "ask", "question": "why"}, "nobody here knows the function why"),
-        ({}, "nobody here knows how to None"),
+        ({"do": "dance"}, "unknown command 'dance'"),
+        ({"do": "call", "function": "why"}, "unknown function 'why'"),
+        ({}, "unknown command None"),
     ],
 )
 def test_an_unknown_command_is_refused(wires, order, words):
@@ -59,7 +59,7 @@ def test_serving_ends_when_the_connection_is_closed(wires):
 
 @pytest.mark.parametrize("nodes", [[None], [5], ["Idle"]])
 def test_a_function_is_called_with_the_nodes(wires, nodes):
-    wires[0].send(do="ask", question="grader.programs:plain_refusal", words=[])
+    wires[0].send(do="call", function="grader.programs:plain_refusal", arguments=[])
     Remote(wires[0]).end()
     serve(wires[1], nodes)
     saw, hint = wires[0].receive(1)["answer"]
