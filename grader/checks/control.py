@@ -83,6 +83,7 @@ def settles(run: Recording, target: float, *, seconds: Seconds, tolerance: float
             f"the cart within {tolerance * 100:g} cm of {target:.2f} m, from {seconds:g} s after "
             f"{run.begin:.3g} s on",
             f"it is further away until {away[-1]:.3g} s" if end > away[-1] else f"{x:.2f} m at {end:.3g} s",
+            about=(target,),
         )
     return took
 

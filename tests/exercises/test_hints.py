@@ -16,7 +16,6 @@ FOR_AUTHORS = "ValueError", "no_data", "from_course", "requests_from_course", "S
 TOPICS = sorted(path.name for path in EXERCISES.iterdir() if path.is_dir() and path.name[0] != "_")
 # Still without a node for each hint; the list only gets shorter.
 STILL = {
-    "control",
     "delivery",
     "navigator",
     "packages",

@@ -1,20 +1,15 @@
 """The exercises of 10_control, from measuring a stream to a pole that is pushed."""
 
-from grader.exercises.control.balancing import balance
+from grader.companions.control_streams import Camera, Marks, Sensor
+from grader.companions.slope import Slope
+from grader.exercises.control.balance import balance
+from grader.exercises.control.gap import gap
+from grader.exercises.control.jitter import jitter
 from grader.exercises.control.marks import marks
-from grader.exercises.control.measuring import jitter
-from grader.exercises.control.partners import Camera, Marks, Sensor, Slope
-from grader.exercises.control.places import (
-    hopeless_cart,
-    long_track,
-    pushed_cart,
-    ramp,
-    weak_cart,
-    work_cart,
-)
-from grader.exercises.control.pushing import push
-from grader.exercises.control.slopes import gap
-from grader.exercises.control.working import worker
+from grader.exercises.control.push import push
+from grader.exercises.control.worker import worker
+from grader.worlds.carts import hopeless_cart, long_track, pushed_cart, weak_cart, work_cart
+from grader.worlds.fields import ramp
 
 __all__ = [
     "Camera",

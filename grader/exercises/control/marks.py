@@ -1,4 +1,4 @@
-"""An exercise on a cart that has to be where it is told, with a motor that is weak."""
+"""Move a cart with a weak motor to the marks that come, and keep its pole up."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import itertools
 from grader.checks import (
     hinting,
     keeps_to_limits,
+    otherwise,
     overshoots,
     places,
     publishes,
@@ -17,16 +18,17 @@ from grader.checks import (
 )
 from grader.checks.control import EFFORT
 from grader.checks.no_data import no_data
+from grader.companions.control_streams import Marks
 from grader.exercise import Exercise
-from grader.exercises.control.partners import Marks
-from grader.exercises.control.places import WEAK, weak_cart
+from grader.responses import from_course
+from grader.worlds.carts import WEAK, weak_cart
 from sim.evidence import Recording, Seconds
 
 NEAR, SOON, MOST = 0.05, 4.0, 0.12  # m, s, m
 FLOAT = "std_msgs/msg/Float64"
+Leg = tuple[Seconds, Seconds, float]  # from when, until when, to where
 
 marks = Exercise("marks", "To the mark", world=weak_cart, seconds=17, companions=[Marks], seeds=(1, 2))
-Leg = tuple[Seconds, Seconds, float]  # from when, until when, to where
 
 
 @marks.check(2)
@@ -49,13 +51,29 @@ def spares_the_motor(run: Recording) -> None:
     keeps_to_limits(run, WEAK)
 
 
-@marks.check(5, after=keeps_it_up)
+@marks.check(
+    5,
+    after=keeps_it_up,
+    hints={
+        "First it has to come to the middle, where the mark is 0. Does x count?": lambda run, mark: (
+            mark == 0.0
+        ),
+        "It stays in the middle: take the mark away from x.": lambda run, mark: all(
+            abs(x) < NEAR for _, x in _reached(run)
+        ),
+        "It goes to the other side: it is x minus the mark.": lambda run, mark: all(
+            abs(x + mark) < 2 * NEAR for mark, x in _reached(run)
+        ),
+        "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow.": (
+            otherwise
+        ),
+    },
+)
 def comes_to_the_marks(run: Recording) -> None:
     """Four seconds after each mark has come, the cart is within 5 cm of it, and stays there."""
     still_stands(run)
     for begin, end, mark in _legs(run):
-        with hinting(_why_not_there(run, mark)):
-            settles(run.during(begin, end), mark, seconds=SOON, tolerance=NEAR)
+        settles(run.during(begin, end), mark, seconds=SOON, tolerance=NEAR)
 
 
 @marks.check(3, after=comes_to_the_marks)
@@ -67,25 +85,16 @@ def goes_not_far_beyond(run: Recording) -> None:
 
 
 def _legs(run: Recording) -> list[Leg]:
-    """Each of our marks with the time in which it holds."""
-    said = [(heard.stamp, heard.message.data) for heard in run.messages("/mark") if heard.from_course]
-    changes = [said[0]] if said else []
-    changes += [after for before, after in itertools.pairwise(said) if after[1] != before[1]]
+    """Each mark of the course with the time in which it holds."""
+    groups = itertools.groupby(from_course(run, "/mark"), key=lambda row: row.message.data)
+    changes = [next(rows) for _, rows in groups]
     if len(changes) < 3:
         raise no_data(run, "three marks", f"{len(changes)}", run.graph.publishers("/mark"))
-    ends = [begin for begin, _ in changes[1:]] + [run.ended.stamp]
-    return [(begin, end, mark) for (begin, mark), end in zip(changes, ends, strict=True)]
+    ends = [row.stamp for row in changes[1:]] + [run.ended.stamp]
+    return [(row.stamp, end, row.message.data) for row, end in zip(changes, ends, strict=True)]
 
 
-def _why_not_there(run: Recording, mark: float) -> str:
-    """The usual reasons for being elsewhere."""
-    if mark == 0.0:
-        return "First it has to come to the middle, where the mark is 0. Does x count?"
+def _reached(run: Recording) -> list[tuple[float, float]]:
+    """Each mark but the first, and where the cart was just before the next one."""
     curve = places(run)
-    legs = _legs(run)[1:]
-    reached = [next(x for stamp, x in reversed(curve) if stamp < end) for _, end, _ in legs]
-    if all(abs(x) < NEAR for x in reached):
-        return "It stays in the middle: take the mark away from x."
-    if all(abs(x + mark) < 2 * NEAR for x, (_, _, mark) in zip(reached, legs, strict=True)):
-        return "It goes to the other side: it is x minus the mark."
-    return "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow."
+    return [(mark, next(x for stamp, x in reversed(curve) if stamp < end)) for _, end, mark in _legs(run)[1:]]

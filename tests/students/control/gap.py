@@ -166,3 +166,12 @@ class LeavesItToTheBrake(Stopper):
         self.distances.publish(Float64(data=self.distance))
         if self.distance > 0.62:
             self.speeds.publish(Float64(data=0.1 if self.distance < 0.8 else 0.3))
+
+
+class TooNear(Stopper):
+    """Wants a distance of 0.2 m, and goes there slowly."""
+
+    i = 0.0
+
+    def speed(self, error):
+        return super().speed(error + 0.4)

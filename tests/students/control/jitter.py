@@ -184,3 +184,17 @@ class SpeaksOnlyWhenLate(Meter):
 class Milliseconds(Meter):
     def latency(self, now, measured):
         return (now - measured) * 1000
+
+
+class LatencyOnly(Meter):
+    """Has one publisher, and uses it."""
+
+    def __init__(self):
+        Node.__init__(self, "meter")
+        self.before, self.late = None, 0
+        self.publisher = self.create_publisher(Float64, "/latency", 10)
+        self.create_subscription(Header, "/beat", self.hear, 10)
+
+    def say(self, topic, value):
+        if topic == "/latency":
+            self.publisher.publish(Float64(data=value))

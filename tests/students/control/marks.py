@@ -137,3 +137,10 @@ class Waits(Driver):
         if msg.data != self.mark:
             time.sleep(1.0)
         super().on_mark(msg)
+
+
+class Sluggish(Driver):
+    """Moves the mark slowly to where it should be."""
+
+    def on_mark(self, msg):
+        self.mark += 0.03 * (msg.data - self.mark)

@@ -1,11 +1,9 @@
-"""Nodes of ours for 10_control: a sensor that is late at times, marks, a camera, and a slope."""
+"""Streams that a controller takes: a sensor that is late at times, marks for a cart, and pictures."""
 
 from __future__ import annotations
 
-import math
 import random
 
-from geometry_msgs.msg import Twist
 from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Float64, Header, UInt8MultiArray
@@ -14,12 +12,10 @@ PERIOD = 0.02  # s, of the sensor
 QUICK, SLOW, OFTEN = (0.001, 0.007), (0.012, 0.018), 0.15  # s on the way, and how often it is slow
 FIRST_MARK, SECOND_MARK, MARKS = (5.0, 6.0), (10.5, 11.5), (0.3, 0.5)  # s, s, m
 PICTURES, PIXELS = 0.7, 12  # s between two
-MOST, PULLS = 0.3, (0.05, 0.1)  # m/s
-PATIENCE = 10  # ticks of 0.05 s without a word, until the slope's robot brakes
 
 
 class Sensor(Node):
-    """Measures 50 times a second, exactly, and publishes the Header on /beat; that it does a little late."""
+    """Measures 50 times a second, exactly, and publishes the Header on /beat, a little late."""
 
     def __init__(self) -> None:
         super().__init__("sensor")
@@ -27,7 +23,7 @@ class Sensor(Node):
         self.create_timer(PERIOD, self.measure)
 
     def measure(self) -> None:
-        """Measure now, and publish when the work on it is done."""
+        """Measure now, and publish when that is processed."""
         header = Header(stamp=self.get_clock().now().to_msg(), frame_id="sensor")
         seconds = random.uniform(*(SLOW if random.random() < OFTEN else QUICK))
         self.get_clock().sleep_for(Duration(seconds=seconds))
@@ -35,7 +31,7 @@ class Sensor(Node):
 
 
 class Marks(Node):
-    """Says ten times a second on /mark (Float64, m) where the cart has to be.
+    """Publishes ten times a second on /mark (Float64, m) where the cart has to be.
 
     First in the middle, from 5 s to 6 s on at one side, and from 10.5 s to 11.5 s on at the other.
     """
@@ -50,7 +46,7 @@ class Marks(Node):
         self.create_timer(0.1, self.tick)
 
     def tick(self) -> None:
-        """Say the mark that counts now."""
+        """Publish the mark that holds now."""
         mark = next(mark for begin, mark in self.plan if begin <= self.ticks * 0.1)
         self.ticks += 1
         self.publisher.publish(Float64(data=round(mark, 3)))
@@ -65,32 +61,5 @@ class Camera(Node):
         self.create_timer(PICTURES, self.take)
 
     def take(self) -> None:
-        """Take the next one; one of its pixels is the brightest."""
+        """Publish the next picture; one of its pixels is the brightest."""
         self.publisher.publish(UInt8MultiArray(data=random.sample(range(256), PIXELS)))
-
-
-class Slope(Node):
-    """The motors of a robot on a slope: hears /speed (Float64, m/s), and drives by /cmd_vel.
-
-    They give 0.3 m/s at most, and whatever they give, the robot rolls back by some 5 to 10 cm/s. Half a
-    second after the last word, or if that was no number, they brake.
-    """
-
-    def __init__(self) -> None:
-        super().__init__("slope")
-        self.pull, self.speed, self.left = random.uniform(*PULLS), 0.0, 0
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_subscription(Float64, "/speed", self.hear, 10)
-        self.create_timer(0.05, self.roll)
-
-    def hear(self, msg: Float64) -> None:
-        """From now on, this speed, within the limits."""
-        self.speed = min(max(msg.data, -MOST), MOST)
-        self.left = PATIENCE if math.isfinite(msg.data) else 0
-
-    def roll(self) -> None:
-        """Drive and roll back, or brake."""
-        command = Twist()
-        command.linear.x = self.speed - self.pull if self.left else 0.0
-        self.left = max(0, self.left - 1)
-        self.publisher.publish(command)

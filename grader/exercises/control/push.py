@@ -1,17 +1,15 @@
-"""An exercise on what nobody knows beforehand: other masses, another pole, and somebody who pushes."""
+"""Keep a pole up with other masses, another pole, and pushes."""
 
 from __future__ import annotations
 
-from grader.checks import hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
-from grader.checks.check import Missed
+from grader.checks import Missed, hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
 from grader.checks.control import EFFORT
 from grader.exercise import Exercise
-from grader.exercises.control.places import pushed_cart
+from grader.worlds.carts import pushed_cart
 from sim.evidence import Recording
 
 LIMIT = 10.0  # N
 SOON, NEAR, STEADY = 3.0, 0.1, 0.05  # s, m, rad
-BACK = "More weight on the place brings it back sooner; with it, that on the speed has to grow."
 
 push = Exercise("push", "Whatever comes", world=pushed_cart, seconds=19, seeds=(1, 2))
 
@@ -38,8 +36,8 @@ def spares_the_motor(run: Recording) -> None:
 def comes_back(run: Recording) -> None:
     """Three seconds after each push the cart is back, within 10 cm of the middle, and stays there."""
     still_stands(run)
-    for begin, end in _after_pushes(run):
-        with hinting(BACK):
+    with hinting("More weight on the place brings it back sooner; with it, that on the speed has to grow."):
+        for begin, end in _after_pushes(run):
             settles(run.during(begin, end), 0.0, seconds=SOON, tolerance=NEAR)
 
 
@@ -49,7 +47,7 @@ def stands_quietly(run: Recording) -> None:
     still_stands(run)
     for begin, end in _after_pushes(run):
         rest = lean(run.during(begin + SOON, end))
-        stamp, angle = max(rest, key=lambda one: abs(one[1]), default=(begin, 0.0))
+        stamp, angle = max(rest, key=lambda row: abs(row[1]), default=(begin, 0.0))
         if abs(angle) > STEADY:
             hint = "It swings for long: D brakes, and so does the speed of the cart."
             raise Missed(f"at most {STEADY:g} rad", f"{angle:.2g} rad at {stamp:.3g} s", hint)

@@ -1,0 +1,139 @@
+"""PI, wind-up and a filter: stop in front of a wall, on a slope."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from grader.checks import Missed, hinting, keeps_clear, otherwise, publishes, within
+from grader.companions.slope import MOST, Slope
+from grader.exercise import Exercise
+from grader.responses import EDGE, Window, from_course, last_before, matches, same
+from grader.worlds.fields import ramp
+from sim.evidence import Recording, Seconds
+
+FLOAT = "std_msgs/msg/Float64"
+WEIGHT = 0.2
+TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
+LAST, PERIOD = 4.0, 0.05  # s; from one scan to the next
+HELD = 0.4  # of the scans: fewer, and the motors brake
+CLOSE = 1e-3  # m
+WIND_UP = (
+    "All the way to the wall the error is large and the motor at its limit: the sum grows and grows, and "
+    "has to be worn off behind the goal. While the speed is cut, don't add to the sum."
+)
+SIGN = (
+    "The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is the "
+    "sign right, and P large enough?"
+)
+
+gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2))
+
+
+@gap.check(2)
+def speaks(run: Recording) -> None:
+    """The node publishes /distance and /speed with each scan."""
+    for topic in ("/distance", "/speed"):
+        publishes(run, topic, FLOAT, at_least=10)
+
+
+@gap.check(
+    4,
+    after=speaks,
+    hints={
+        "That is the scan itself, with all its noise: mix it with what you had before.": (
+            lambda run, sent, scans: matches(sent, scans, CLOSE)
+        ),
+        "The weights are swapped: a fifth of the new value, four fifths of the old one.": (
+            lambda run, sent, scans: matches(sent, _filtered(scans, 1 - WEIGHT), CLOSE)
+        ),
+        "It begins at 0: take the first distance as it is.": lambda run, sent, scans: sent[0] < scans[0] / 2,
+        "self.distance + 0.2 * (new - self.distance), and keep it for the next scan.": otherwise,
+    },
+)
+def filters(run: Recording) -> None:
+    """/distance is what the lidar sees ahead, filtered: a fifth of what is new, four fifths of what was."""
+    scans = [row.message.ranges[0] for row in from_course(run, "/scan", what="scans")]
+    sent = [row.message.data for row in run.messages("/distance")]
+    # The first scans may be sent before the node is there; a scan in the end may be unanswered.
+    scans = scans[next((n for n, first in enumerate(scans[:6]) if same(sent[0], first, 1e-9)), 0) :]
+    if not len(scans) - 2 <= len(sent) <= len(scans):
+        hint = "Publish in the callback of /scan, each time it is called."
+        raise Missed(f"{len(scans)} messages on /distance", f"{len(sent)}", hint)
+    # Too near and too far a ray says inf: what comes of that is not judged.
+    seen = list(itertools.takewhile(math.isfinite, scans))
+    for number, (saw, expected) in enumerate(zip(sent, _filtered(seen, WEIGHT), strict=False), 1):
+        if not same(saw, expected, CLOSE):
+            expectation = f"{expected:.3f} m as number {number} on /distance"
+            raise Missed(expectation, f"{saw:.3f} m", about=(sent[: len(seen)], scans))
+
+
+@gap.check(
+    4,
+    after=speaks,
+    hints={
+        SIGN: lambda run: run.messages("/speed")[0].message.data < 0,
+        WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,
+        "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall.": (
+            lambda run: True
+        ),
+    },
+)
+def does_not_run_into_the_wall(run: Recording) -> None:
+    """The robot comes to the wall, up to 0.85 m or less, and never nearer than 0.48 m. It touches nothing."""
+    keeps_clear(run, "")
+    distances = _distances(run, 0.0)
+    nearest, stamp = min(distances)
+    last, _ = distances[-1]
+    if last > COMES:
+        raise Missed(f"{COMES:g} m or less to the wall at the end", f"{last:.2f} m", SIGN, picture="path")
+    if nearest < TARGET - BEYOND:
+        saw = f"{nearest:.2f} m at {stamp:.3g} s"
+        raise Missed(f"{TARGET - BEYOND:g} m or more to the wall", saw, picture="path")
+
+
+@gap.check(2, after=does_not_run_into_the_wall)
+def keeps_within_the_limit(run: Recording) -> None:
+    """No speed is beyond 0.3 m/s, either way."""
+    with hinting(f"Cut it before you publish it: max(-{MOST:g}, min({MOST:g}, speed))."):
+        within(run, "/speed", "data", -MOST, MOST, unit="m/s")
+
+
+@gap.check(
+    4,
+    after=does_not_run_into_the_wall,
+    hints={
+        "P alone stands where its push is as strong as the pull of the slope. I takes the rest away: the sum "
+        "of error times time.": lambda run, distance: distance > TARGET,
+        WIND_UP: otherwise,
+    },
+)
+def stands_at_the_distance(run: Recording) -> None:
+    """In the last four seconds it stands 0.6 m from the wall, within 3 cm."""
+    begin = run.ended.stamp - LAST
+    speeds = Window(begin, run.ended.stamp).rows(run.messages("/speed"))
+    held = sum(math.isfinite(row.message.data) for row in speeds)
+    if held < HELD * LAST / PERIOD:
+        hint = "A node that says nothing leaves it to the brake: publish a speed with each scan, to the end."
+        raise Missed(f"a speed with each scan in the last {LAST:g} s", f"{held} of them", hint)
+    worst, _ = max(_distances(run, begin), key=lambda row: abs(row[0] - TARGET))
+    if abs(worst - TARGET) > NEAR:
+        expected = f"{TARGET:g} m, within {NEAR * 100:g} cm"
+        raise Missed(expected, f"{worst:.2f} m", about=(worst,), picture="path")
+
+
+def _distances(run: Recording, begin: Seconds) -> list[tuple[float, Seconds]]:
+    """How far (m) the wall was ahead of the robot from a stamp on, and when."""
+    wall = run.world.bounds[2]
+    return [(wall - pose.x, pose.stamp) for pose in run.path if pose.stamp >= begin - EDGE]
+
+
+def _speed_on_arrival(run: Recording) -> float:
+    """The last speed before the robot was nearer than it should."""
+    passed = next((stamp for distance, stamp in _distances(run, 0.0) if distance < TARGET), math.inf)
+    return last_before(run.messages("/speed"), passed).message.data
+
+
+def _filtered(values: list[float], weight: float) -> list[float]:
+    """Values after a low-pass filter of first order that begins with the first of them."""
+    return list(itertools.accumulate(values, lambda before, value: before + weight * (value - before)))

@@ -1,0 +1,107 @@
+"""Callback groups: processing a picture takes long, and a pole must not fall meanwhile."""
+
+from __future__ import annotations
+
+import itertools
+import statistics
+
+from grader.checks import Missed, hinting, keeps_deadline, otherwise, publishes, stands, subscribes
+from grader.checks.control import EFFORT
+from grader.checks.topics import longest_pause
+from grader.companions.control_streams import Camera
+from grader.exercise import Exercise
+from grader.responses import EDGE, Stimuli, Stimulus
+from grader.worlds.carts import work_cart
+from sim.evidence import Message, Recording
+
+LIMIT, ALONE = 0.035, 0.2  # s
+LOOKS, SOON = 0.3, 0.75  # s
+ANSWERS = "/brightest"
+ASIDE = (
+    "A callback that takes long belongs in a callback group of its own, and a MultiThreadedExecutor spins "
+    "the node: with one of the two alone nothing changes."
+)
+
+worker = Exercise("worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2))
+pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")
+
+
+@worker.check(2)
+def hears_and_speaks(run: Recording) -> None:
+    """The node hears /picture, publishes efforts on /cart_effort and places on /brightest."""
+    subscribes(run, "/picture", "std_msgs/msg/UInt8MultiArray")
+    publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
+    publishes(run, ANSWERS, "std_msgs/msg/Int32")
+
+
+@worker.check(
+    1,
+    after=hears_and_speaks,
+    hints={
+        "Nobody can see so quickly: call look(...) for each picture, and publish what it returns.": (
+            lambda run, picture: any(_is_early(picture, row) for row in picture.responses)
+        ),
+        "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
+    },
+)
+def looks_at_each_picture(run: Recording) -> None:
+    """Each picture is looked at: the place of its brightest pixel is on /brightest 0.3 s to 0.75 s later."""
+    taken = pictures(run)
+    missed = [picture for picture in taken if not _is_answered(picture)]
+    if missed:
+        first = missed[0]
+        saw = [f"{row.message.data} at {row.stamp:.3g} s" for row in first.responses]
+        when = f"{LOOKS:g} s to {SOON:g} s after the picture at {first.stamp:.3g} s"
+        raise Missed(
+            f"{_brightest(first)} on {ANSWERS}, {when}",
+            saw[0] if saw else "nothing then",
+            about=(first,),
+            credit=0.5 if 2 * len(missed) <= len(taken) else 0.0,
+        )
+
+
+@worker.check(8, after=looks_at_each_picture)
+def keeps_it_up(run: Recording) -> None:
+    """The pole is held up for 10 s, while pictures come."""
+    with hinting(ASIDE):
+        stands(run)
+    pause, since = longest_pause([row.stamp for row in run.messages(EFFORT)])
+    if pause > ALONE:
+        saw = f"nobody pushing for {pause:.2g} s, from {since:.3g} s on: it stood by chance"
+        raise Missed("a pole that is held up all the time", saw, ASIDE)
+
+
+@worker.check(4, after=keeps_it_up)
+def keeps_the_deadline(run: Recording) -> None:
+    """An effort comes at least every 0.035 s, also while a picture is looked at."""
+    sent = [row.stamp for row in run.messages(EFFORT)]
+    always = statistics.median(b - a for a, b in itertools.pairwise(sent)) > LIMIT
+    hint = "Push with each joint state, 100 times a second." if always else ASIDE
+    keeps_deadline(run, EFFORT, LIMIT, hint=hint)
+
+
+@worker.check(3, after=keeps_it_up)
+def answers_once(run: Recording) -> None:
+    """One answer comes for each picture, and no other."""
+    for picture in pictures(run):
+        if picture.values() != [_brightest(picture)]:
+            expected = f"{_brightest(picture)} on {ANSWERS} for the picture at {picture.stamp:.3g} s"
+            hint = "Publish what look(...) returns, once for each picture; leave none out."
+            raise Missed(f"{expected}, and nothing else", picture.seen(), hint)
+
+
+def _brightest(picture: Stimulus) -> int:
+    """The place of the brightest pixel."""
+    pixels = list(picture.value.data)
+    return pixels.index(max(pixels))
+
+
+def _is_early(picture: Stimulus, answer: Message) -> bool:
+    """Whether an answer comes before the picture can have been looked at."""
+    return answer.stamp < picture.stamp + LOOKS - EDGE
+
+
+def _is_answered(picture: Stimulus) -> bool:
+    """Whether the first answer is right, and took its time."""
+    first = picture.responses[:1]
+    return any(row.message.data == _brightest(picture) and not _is_early(picture, row) for row in first)
