@@ -32,6 +32,7 @@ from sim.ros.hooks import rclpy_internals, verify
 from sim.ros.hooks.install import install
 from sim.ros.hooks.table import HOOKS, Hook
 from sim.ros.hooks.verify import WRITTEN_FOR, HookError, check_arguments, check_internals, original_of
+from tests.patience import PATIENCE, until
 from tests.students.engine import mains, timing
 
 
@@ -63,7 +64,7 @@ def test_installing_again_changes_nothing():
 
 def test_a_module_that_may_not_be_imported_is_passed_over():
     program = "import sys; sys.modules['forbidden'] = None; import sim; print(sim.run(seconds=1).ended[0])"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE)
     assert (done.stdout, done.stderr) == ("time\n", "")
 
 
@@ -127,7 +128,7 @@ def test_a_hook_that_does_not_fit_is_said_on_import_and_none_is_installed():
         "try:\n    import sim\nexcept ImportError as error:\n    print(error)\n"
         "print(time.sleep is sleep)\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE)
     rclpy_version = WRITTEN_FOR["rclpy"]
     assert (done.stdout, done.stderr) == (
         f"A run reaches into rclpy.node.Node.create_timer, which rclpy {rclpy_version} does not have: "
@@ -243,7 +244,7 @@ def test_names_bound_before_sim_was_imported_go_through_the_hooks():
         "print(run(main, seconds=900, quiet=True).prints[0])\n"
         "print(len(run(timing.early_bound_sleep, seconds=2, quiet=True).logs))\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE)
     assert (done.stdout, done.stderr) == ("(500.0, '500.0')\n1\n", "")
 
 
@@ -263,16 +264,15 @@ def test_outside_a_run_threads_and_locks_are_real():
     def work():
         seen.append(threading.get_ident())
         with lock:
-            event.wait(60)
+            event.wait(PATIENCE)
 
     thread = threading.Thread(target=work)
     thread.start()
-    while not lock.locked():
-        time.sleep(0.001)
+    until(lock.locked)
     assert thread.is_alive() and thread.ident == seen[0] != threading.get_ident()
     assert not lock.acquire(timeout=0.02)
     event.set()
-    thread.join(60)
+    thread.join(PATIENCE)
     assert not thread.is_alive()
     assert type(lock) is type(threading._allocate_lock())
     assert type(queue.SimpleQueue()).__module__ == "_queue"
@@ -305,16 +305,16 @@ def test_outside_a_run_input_and_exit_are_pythons(monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO("typed\n"))
     assert builtins.input() == "typed"
     program = "import os, sim; os._exit(7)"
-    assert subprocess.run([sys.executable, "-c", program], timeout=60).returncode == 7
+    assert subprocess.run([sys.executable, "-c", program], timeout=PATIENCE).returncode == 7
 
 
 def test_outside_a_run_rclpy_waits_in_real_time(node):
     ticks = []
     start = time.monotonic()
     node.create_timer(0.02, lambda: ticks.append(node.get_clock().now().nanoseconds))
-    while len(ticks) < 3 and time.monotonic() - start < 60:
-        rclpy.spin_once(node, timeout_sec=0.5)
-    assert 0.05 < time.monotonic() - start < 60
+    while len(ticks) < 3:
+        rclpy.spin_once(node)
+    assert time.monotonic() - start > 0.05
     assert ticks[0] > 1.7e18
     assert wait_for_message(Int32, node, "nothing", time_to_wait=0.02) == (False, None)
     assert node.get_clock().sleep_for(rclpy.duration.Duration(seconds=0.01))
@@ -324,7 +324,7 @@ def test_outside_a_run_executors_use_threads(node):
     idents, barrier = set(), threading.Barrier(2)
 
     def meet():
-        barrier.wait(60)
+        barrier.wait(PATIENCE)
         idents.add(threading.get_ident())
         timers.pop().cancel()
 
@@ -332,11 +332,9 @@ def test_outside_a_run_executors_use_threads(node):
     timers = [node.create_timer(0.01, meet, callback_group=group) for _ in range(2)]
     executor = MultiThreadedExecutor(2)
     executor.add_node(node)
-    end = time.monotonic() + 60
-    while len(idents) < 2 and time.monotonic() < end:
-        executor.spin_once(timeout_sec=0.1)
+    until(lambda: executor.spin_once(timeout_sec=0.1) or len(idents) == 2)
     executor.shutdown()
-    assert len(idents) == 2 and threading.get_ident() not in idents
+    assert threading.get_ident() not in idents
     events = EventsExecutor()
     events.add_node(node)
     events.spin_once(timeout_sec=0.01)
@@ -362,8 +360,7 @@ def test_in_a_run_a_thread_of_the_users_stays_in_real_time():
 
     thread = threading.Thread(target=work)
     thread.start()
-    run(timing.Timers, seconds=400, quiet=True)
+    run(timing.Timers, seconds=900_000, until=lambda _: len(seen) > 3, quiet=True)
     stop.set()
-    thread.join(60)
-    assert len(seen) > 3
-    assert all(0.01 <= duration < 60 for duration in seen)
+    thread.join(PATIENCE)
+    assert all(0.01 <= duration < PATIENCE for duration in seen)

@@ -164,7 +164,7 @@ class SlowByALittle(Node):
 
     def __init__(self):
         super().__init__("slow")
-        self.create_timer(0.0001, lambda: sum(range(100_000)))
+        self.create_timer(0.0001, lambda: sum(range(1_000_000)))
 
 
 class Camera(Node):

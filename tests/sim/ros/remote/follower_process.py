@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sim.ros.remote import Remote, Wire, WireClosed, serve
+from tests.patience import PATIENCE
 from tests.students.teams import programs_of
 
 ROOT = Path(__file__).parents[4]
@@ -39,7 +40,7 @@ class FollowerProcess:
 
     @contextlib.contextmanager
     def serving(
-        self, module: str, *names: str, patience: float = 120.0, secret: str = ""
+        self, module: str, *names: str, patience: float = PATIENCE, secret: str = ""
     ) -> Iterator[Remote]:
         """A program that represents nodes of a module; after an error, the process is replaced."""
         self.wire.send(module=module, names=names)

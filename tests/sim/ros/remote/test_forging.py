@@ -4,6 +4,7 @@ import pytest
 
 from sim import run
 from sim.ros.remote import RemoteLost
+from tests.patience import PATIENCE
 
 FORGERS = "tests.sim.ros.remote.forgers"
 
@@ -55,22 +56,22 @@ def test_the_secret_changes_the_nodes_random_numbers(follower):
 @pytest.mark.parametrize(
     ("name", "patience", "reason"),
     [
-        ("Killed", 120.0, "The process with the nodes has ended."),
+        ("Killed", PATIENCE, "The process with the nodes has ended."),
         ("Stopped", 1.0, "The process with the nodes gave no answer for 1 s."),
         (
             "Garbage",
-            120.0,
+            PATIENCE,
             "The process with the nodes sent a message on /chat that is not of type std_msgs/msg/String.",
         ),
         (
             "Heavy",
-            120.0,
+            PATIENCE,
             "The nodes could not be run: WireBroken: a message of 80000195 bytes is too long: "
             "64000000 are allowed.",
         ),
         (
             "Scribbler",
-            120.0,
+            PATIENCE,
             "The process with the nodes broke off at 0.5 s: something in it ended the run there, "
             "or wrote to its connections.",
         ),

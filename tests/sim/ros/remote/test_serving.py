@@ -9,6 +9,7 @@ from rclpy.node import Node
 from grader import Exercise, check
 from sim import run
 from sim.ros.remote import Remote, RemoteLost, Wire, WireBroken, WireClosed, serve
+from tests.patience import PATIENCE
 
 
 @check(points=5)
@@ -62,7 +63,7 @@ def test_a_function_is_called_with_the_nodes(wires, nodes):
     wires[0].send(do="call", function="grader.programs:plain_refusal", arguments=[])
     Remote(wires[0]).end()
     serve(wires[1], nodes)
-    saw, hint = wires[0].receive(1)["answer"]
+    saw, hint = wires[0].receive(PATIENCE)["answer"]
     assert saw
     assert hint
 
@@ -72,7 +73,7 @@ def test_nodes_that_can_t_be_run_are_reported(wires):
     wires[0].send(do="go", now=0, events=[])
     Remote(wires[0]).end()
     assert serve(wires[1], [5]) == {"do": "end"}
-    assert wires[0].receive(1) == {
+    assert wires[0].receive(PATIENCE) == {
         "failed": "TypeError: grade() takes Node classes, functions that return a node, or main() functions;"
         " this is 5."
     }

@@ -8,6 +8,7 @@ import msgpack
 import pytest
 
 from sim.ros.remote import Wire, WireBroken, WireClosed, WireTimeout
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -37,7 +38,7 @@ def test_messages_arrive_complete_and_in_order(wires):
     near.send(do="go", now=1)
     near.send(text="Grüße, \ud800 and \0", numbers=[1, 0.1, None, True], big=2**63, raw=b"\xff")
     assert far.receive() == {"do": "go", "now": 1}
-    assert far.receive(1) == {
+    assert far.receive(PATIENCE) == {
         "text": "Grüße, \ud800 and \0",
         "numbers": [1, 0.1, None, True],
         "big": 2**63,
@@ -50,7 +51,7 @@ def test_a_message_may_be_longer_than_the_socket_buffers(wires):
     text = "x" * 5_000_000
     sender = threading.Thread(target=near.send, kwargs={"text": text})
     sender.start()
-    assert far.receive(30) == {"text": text}
+    assert far.receive(PATIENCE) == {"text": text}
     sender.join()
 
 
@@ -82,7 +83,7 @@ def test_receiving_times_out_and_can_be_continued(ends):
     with pytest.raises(WireTimeout, match=r"^no complete message came for 0\.05 s$"):
         far.receive(0.05)
     ends[0].sendall(framed(b"\x81\xa1a\x01")[6:])
-    assert far.receive(0.05) == {"a": 1}
+    assert far.receive(PATIENCE) == {"a": 1}
 
 
 def test_sending_times_out_if_the_other_process_does_not_receive(ends):
@@ -110,20 +111,20 @@ def test_sending_times_out_if_the_other_process_does_not_receive(ends):
 def test_bytes_that_are_no_message_are_refused(ends, body, words):
     ends[0].sendall(framed(body))
     with pytest.raises(WireBroken, match=f"^{words}$"):
-        Wire(ends[1]).receive(1)
+        Wire(ends[1]).receive(PATIENCE)
 
 
 def test_a_message_that_is_too_long_is_refused_by_its_length(ends):
     ends[0].sendall(struct.pack(">I", 2**32 - 1))
     with pytest.raises(WireBroken, match=r"^a message of 4294967295 bytes is too long: 100 are allowed$"):
-        Wire(ends[1], limit=100).receive(1)
+        Wire(ends[1], limit=100).receive(PATIENCE)
 
 
 def test_a_message_that_is_too_long_is_not_sent(wires, ends):
     with pytest.raises(WireBroken, match=r"^a message of 105 bytes is too long: 100 are allowed$"):
         Wire(ends[0], limit=100).send(text="x" * 97)
     wires[0].send(all="well")
-    assert wires[1].receive(1) == {"all": "well"}
+    assert wires[1].receive(PATIENCE) == {"all": "well"}
 
 
 @pytest.mark.parametrize(
@@ -138,7 +139,7 @@ def test_only_plain_data_is_sent(wires, value, words):
     with pytest.raises(WireBroken, match=f"^{words}"):
         wires[0].send(value=value)
     wires[0].send(all="well")
-    assert wires[1].receive(1) == {"all": "well"}
+    assert wires[1].receive(PATIENCE) == {"all": "well"}
 
 
 def test_a_sent_message_is_messagepack_after_its_length(ends):
