@@ -83,10 +83,15 @@ class Stimulus:
             expected = f"{text_of(wanted)} on {self.topic} within {self.within:g} s of {self.stamp:.3g} s"
             raise Missed(expected, self.seen(field), hint, about=(self,), **about)
 
-    def expects_nothing(self, expected: str, hint: str = "", *, field: str = "data") -> None:
-        """Require that nothing is published in response; raise Missed if something is."""
+    def expects_nothing(
+        self, expected: str, hint: str = "", *, field: str = "data", saw: str = ""
+    ) -> None:
+        """Require that nothing is published in response; raise Missed if something is.
+
+        saw: what to show of it; by default the values of the field.
+        """
         if self.responses:
-            raise Missed(expected, self.seen(field), hint, about=(self,))
+            raise Missed(expected, saw or self.seen(field), hint, about=(self,))
 
     def seen(self, field: str = "data") -> str:
         """Return the values of the first responses as text, or "nothing"."""

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from grader.checks import Missed
+from grader.checks.cmake_lists import Command, read_commands
+from grader.checks.interface_definitions import read_definition
 from grader.exercises import packages
-from grader.exercises.packages.cmake import Command, read_commands
-from grader.exercises.packages.definitions import read_definition
 from tests.students.packages import crates
 from tests.students.workspaces import Workspace
 

@@ -4,10 +4,9 @@ import random
 
 import pytest
 
+from grader.checks.packages import package_of
+from grader.companions.patrol_package import FAULTS, FAULTY, faulty
 from grader.exercises import packages
-from grader.exercises.packages.looks import package_of
-from grader.exercises.packages.mending import FAULTY, faulty
-from grader.exercises.packages.patrol import FAULTS
 from grader.programs import _refuse_to_build
 from grader.workspace import building
 from grader.workspace.building import NotHere
@@ -41,7 +40,7 @@ def test_a_number_draws_six_faults_that_show(number):
 
 def test_what_is_mended_is_written_anew_each_time(tmp_path):
     for _ in range(2):
-        workspace = packages.mended(tmp_path, 44, lambda mend: mend("setup.py", ":mian", ":main"))
+        workspace = packages.repaired(tmp_path, 44, lambda mend: mend("setup.py", ":mian", ":main"))
     assert workspace == tmp_path
     text = (tmp_path / "src/patrol/setup.py").read_text()
     assert text == faulty(44)["patrol/setup.py"].replace(":mian", ":main")
@@ -52,14 +51,14 @@ def test_a_text_that_a_file_does_not_have_once_can_not_be_mended(tmp_path, old, 
     with pytest.raises(
         ValueError, match=rf"^setup.py has {times} times '{old}': give a text that it has once"
     ):
-        packages.mended(tmp_path, 44, lambda mend: mend("setup.py", old, ""))
+        packages.repaired(tmp_path, 44, lambda mend: mend("setup.py", old, ""))
 
 
 def test_nothing_is_handed_over_before_anything_is_mended(tmp_path):
     def repair(mend):
         raise NotImplementedError
 
-    score = packages.patrol.grade(packages.mended(tmp_path, 44, repair))
+    score = packages.patrol.grade(packages.repaired(tmp_path, 44, repair))
     assert score == 0
     assert [verdict.saw for verdict in score.verdicts if verdict.status == "failed"] == [
         "This exercise is not started yet: that line still is in the cell above, about patrol"

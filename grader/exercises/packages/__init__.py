@@ -1,24 +1,26 @@
 """The exercises of 11_packages, from a package out of nothing to a broken one."""
 
-from grader.exercises.packages.bench import see
-from grader.exercises.packages.defining import crates
-from grader.exercises.packages.launching import LANES, convoy
-from grader.exercises.packages.making import greeter
-from grader.exercises.packages.mending import broken, mended, patrol
-from grader.exercises.packages.naming import Weather, station
-from grader.exercises.packages.splitting import Probe, gauge
+from grader.companions.package_sensors import VoltageProbe, WeatherStation
+from grader.companions.patrol_package import broken, repaired
+from grader.exercises.packages.convoy import LANES, convoy
+from grader.exercises.packages.crates import crates
+from grader.exercises.packages.gauge import gauge
+from grader.exercises.packages.greeter import greeter
+from grader.exercises.packages.patrol import patrol
+from grader.exercises.packages.station import station
+from grader.trial import see
 
 __all__ = [
     "LANES",
-    "Probe",
-    "Weather",
+    "VoltageProbe",
+    "WeatherStation",
     "broken",
     "convoy",
     "crates",
     "gauge",
     "greeter",
-    "mended",
     "patrol",
+    "repaired",
     "see",
     "station",
 ]

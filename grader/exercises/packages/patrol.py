@@ -1,123 +1,67 @@
-"""The package patrol as it should be, and the faults that it may have."""
+"""A broken package to repair."""
 
-XML = """\
-<?xml version="1.0"?>
-<package format="3">
-  <name>patrol</name>
-  <version>0.0.0</version>
-  <description>Drives ahead, at a speed that can be set</description>
-  <maintainer email="you@example.org">you</maintainer>
-  <license>Apache-2.0</license>
+from __future__ import annotations
 
-  <depend>rclpy</depend>
-  <depend>geometry_msgs</depend>
-  <exec_depend>launch</exec_depend>
-  <exec_depend>launch_ros</exec_depend>
+import functools
 
-  <export>
-    <build_type>ament_python</build_type>
-  </export>
-</package>
-"""
-SETUP = """\
-from glob import glob
+from grader.checks import Missed, publishes, series
+from grader.checks.packages import installs_by_itself, names_what_it_imports
+from grader.exercise import Exercise, Scenario
+from grader.responses import same
+from grader.workspace import place
+from grader.workspace.package import PackageRun
 
-from setuptools import find_packages, setup
+TWIST = "geometry_msgs/msg/Twist"
+ALONE, LAUNCHED = 0.2, 0.15  # m/s
 
-package_name = 'patrol'
-
-setup(
-    name=package_name,
-    version='0.0.0',
-    packages=find_packages(exclude=['test']),
-    data_files=[
-        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
-        ('share/' + package_name, ['package.xml']),
-        ('share/' + package_name + '/launch', glob('launch/*')),
-        ('share/' + package_name + '/config', glob('config/*')),
+patrol = Exercise(
+    "patrol",
+    "A broken package",
+    package="patrol",
+    scenarios=[
+        Scenario(seconds=3, name="program", prepare=functools.partial(place.program, "patrol", "patrol")),
+        Scenario(
+            seconds=4,
+            name="launch",
+            prepare=functools.partial(place.launched, "patrol", "patrol.launch.py"),
+        ),
     ],
-    install_requires=['setuptools'],
-    zip_safe=True,
-    entry_points={
-        'console_scripts': [
-            'patrol = patrol.driver:main',
-        ],
-    },
 )
-"""
-CFG = """\
-[develop]
-script_dir=$base/lib/patrol
-[install]
-install_scripts=$base/lib/patrol
-"""
-DRIVER = """\
-import rclpy
-from geometry_msgs.msg import Twist
-from rclpy.node import Node
-
-from patrol.speeds import USUAL
 
 
-class Driver(Node):
-    def __init__(self):
-        super().__init__("driver")
-        self.declare_parameter("speed", USUAL)  # m/s
-        self.commands = self.create_publisher(Twist, "cmd_vel", 10)
-        self.create_timer(0.1, self.drive)
-
-    def drive(self):
-        command = Twist()
-        command.linear.x = self.get_parameter("speed").value
-        self.commands.publish(command)
+@patrol.check(5, only="program")
+def program_runs(run: PackageRun) -> None:
+    """`ros2 run patrol patrol` publishes Twist messages on /cmd_vel, at 0.2 m/s."""
+    publishes(run, "/cmd_vel", TWIST)
+    _drives_at(run, "/cmd_vel", ALONE, "patrol/speeds.py has the speed.")
 
 
-def main():
-    rclpy.init()
-    rclpy.spin(Driver())
-"""
-LAUNCH = """\
-from launch import LaunchDescription
-from launch.substitutions import PathJoinSubstitution
-from launch_ros.actions import Node
-from launch_ros.substitutions import FindPackageShare
+@patrol.check(5, only="launch")
+def launch_file_runs(run: PackageRun) -> None:
+    """`ros2 launch patrol patrol.launch.py` starts it for a robot: Twist messages on /scout/cmd_vel."""
+    publishes(run, "/scout/cmd_vel", TWIST)
 
 
-def generate_launch_description():
-    settings = PathJoinSubstitution([FindPackageShare("patrol"), "config", "patrol.yaml"])
-    return LaunchDescription([
-        Node(package="patrol", executable="patrol", namespace="scout", parameters=[settings]),
-    ])
-"""
-YAML = """\
-/**:
-  ros__parameters:
-    speed: 0.15
-"""
-FILES = {
-    "patrol/package.xml": XML,
-    "patrol/setup.py": SETUP,
-    "patrol/setup.cfg": CFG,
-    "patrol/resource/patrol": "",
-    "patrol/patrol/__init__.py": "",
-    "patrol/patrol/driver.py": DRIVER,
-    "patrol/patrol/speeds.py": "USUAL = 0.2  # m/s\n",
-    "patrol/launch/patrol.launch.py": LAUNCH,
-    "patrol/config/patrol.yaml": YAML,
-}
+@patrol.check(3, after=launch_file_runs, only="launch")
+def settings_hold(run: PackageRun) -> None:
+    """There it drives at 0.15 m/s, as config/patrol.yaml says."""
+    hint = "The file begins with the node's name or /**, then comes ros__parameters with two underscores."
+    _drives_at(run, "/scout/cmd_vel", LAUNCHED, hint)
 
-# The file, what stands there, and what stands there instead. Each is met when those before it are mended.
-FAULTS = (
-    ("patrol/package.xml", "</maintainer>", ""),
-    ("patrol/package.xml", "  <depend>geometry_msgs</depend>\n", ""),
-    ("patrol/setup.py", "find_packages(exclude=['test'])", "[]"),
-    ("patrol/setup.py", "['package.xml']),", "['package.xml'])"),
-    ("patrol/setup.py", "'patrol = patrol.driver:main'", "'patrol = patrol.driver:mian'"),
-    ("patrol/setup.py", "['resource/' + package_name]", "['resource/partol']"),
-    ("patrol/setup.py", "        ('share/' + package_name + '/launch', glob('launch/*')),\n", ""),
-    ("patrol/setup.cfg", "install_scripts=$base/lib/patrol", "install_scripts=$base/bin"),
-    ("patrol/patrol/driver.py", "from patrol.speeds import", "from speeds import"),
-    ("patrol/launch/patrol.launch.py", 'executable="patrol"', 'executable="driver"'),
-    ("patrol/config/patrol.yaml", "ros__parameters", "ros_parameters"),
-    ("patrol/config/patrol.yaml", "speed: 0.15", "speed: 1"),
-)
+
+@patrol.check(2)
+def names_its_needs(run: PackageRun) -> None:
+    """package.xml names each ROS package that its modules and its launch file import."""
+    names_what_it_imports(run)
+
+
+@patrol.check(2)
+def installs_what_it_has(run: PackageRun) -> None:
+    """setup.py installs package.xml, and the marker by which ROS finds the package."""
+    installs_by_itself(run)
+
+
+def _drives_at(run: PackageRun, topic: str, wanted: float, hint: str) -> None:
+    for stamp, speed in series(run, topic, "linear.x"):
+        if not same(speed, wanted):
+            raise Missed(f"{wanted:g} m/s on {topic}", f"{speed:g} m/s at {stamp:.3g} s", hint)

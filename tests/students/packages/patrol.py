@@ -1,7 +1,6 @@
 """Packages for packages.patrol: right ones in three styles, then one with each fault, and the broken one."""
 
-from grader.exercises.packages.mending import faulty
-from grader.exercises.packages.patrol import FAULTS, FILES
+from grader.companions.patrol_package import FAULTS, FILES, faulty
 from tests.students.workspaces import Workspace, changed
 
 PARTS = ("FAULTS", "FILES", "NODE", "with_fault")

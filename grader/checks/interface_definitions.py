@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from rosidl_adapter.parser import Constant, Field, InvalidValue, is_valid_field_name, parse_message_string
 
-from grader.checks import Missed
+from grader.checks.check import Missed
 
 PARTS = {
     "msg": ("message",),

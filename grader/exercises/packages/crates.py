@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from grader.checks import Missed
+from grader.checks.cmake_lists import Command, read_commands
+from grader.checks.interface_definitions import PARTS, Part, read_definition
+from grader.checks.packages import package_of
 from grader.exercise import Exercise
-from grader.exercises.packages.cmake import Command, read_commands
-from grader.exercises.packages.definitions import PARTS, Part, read_definition
-from grader.exercises.packages.looks import package_of
 from grader.workspace.description import CMAKE
 from grader.workspace.package import PackageRun
 from grader.workspace.sources import Sources

@@ -1,42 +1,22 @@
-"""A module of one's own, imported from a node by the package's name."""
+"""A module of one's own, imported by the package's name."""
 
 from __future__ import annotations
 
 import ast
 import functools
-import random
-
-from rclpy.node import Node
-from std_msgs.msg import Float32
 
 from grader.checks import Missed, publishes
-from grader.checks.no_data import no_data
+from grader.checks.packages import ROS, imports, package_of, parsed
+from grader.companions.package_sensors import VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
-from grader.exercises.packages.looks import ROS, imports, package_of, parsed
+from grader.responses import Stimuli, same
 from grader.workspace import place
 from grader.workspace.package import PackageRun
 
-VOLTS, DEGREES = "/volts", "/celsius"
+DEGREES = "/celsius"
 MODULE, PLACE = "gauge.convert", "gauge/gauge/convert.py"
 BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) where a message comes."
-SOON, SAME = 0.3, 0.05  # s, degrees
-
-
-class Probe(Node):
-    """Says voltages (Float32 on /volts), four times a second; some are out of range."""
-
-    def __init__(self, seed: int) -> None:
-        super().__init__("probe")
-        chance = random.Random(f"probe {seed}")
-        self.left = [round(chance.uniform(0.0, 3.3), 3) for _ in range(60)]
-        for _ in range(12):
-            self.left[chance.randrange(50, 60)] = chance.choice([-0.2, -0.01, 3.35, 5.0])
-        self.publisher = self.create_publisher(Float32, VOLTS, 10)
-        self.create_timer(0.25, self.say)
-
-    def say(self) -> None:
-        """The next one."""
-        self.publisher.publish(Float32(data=self.left.pop()))
+SOON, SAME = 0.2, 0.05  # s, degrees
 
 
 gauge = Exercise(
@@ -47,10 +27,13 @@ gauge = Exercise(
         Scenario(
             seconds=6,
             prepare=functools.partial(place.program, "gauge", "gauge"),
-            companions=lambda seed: [functools.partial(Probe, seed)],
+            companions=lambda seed: [functools.partial(VoltageProbe, seed)],
         )
     ],
 )
+
+
+voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")
 
 
 @gauge.check(3, guess="Compare the topic's name with the task, letter by letter.")
@@ -62,21 +45,15 @@ def publishes_degrees(run: PackageRun) -> None:
 @gauge.check(5, after=publishes_degrees)
 def converts(run: PackageRun) -> None:
     """Each voltage becomes 100 degrees for each volt, less 50; and none comes for one outside 0 to 3.3 V."""
-    heard = [one for one in run.messages(VOLTS) if one.from_course and one.stamp + SOON < run.seconds]
-    if not heard:
-        raise no_data(run, f"voltages on {VOLTS}", "none", run.graph.publishers(VOLTS))
-    for one in heard:
-        volts = one.message.data
-        said = [it for it in run.messages(DEGREES) if one.stamp <= it.stamp < one.stamp + 0.2]
-        saw = f"{said[0].message.data:.1f}" if said else "nothing"
+    for voltage in voltages(run):
+        volts, found = voltage.value.data, voltage.values()
+        saw = f"{found[0]:.1f}" if found else "nothing"
         if not 0.0 <= volts <= 3.3:
-            if said:
-                hint = "Such a voltage means a broken cable: leave it out."
-                raise Missed(f"nothing for {volts:.2f} V", saw, hint)
-            continue
-        wanted = 100.0 * volts - 50.0
-        if not said or abs(said[0].message.data - wanted) > SAME:
-            raise Missed(f"{wanted:.1f} for {volts:.3f} V", saw, "celsius(volts) is 100 * volts - 50.")
+            hint = "Such a voltage means a broken cable: leave it out."
+            voltage.expects_nothing(f"nothing for {volts:.2f} V", hint, saw=saw)
+        elif not found or not same(found[0], 100.0 * volts - 50.0, SAME):
+            hint = "celsius(volts) is 100 * volts - 50."
+            raise Missed(f"{100.0 * volts - 50.0:.1f} for {volts:.3f} V", saw, hint)
 
 
 @gauge.check(5)

@@ -1,6 +1,6 @@
-"""What a CMakeLists.txt says, read as data: its commands in order, with variables put in. Nothing is run.
+"""Reads a CMakeLists.txt as data: its commands in order, with variables expanded. Nothing is run.
 
-Conditions, loops and functions are not followed: each command counts as if it stood alone.
+Conditions, loops and functions are not followed: each command counts on its own.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grader.checks import Missed
+from grader.checks.check import Missed
 
 MOST, LONGEST = 20_000, 5_000  # bytes of the file, characters of a command with its variables
 _TOKEN = re.compile(
@@ -25,7 +25,7 @@ _VARIABLE = re.compile(r"\$\{(\w+)\}")
 
 @dataclass(frozen=True)
 class Command:
-    """A command in small letters, and its words."""
+    """A command in small letters, and its arguments."""
 
     name: str
     words: tuple[str, ...]

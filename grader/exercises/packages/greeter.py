@@ -5,8 +5,8 @@ from __future__ import annotations
 import functools
 
 from grader.checks import Missed, publishes, rate
+from grader.checks.packages import installs_by_itself, names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.exercises.packages.looks import installs_by_itself, names_what_it_imports
 from grader.workspace import place
 from grader.workspace.package import PackageRun
 
@@ -35,11 +35,11 @@ def twice_a_second(run: PackageRun) -> None:
 @greeter.check(2, after=says_hello)
 def counts(run: PackageRun) -> None:
     """The greetings are hello 1, hello 2, hello 3 and so on."""
-    for number, heard in enumerate(run.messages(TOPIC), 1):
-        if heard.message.data != f"hello {number}":
+    for number, row in enumerate(run.messages(TOPIC), 1):
+        if row.message.data != f"hello {number}":
             raise Missed(
                 f"“hello {number}”",
-                f"“{heard.message.data[:60]}” at {heard.stamp:g} s",
+                f"“{row.message.data[:60]}” at {row.stamp:g} s",
                 "Count in the node: a number that is 1 at first, and 1 more after each message.",
             )
 

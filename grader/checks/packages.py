@@ -1,4 +1,4 @@
-"""What can be seen of a package without running it."""
+"""Measures over a package's files: what it imports, declares and installs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from grader.checks import Missed
+from grader.checks.check import Missed
 from grader.workspace.package import Package, PackageRun
 
 ROS = re.compile(r"rclpy|tf2_ros|launch|launch_ros|std_srvs|\w+_msgs|\w+_interfaces")
@@ -14,14 +14,14 @@ TESTS = ("test", "tests")
 
 
 def package_of(run: PackageRun) -> Package:
-    """The package of a run. Raises ValueError for a run without one: our mistake."""
+    """Return the package of a run. Raises ValueError without one, which is the course's mistake."""
     if getattr(run, "package", None) is None:
         raise ValueError("this exercise has no package: give it one")
     return run.package
 
 
 def names_what_it_imports(run: PackageRun) -> None:
-    """Miss a package that its modules or launch files import and package.xml doesn't name."""
+    """Every package that modules and launch files import is in package.xml. Raises Missed."""
     package = package_of(run)
     imported = {
         name
@@ -41,7 +41,7 @@ def names_what_it_imports(run: PackageRun) -> None:
 
 
 def installs_by_itself(run: PackageRun) -> None:
-    """Miss what colcon had to install in place of setup.py, as it says."""
+    """setup.py installs what colcon would otherwise add. Raises Missed."""
     name = package_of(run).description.name
     pairs = {
         "marker": f"('share/ament_index/resource_index/packages', ['resource/{name}'])",
@@ -58,7 +58,7 @@ def installs_by_itself(run: PackageRun) -> None:
 
 
 def imports(data: bytes) -> Iterator[str]:
-    """The full names of what a module imports; `.name` for what lies beside it."""
+    """Yield the full names of what a module imports; `.name` for a module of the same package."""
     for node in ast.walk(parsed(data)):
         if isinstance(node, ast.Import):
             yield from (name.name for name in node.names)
@@ -69,7 +69,7 @@ def imports(data: bytes) -> Iterator[str]:
 
 
 def parsed(data: bytes) -> ast.Module:
-    """The code of a module; none where it can't be read."""
+    """Return the code of a module; an empty one if it can't be parsed."""
     try:
         return ast.parse(data)
     except (SyntaxError, ValueError, RecursionError, MemoryError):

@@ -1,4 +1,4 @@
-"""Tries a package as its exercise does, in a notebook."""
+"""Builds and runs a package as its exercise does, in a notebook."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import os
 import textwrap
 
 from grader.checks import Missed
+from grader.checks.interface_definitions import PARTS, read_definition
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.exercise import Exercise
-from grader.exercises.packages.definitions import PARTS, read_definition
 from grader.programs import LocalPrograms
 from grader.tell import BEGIN, tell
 from grader.workspace.building import NotHere
@@ -17,7 +17,7 @@ from sim.evidence import Recording
 
 
 def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: int = 0) -> Recording:
-    """Build the package of an exercise anew, and run one of its scenarios.
+    """Build the package of an exercise, and run one of its scenarios.
 
     workspace: the folder with src/ in it. What goes wrong is printed; the recording of a package that can't
     be built is empty. No points are given. A package of interfaces is not built: what it defines is printed.
@@ -29,7 +29,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
             print(BEGIN if found.sentence == NOT_STARTED else f"{found.saw}\nHint: {found.hint}")
             return Recording()
         if not found.built.files:
-            _tell_definitions(found)
+            _print_definitions(found)
             return Recording()
         chosen, seed = exercise.runs()[scenario]
         recording = chosen.run(source, seed)
@@ -42,8 +42,8 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         source.leave()
 
 
-def _tell_definitions(package: Package) -> None:
-    """What rosidl reads in the definitions, in the form of `ros2 interface show`; or why it reads nothing."""
+def _print_definitions(package: Package) -> None:
+    """Print what rosidl reads in the definitions, as `ros2 interface show` does; or why it reads nothing."""
     name = package.description.name
     for path, data in package.sources.items():
         stem, _, kind = path.rpartition(".")

@@ -5,15 +5,15 @@ from __future__ import annotations
 import functools
 
 from grader.checks import Missed, publishes
+from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.exercises.packages.looks import names_what_it_imports
 from grader.workspace import place
 from grader.workspace.package import PackageRun
 from sim import World
 
 WALL = 2.0  # m: where the wall ahead is; all robots start at 0
 GAPS = {"left": 0.5, "right": 1.0}  # m
-ASKED = 0.8  # m: for the left one, when it is asked for
+REQUESTED = 0.8  # m: for the left one, by an argument
 NEAR, MOVED = 0.08, 0.02  # m
 LANES = World.from_data(
     {
@@ -37,7 +37,7 @@ convoy = Exercise(
     package="convoy",
     scenarios=[
         Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
-        Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={ASKED}")),
+        Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={REQUESTED}")),
     ],
 )
 
@@ -55,10 +55,10 @@ def drives_both(run: PackageRun) -> None:
 @convoy.check(2, after=drives_both)
 def leaves_the_third_alone(run: PackageRun) -> None:
     """The robot in the middle is nobody's: it stays where it is."""
-    way = abs(run.path[-1].x - run.path[0].x)
-    if way > MOVED:
+    moved = abs(run.path[-1].x - run.path[0].x)
+    if moved > MOVED:
         hint = "A program too many drives it: each Node of the launch file has a namespace, left or right."
-        raise Missed("a middle robot that stands", f"{way:.2f} m", hint, picture="path")
+        raise Missed("a middle robot that stands", f"{moved:.2f} m", hint, picture="path")
 
 
 @convoy.check(3, after=drives_both)
@@ -76,7 +76,7 @@ def left_keeps_its_distance(run: PackageRun) -> None:
 @convoy.check(3, after=drives_both, only="asked")
 def left_obeys_the_argument(run: PackageRun) -> None:
     """With the argument gap:=0.8 the left robot stops 0.8 m before the wall."""
-    _stops(run, "left", ASKED, 'Its Node has parameters=[{"gap": LaunchConfiguration("gap")}].')
+    _stops(run, "left", REQUESTED, 'Its Node has parameters=[{"gap": LaunchConfiguration("gap")}].')
 
 
 @convoy.check(2)
