@@ -1,7 +1,5 @@
 """Measures over transforms: which were broadcast, and where they put a frame."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

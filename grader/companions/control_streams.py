@@ -1,7 +1,5 @@
 """Streams that a controller takes: a sensor that is late at times, marks for a cart, and pictures."""
 
-from __future__ import annotations
-
 import random
 
 from rclpy.duration import Duration

@@ -1,7 +1,5 @@
 """A figure that an arm has to draw."""
 
-from __future__ import annotations
-
 import functools
 import math
 import random

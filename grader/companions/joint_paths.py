@@ -1,7 +1,5 @@
 """Paths for an arm to follow, one of them beyond its limits and one of them interrupted."""
 
-from __future__ import annotations
-
 import functools
 import random
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Positions for a joint to go to, and programs that move an arm near its limits."""
 
-from __future__ import annotations
-
 import functools
 import random
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Where a lidar is mounted on a robot."""
 
-from __future__ import annotations
-
 import random
 
 from geometry_msgs.msg import Pose2D

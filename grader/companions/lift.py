@@ -1,7 +1,5 @@
 """A lift that gets stuck, and requests for positions, some of them beyond its limits."""
 
-from __future__ import annotations
-
 import functools
 import math
 import random

@@ -1,7 +1,5 @@
 """Robots on a curve: one with odometry, and one whose localization comes late."""
 
-from __future__ import annotations
-
 import math
 import random
 

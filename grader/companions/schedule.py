@@ -1,7 +1,5 @@
 """A program that publishes given messages at given times."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

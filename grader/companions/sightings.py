@@ -1,7 +1,5 @@
 """Robots on a map, whose cameras see things and publish them a little later."""
 
-from __future__ import annotations
-
 import math
 import random
 

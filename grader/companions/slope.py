@@ -1,7 +1,5 @@
 """The motors of a robot on a slope."""
 
-from __future__ import annotations
-
 import math
 import random
 

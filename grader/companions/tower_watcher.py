@@ -1,7 +1,5 @@
 """A program that turns a tower; students start it with the right parameters and remappings."""
 
-from __future__ import annotations
-
 import math
 
 from geometry_msgs.msg import Twist

@@ -1,7 +1,5 @@
 """Transforms of the course, and a localization that knows where robots began."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The floor of a world as a grid: what is solid, how far the goal is, and a path that can be driven."""
 
-from __future__ import annotations
-
 import functools
 import math
 

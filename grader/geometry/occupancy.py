@@ -1,7 +1,5 @@
 """The cells of an OccupancyGrid as an array, and distances between them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Walls as worlds have them: pairs of points."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.geometry.pose import Point

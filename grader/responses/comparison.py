@@ -1,7 +1,5 @@
 """Compares numbers and series of numbers, and writes them as score pages do."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

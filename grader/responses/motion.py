@@ -1,7 +1,5 @@
 """How fast and how close: measures along a path of poses, in the map frame."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """What the course's programs send, and what the student's programs publish in response."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Worlds with a joint or an arm, drawn from a seed: other limits, other speeds, other lengths."""
 
-from __future__ import annotations
-
 import functools
 import random
 from dataclasses import replace

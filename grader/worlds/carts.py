@@ -1,7 +1,5 @@
 """Carts that carry a pole, drawn from a seed: with weak motors, poor sensors, or pushes."""
 
-from __future__ import annotations
-
 import itertools
 import random
 from dataclasses import replace

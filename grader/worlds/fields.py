@@ -1,7 +1,5 @@
 """Fields and halls drawn from a seed: a leader to follow, a tower that watches a scout, a wall ahead."""
 
-from __future__ import annotations
-
 import math
 import random
 

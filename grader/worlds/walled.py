@@ -1,7 +1,5 @@
 """A world with walls all round, for those that are drawn from a seed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from grader.geometry import rectangle

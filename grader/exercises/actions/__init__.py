@@ -15,22 +15,3 @@ from grader.exercises.actions.square import square
 from grader.exercises.actions.steps import steps
 from grader.exercises.actions.stoppable import stoppable
 from grader.exercises.actions.turn import turn
-
-__all__ = [
-    "BusyFibonacci",
-    "Captain",
-    "CarpetServer",
-    "DriveServer",
-    "Examiner",
-    "Impatient",
-    "LateFibonacci",
-    "Mathematician",
-    "SpinServer",
-    "courier",
-    "customer",
-    "fibonacci",
-    "square",
-    "steps",
-    "stoppable",
-    "turn",
-]

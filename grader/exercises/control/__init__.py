@@ -10,22 +10,3 @@ from grader.exercises.control.push import push
 from grader.exercises.control.worker import worker
 from grader.worlds.carts import hopeless_cart, long_track, pushed_cart, weak_cart, work_cart
 from grader.worlds.fields import ramp
-
-__all__ = [
-    "Camera",
-    "Marks",
-    "Sensor",
-    "Slope",
-    "balance",
-    "gap",
-    "hopeless_cart",
-    "jitter",
-    "long_track",
-    "marks",
-    "push",
-    "pushed_cart",
-    "ramp",
-    "weak_cart",
-    "work_cart",
-    "worker",
-]

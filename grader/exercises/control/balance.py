@@ -1,7 +1,5 @@
 """P and D: keep a pole up, and publish how long it stood where that is impossible."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, fell_at, hinting, keeps_deadline, otherwise, publishes, stands
 from grader.checks.control import EFFORT
 from grader.exercise import Exercise, Scenario

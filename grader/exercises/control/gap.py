@@ -1,7 +1,5 @@
 """PI, wind-up and a filter: stop in front of a wall, on a slope."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """Measure a stream: its latency, its jitter, and the deadlines that it misses."""
 
-from __future__ import annotations
-
 import itertools
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Move a cart with a weak motor to the marks that come, and keep its pole up."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.checks import (

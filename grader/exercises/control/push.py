@@ -1,7 +1,5 @@
 """Keep a pole up with other masses, another pole, and pushes."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, hinting, keeps_to_limits, lean, publishes, settles, stands, still_stands
 from grader.checks.control import EFFORT
 from grader.exercise import Exercise

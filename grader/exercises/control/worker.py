@@ -1,7 +1,5 @@
 """Callback groups: processing a picture takes long, and a pole must not fall meanwhile."""
 
-from __future__ import annotations
-
 import itertools
 import statistics
 

@@ -12,21 +12,3 @@ from grader.exercises.frames.mount import mount
 from grader.exercises.frames.odometry import odometry
 from grader.exercises.frames.watch import watch
 from grader.worlds.fields import convoy, parked, square
-
-__all__ = [
-    "Mechanic",
-    "SlowLocalization",
-    "Team",
-    "Watcher",
-    "WheelOdometry",
-    "behind",
-    "convoy",
-    "delayed",
-    "localization",
-    "lookup",
-    "mount",
-    "odometry",
-    "parked",
-    "square",
-    "watch",
-]

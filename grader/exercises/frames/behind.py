@@ -1,7 +1,5 @@
 """The project on frames: follow another robot by transforms."""
 
-from __future__ import annotations
-
 import math
 import statistics
 

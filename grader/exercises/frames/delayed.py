@@ -1,7 +1,5 @@
 """Wait for transforms that come late, without blocking the callbacks that bring them."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, hinting, publishes, subscribes

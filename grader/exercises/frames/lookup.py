@@ -1,7 +1,5 @@
 """Look transforms up: where was it, when it was seen? And what if there is no answer?"""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes

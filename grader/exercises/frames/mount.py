@@ -1,7 +1,5 @@
 """Broadcast once, as a static transform, where a lidar is mounted."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes

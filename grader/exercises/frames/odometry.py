@@ -1,7 +1,5 @@
 """Broadcast a moving frame: where odometry has the robot."""
 
-from __future__ import annotations
-
 import math
 
 from builtin_interfaces.msg import Time

@@ -1,7 +1,5 @@
 """Find two faults: a node waits for a robot that does not exist, and drives another one."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, named, publishes

@@ -11,21 +11,3 @@ from grader.exercises.joints.limits import limits
 from grader.exercises.joints.seven import seven
 from grader.exercises.joints.trajectory import trajectory
 from grader.worlds.arms import arm_of, desk_of, joint_of
-
-__all__ = [
-    "Designer",
-    "arm_of",
-    "arrive",
-    "careful",
-    "designer",
-    "desk_of",
-    "draw",
-    "foreman",
-    "gymnast",
-    "joint_of",
-    "lift",
-    "limits",
-    "seven",
-    "teacher",
-    "trajectory",
-]

@@ -1,7 +1,5 @@
 """Send a joint to the next position when it has arrived, and not when some time has passed."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.checks import Missed, otherwise, publishes, tip_at, tip_path

@@ -1,7 +1,5 @@
 """Refuse requests beyond a lift's limits, notice when the lift is stuck, and carry on."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """The project on joints: inverse kinematics, and a figure that the arm's tip draws."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, draws, hinting, keeps_off, otherwise, sends_goals

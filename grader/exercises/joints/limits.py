@@ -1,7 +1,5 @@
 """Read the joints' limits from the robot's description, and name each joint that comes near one."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes

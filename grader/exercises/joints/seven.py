@@ -1,7 +1,5 @@
 """Publish seven positions for a joint, one every two seconds, and end."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.checks import Missed, otherwise, publishes

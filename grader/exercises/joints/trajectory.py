@@ -1,7 +1,5 @@
 """A client of FollowJointTrajectory: send paths, report the feedback, and how each goal ended."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any, NamedTuple

@@ -6,5 +6,3 @@ from grader.exercises.nodes.heart import heart
 from grader.exercises.nodes.hello import hello
 from grader.exercises.nodes.weather import weather
 from grader.exercises.nodes.whole_main import whole_main
-
-__all__ = ["battery", "counter", "heart", "hello", "weather", "whole_main"]

@@ -8,17 +8,3 @@ from grader.exercises.safety.latch import latch
 from grader.exercises.safety.mutants import mutants
 from grader.exercises.safety.mux import mux
 from grader.exercises.safety.smooth import smooth
-
-__all__ = [
-    "BatteryAndMotor",
-    "Drivers",
-    "EmergencyOperator",
-    "RoughDriver",
-    "bench",
-    "health",
-    "latch",
-    "mutants",
-    "mux",
-    "smooth",
-    "workshop",
-]

@@ -9,23 +9,3 @@ from grader.exercises.services.door import door
 from grader.exercises.services.modes import modes
 from grader.exercises.services.parameters import launch, parameters
 from grader.exercises.services.ticks import ticks
-
-__all__ = [
-    "Door",
-    "Operator",
-    "Pilot",
-    "Questioner",
-    "RawGyro",
-    "SlowAdder",
-    "Technician",
-    "Tuner",
-    "WheelEncoders",
-    "add",
-    "arming",
-    "calibrate",
-    "door",
-    "launch",
-    "modes",
-    "parameters",
-    "ticks",
-]

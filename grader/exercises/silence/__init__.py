@@ -12,20 +12,3 @@ from grader.exercises.silence.late import late
 from grader.exercises.silence.lidar import lidar
 from grader.exercises.silence.pub import pub
 from sim.ros2.cli_program import terminal
-
-__all__ = [
-    "RADIO",
-    "LatchedMap",
-    "LateSubscriber",
-    "RadioLidar",
-    "SilentJoystick",
-    "doctor",
-    "graph",
-    "joystick",
-    "late",
-    "lidar",
-    "pub",
-    "silent_systems",
-    "speakers",
-    "terminal",
-]

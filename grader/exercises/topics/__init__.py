@@ -10,16 +10,3 @@ from grader.exercises.topics.imu import imu
 from grader.exercises.topics.remapping import remapping
 from grader.exercises.topics.square import square
 from grader.exercises.topics.temperature import temperature
-
-__all__ = [
-    "Chatterbox",
-    "CommandSender",
-    "OneMetre",
-    "chatters",
-    "commands",
-    "greeting",
-    "imu",
-    "remapping",
-    "square",
-    "temperature",
-]
