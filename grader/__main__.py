@@ -9,7 +9,7 @@ import sys
 COMMANDS = {  # module, function and arguments
     "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),
-    "certificate": ("grader.marking.extras.certificate.cli", "certificate", "--issuer WORDS"),
+    "certificate": ("grader.marking.extras.certificate.cli", "certificate", "--issuer TEXT"),
     "confirm": ("grader.marking.extras.certificate.cli", "confirm", "PAGE"),
 }
 

@@ -59,5 +59,5 @@ def output_size(output: dict[str, Any]) -> int:
     lines = output.get("traceback", ())
     about = [settings.get("alt", "") for settings in output.get("metadata", {}).values()]
     parts = [output.get("text", ""), *output.get("data", {}).values(), *lines, *about]
-    words = output.get("ename", ""), output.get("evalue", "")
-    return sum(map(len, (*parts, *words))) + 50 * (1 + len(lines))
+    error = output.get("ename", ""), output.get("evalue", "")
+    return sum(map(len, (*parts, *error))) + 50 * (1 + len(lines))

@@ -137,11 +137,11 @@ class Pool:
                             socket.send_fds(sock, [b"."], [student.fileno()])
                             student.close()
                         case {"build": True}:
-                            theirs, process = self._start(self._building(), stack, None)
+                            child_end, process = self._start(self._building(), stack, None)
                             builders.append(process)
                             deadline += BUILD_S
-                            socket.send_fds(sock, [b"."], [theirs.fileno()])
-                            theirs.close()
+                            socket.send_fds(sock, [b"."], [child_end.fileno()])
+                            child_end.close()
                         case {"ending": "student"}:
                             wire.send(ending=_ending(students[-1]))
                         case {"ending": "build"}:
@@ -164,16 +164,16 @@ class Pool:
         self, sandbox: Sandbox, stack: contextlib.ExitStack, core: int | None
     ) -> tuple[socket.socket, ConfinedProcess]:
         """A new process and the socket to it, both until the stack is closed. core: pins it, if given."""
-        ours, theirs = socket.socketpair()
-        stack.enter_context(ours)
-        process = sandbox.start(theirs)
+        parent_end, child_end = socket.socketpair()
+        stack.enter_context(parent_end)
+        process = sandbox.start(child_end)
         if core is not None:
             process.keep_to(core)
         stack.callback(self._end, process)
         self._running.add(process)
         if self._closed:
             raise NotMarked("The marking was stopped.")
-        return ours, process
+        return parent_end, process
 
     def _end(self, process: ConfinedProcess) -> None:
         process.kill()

@@ -14,7 +14,7 @@ from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
 from grader.marking.submission.submitted_files import SubmittedFiles
 
-MAX_RESULT_BYTES = 250_000_000  # bytes of a result on its way back: JSON, where a letter may take six
+MAX_RESULT_BYTES = 250_000_000  # JSON, in which a character may take six bytes
 
 
 @dataclass(frozen=True)

@@ -37,9 +37,9 @@ class StartedStudent:
     """A student's process and what its cells have shown. quick: as for QuickSession."""
 
     def __init__(self, sandbox: Sandbox, quick: str, files: dict[str, bytes] | None) -> None:
-        ours, theirs = socket.socketpair()
-        self.process: ConfinedProcess = sandbox.start(theirs)
-        self.student = QuickSession(quick, ours, lambda: self.process.wait(PATIENCE).detail)
+        parent_end, child_end = socket.socketpair()
+        self.process: ConfinedProcess = sandbox.start(child_end)
+        self.student = QuickSession(quick, parent_end, lambda: self.process.wait(PATIENCE).detail)
         self.displays = DisplayRegistry()
         self.outputs = CellOutputs(self.displays)
         if files is not None:

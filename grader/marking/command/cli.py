@@ -20,9 +20,9 @@ from grader.marking.task import TaskPool
 
 DESCRIPTION = """Mark what students handed in, in class/submitted/STUDENT/ASSIGNMENT/.
 
-What is marked and has not changed since is not marked again, so the same command goes on after a stop and
-takes in what comes later. Results are kept in class/marking/; points go to nbgrader's gradebook, notebooks to
-class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
+What is marked and has not changed since is not marked again, so the same command continues after a stop and
+marks what is submitted later. Results are stored in class/marking/; points go to nbgrader's gradebook,
+notebooks to class/autograded/ and students' pages to class/feedback/, as after `nbgrader autograde` and
 `nbgrader generate_feedback`."""
 INTERRUPTED = 130  # the exit status of shells
 USUAL_JOBS = len(usable_cores())
@@ -37,7 +37,7 @@ def parser() -> argparse.ArgumentParser:
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
     add("--jobs", type=_count, metavar="N", help="submissions at a time; default: as many as cores")
     add("--force", action="store_true", help="mark again what is marked already")
-    add("--resume", action="store_true", help="go on with the last run of the assignment, with its options")
+    add("--resume", action="store_true", help="continue the last run of the assignment, with its options")
     add("--unsafe", action="store_true", help="no sandbox: students' code can do all that you can")
     add("--no-feedback", action="store_true", help="make no pages for students")
     add("--csv", default="", metavar="FILE", help="write the points there, a row per student and exercise")
@@ -85,7 +85,7 @@ def _settings(options: argparse.Namespace, course: Course) -> Settings:
         raise CourseError(f"--resume takes the options of the last run: {advice}")
     stored = Journal(course.journal(options.assignment)).settings()
     if stored is None:
-        raise CourseError(f"there is no run of {options.assignment} to go on with: leave --resume out")
+        raise CourseError(f"there is no run of {options.assignment} to continue: leave --resume out")
     changed = ({"jobs": jobs} if options.jobs else {}) | ({"dask": options.dask} if options.dask else {})
     return replace(Settings(**stored), **changed)
 
@@ -112,17 +112,17 @@ def _report(options: argparse.Namespace, course: Course, settings: Settings, out
     for problem in outcome.problems:
         print(printable(problem), file=sys.stderr)
     if outcome.interrupted or outcome.problems:
-        done = f"{len(outcome.results)} of {outcome.total} submissions are marked and kept"
+        done = f"{len(outcome.results)} of {outcome.total} submissions are marked and stored"
         print(f"Stopped. {done}: {_again(options)}.", file=sys.stderr)
 
 
 def _stopped(why: str, options: argparse.Namespace) -> int:
-    print(f"Stopped: {why}. What is marked is kept: repair this, then {_again(options)}.", file=sys.stderr)
+    print(f"Stopped: {why}. What is marked is stored: fix this, then {_again(options)}.", file=sys.stderr)
     return 1
 
 
 def _again(options: argparse.Namespace) -> str:
-    return f"go on with `python -m grader mark {options.assignment} --resume`"
+    return f"continue with `python -m grader mark {options.assignment} --resume`"
 
 
 def _count(word: str) -> int:

@@ -146,7 +146,7 @@ class _ClassRun:
         """Raise RuntimeError for a result of another task."""
         expected = (self.release.assignment, self.waiting.pop(result.student, None))
         if (result.assignment, result.key) != expected:
-            raise RuntimeError(f"a result for {result.student} came that nobody waits for")
+            raise RuntimeError(f"the pool returned a result for {result.student} that was not requested")
 
     def file(self, entry: JournalEntry) -> None:
         """Add a result to the outcome, and update gradebook and notebooks."""

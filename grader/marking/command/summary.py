@@ -159,7 +159,7 @@ def _repaired_with_few_points(result: Result) -> Iterator[Concern]:
     """A repaired submission with few points: the repair may be wrong."""
     most = math.fsum(cell.max for _, cell in cells(result))
     if result.repairs and result.verdict != "refused" and result.points < FEW * most:
-        earned = f"mended, and has {result.points:g} of {most:g} points"
+        earned = f"repaired, and has {result.points:g} of {most:g} points"
         yield Concern(result.student, f"{earned}: {' '.join(result.repairs)}")
 
 

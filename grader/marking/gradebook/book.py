@@ -150,7 +150,7 @@ class Book:
         except (SQLAlchemyError, InvalidEntry) as error:
             first = error.__context__ if isinstance(error, InvalidEntry) else error  # nbgrader wraps some
             reason = str(getattr(first, "orig", first)).strip()
-            advice = (words for sign, words in ADVICE.items() if sign in reason)
+            advice = (text for sign, text in ADVICE.items() if sign in reason)
             place = self._address.render_as_string(hide_password=True)
             problem = f"the gradebook {place} can't be used ({reason})"
             raise GradebookError(f"{problem}: {next(advice, 'repair it, then mark again')}") from None

@@ -22,7 +22,7 @@ def find_submissions(course: Course, assignment: str, chosen: Collection[str] = 
     found = course.students(assignment)
     place = course.submitted("STUDENT", assignment)
     if not found:
-        raise CourseError(f"nobody has handed in {assignment}: put the notebooks into {place}")
+        raise CourseError(f"there are no submissions of {assignment}: put the notebooks into {place}")
     for student in chosen:
         if student not in found:
             here = course.submitted(student, assignment)

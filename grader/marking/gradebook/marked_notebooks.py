@@ -16,8 +16,8 @@ NOTICE = "how-this-was-marked"  # id of the cell on top
 MARKING = "marking"  # metadata: the id of the marking that a notebook shows
 OPENINGS = {
     "marked": "",
-    "repaired": "Your notebook was mended before it was marked. Please check that this is your work:",
-    "stopped": "Your notebook was stopped before its end. What was done before keeps its points.",
+    "repaired": "Your notebook was repaired before it was marked. Please check that this is your work:",
+    "stopped": "Your notebook was stopped before its end. The points that it had earned before count.",
     "refused": "Your submission could not be marked.",
 }
 
@@ -42,7 +42,7 @@ def notice(result: Result) -> str:
         return ""
     parts = ["**How this was marked**", opening, *([_line(result.reason)] if result.reason else [])]
     if result.repairs and opening != OPENINGS["repaired"]:
-        parts.append("It was mended first:")
+        parts.append("It was repaired first:")
     return "\n\n".join([*parts, "\n".join(f"- {_line(repair)}" for repair in result.repairs)]).rstrip()
 
 

@@ -85,28 +85,28 @@ def command(paths: Sequence[str], imports: Iterable[str], program: list[str]) ->
             "Marking runs students' code in a sandbox made by bubblewrap, and this machine has no `bwrap`: "
             f"install it with `sudo apt install bubblewrap`, {UNSAFE}."
         )
-    words = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
-    words += ["--unshare-net", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
-    words += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
+    arguments = [bwrap, "--as-pid-1", "--new-session", "--unshare-user", "--unshare-pid", "--unshare-ipc"]
+    arguments += ["--unshare-net", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "marking"]
+    arguments += ["--uid", str(USER), "--gid", str(USER), "--cap-drop", "ALL", "--clearenv"]
     for name, value in environment(HOME, "/tmp", imports).items():
-        words += ["--setenv", name, value]
+        arguments += ["--setenv", name, value]
     # Private folders come first: the course may be in /tmp.
-    words += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME, "--dir", STAGE]
+    arguments += ["--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp", "--dir", HOME, "--dir", STAGE]
     for path in SYSTEM:
         if os.path.islink(path):
-            words += ["--symlink", os.readlink(path), path]
+            arguments += ["--symlink", os.readlink(path), path]
         elif os.path.exists(path):
-            words += ["--ro-bind", path, path]
+            arguments += ["--ro-bind", path, path]
     for name in SETTINGS:
-        words += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
+        arguments += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     for path in paths:
-        words += ["--ro-bind", path, path]
+        arguments += ["--ro-bind", path, path]
     # Python may be started through a link outside these paths, such as one in ~/.local/bin.
     there = (*SYSTEM, *(f"/etc/{name}" for name in SETTINGS), *paths)
     for to, link in _links(program[0]):
         if not any(Path(link).is_relative_to(path) for path in there):
-            words += ["--symlink", to, link]
-    return [*words, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
+            arguments += ["--symlink", to, link]
+    return [*arguments, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *program]
 
 
 def forbidden(message: str, root: Path = Path("/")) -> SandboxMissing:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from grader.marking.sandbox.resource_limits import ProcessEnd
 
-GONE = ProcessEnd("killed", "The process was killed: the cage around it broke.")
+GONE = ProcessEnd("killed", "The process was killed: its supervisor had died.")
 
 
 class ConfinedProcess:

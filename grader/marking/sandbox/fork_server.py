@@ -52,10 +52,10 @@ class ForkServer:
     def start_trial_process(self) -> None:
         """Start a confined process that does nothing. Raises OSError if this system does not allow it."""
         _, wire = socket.socketpair()
-        ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
-        with ours:
-            self.fork(lambda sock: None, wire, theirs)
-            answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+        parent_end, child_end = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        with parent_end:
+            self.fork(lambda sock: None, wire, child_end)
+            answer, descriptors, _, _ = socket.recv_fds(parent_end, 1 << 16, 1)
         for descriptor in descriptors:
             os.close(descriptor)
         if "failed" in (report := json.loads(answer or b'{"failed": "the supervisor died"}')):

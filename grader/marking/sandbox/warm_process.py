@@ -31,11 +31,11 @@ class WarmProcess:
         self._lock = threading.Lock()
         # The home of confined processes without a sandbox.
         self._folder = tempfile.TemporaryDirectory(prefix="confined-", ignore_cleanup_errors=True)
-        self._control, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        self._control, child_end = socket.socketpair(type=socket.SOCK_SEQPACKET)
         with tempfile.TemporaryFile() as errors:
             try:
-                with theirs:
-                    self._process = _spawn(order, theirs, errors, self._folder.name)
+                with child_end:
+                    self._process = _spawn(order, child_end, errors, self._folder.name)
                 self._await(order, errors)
             except BaseException:
                 self.end()
@@ -68,17 +68,17 @@ class WarmProcess:
 
     def start(self, wire: socket.socket) -> ConfinedProcess:
         """Return a new confined process that has `wire`. Raises SandboxFailed."""
-        ours, theirs = socket.socketpair(type=socket.SOCK_SEQPACKET)
-        ours.settimeout(START_S)
+        parent_end, child_end = socket.socketpair(type=socket.SOCK_SEQPACKET)
+        parent_end.settimeout(START_S)
         try:
-            with theirs, self._lock:
-                socket.send_fds(self._control, [b"start"], [wire.fileno(), theirs.fileno()])
-            answer, descriptors, _, _ = socket.recv_fds(ours, 1 << 16, 1)
+            with child_end, self._lock:
+                socket.send_fds(self._control, [b"start"], [wire.fileno(), child_end.fileno()])
+            answer, descriptors, _, _ = socket.recv_fds(parent_end, 1 << 16, 1)
         except OSError:
             answer, descriptors = b"", []
         if descriptors:
-            return ConfinedProcess(descriptors[0], ours)
-        ours.close()
+            return ConfinedProcess(descriptors[0], parent_end)
+        parent_end.close()
         reason = json.loads(answer)["failed"] if answer else "it gave no answer"
         raise SandboxFailed(f"The sandbox could not start a process: {reason}")
 
@@ -110,16 +110,17 @@ class WarmProcess:
 
 
 def _spawn(
-    order: dict[str, Any], theirs: socket.socket, errors: IO[bytes], folder: str
+    order: dict[str, Any], child_end: socket.socket, errors: IO[bytes], folder: str
 ) -> subprocess.Popen[bytes]:
-    program = [sys.executable, "-P", "-s", "-m", "grader.marking.sandbox.fork_server", str(theirs.fileno())]
+    module = "grader.marking.sandbox.fork_server"
+    program = [sys.executable, "-P", "-s", "-m", module, str(child_end.fileno())]
     sandboxed = order["sandboxed"]
     # A judge and a student's process share a core: with equal addresses its branch predictions hold in both.
     with linux.same_addresses():
         return subprocess.Popen(
             bubblewrap.command(order["visible"], order["imports"], program) if sandboxed else program,
             env={} if sandboxed else bubblewrap.environment(folder, folder, order["imports"]),
-            pass_fds=[theirs.fileno()],
+            pass_fds=[child_end.fileno()],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=errors,

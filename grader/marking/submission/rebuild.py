@@ -80,42 +80,42 @@ def rebuild(release: NotebookNode, submitted: PlainNotebook) -> RebuiltNotebook:
 
     Raises Unusable if those are not cells of this release.
     """
-    released, theirs = [cell_of(cell) for cell in release.cells], submitted.cells
-    found = match_cells(released, theirs)
-    _refuse_other_assignment(released, theirs, found)
+    released, submitted_cells = [cell_of(cell) for cell in release.cells], submitted.cells
+    found = match_cells(released, submitted_cells)
+    _refuse_other_assignment(released, submitted_cells, found)
     notes = Notes()
     _note_how_found(released, found, notes)
     nodes, answers, chosen = [], {}, {}
-    own = set(range(len(theirs))) - found.used()
+    own = set(range(len(submitted_cells))) - found.used()
     for r, (cell, node) in enumerate(zip(released, release.cells, strict=True)):
         copies = found.copies[r]
         if copies:
             chosen[r] = copies[-1]
         if is_answer(cell):
-            real = [s for s in copies if not _untouched(theirs[s], cell)]
+            real = [s for s in copies if not _untouched(submitted_cells[s], cell)]
             answers[cell.name] = ANSWERED if real else UNTOUCHED if copies else MISSING
             if real:
                 chosen[r] = real[-1]
-                own |= {s for s in real if theirs[s].key != theirs[real[-1]].key}
-            _note_answer(cell, [theirs[s] for s in copies], notes)
-            nodes.append(_with_text(node, theirs[chosen[r]].text if copies else "", cell.kind))
+                own |= {s for s in real if submitted_cells[s].key != submitted_cells[real[-1]].key}
+            _note_answer(cell, [submitted_cells[s] for s in copies], notes)
+            nodes.append(_with_text(node, submitted_cells[chosen[r]].text if copies else "", cell.kind))
         elif cell.name:
-            _note_fixed(cell, [theirs[s] for s in copies], notes)
+            _note_fixed(cell, [submitted_cells[s] for s in copies], notes)
             nodes.append(_with_text(node, node.source, cell.kind))
         else:
-            nodes.append(_plain(cell, node, [theirs[s] for s in copies], notes))
+            nodes.append(_plain(cell, node, [submitted_cells[s] for s in copies], notes))
     order, moved = order_cells(released, chosen, own)
     for r in moved:
         notes.add("moved", released[r].name or released[r].id)
-    notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, theirs)})
+    notebook = NotebookNode({**copy.deepcopy(release), "cells": _in_order(order, nodes, submitted_cells)})
     repairs = [*submitted.repairs, *notes.sentences(REPAIRS)]
     return RebuiltNotebook(notebook, answers, repairs, notes.sentences(FLAGS))
 
 
-def _refuse_other_assignment(released: Sequence[Cell], theirs: Sequence[Cell], found: Match) -> None:
+def _refuse_other_assignment(released: Sequence[Cell], submitted_cells: Sequence[Cell], found: Match) -> None:
     names = {cell.name for cell in released if cell.name}
     present = [cell.name for r, cell in enumerate(released) if cell.name and found.copies[r]]
-    unknown = {cell.name: None for cell in theirs if cell.name not in names and cell.name}
+    unknown = {cell.name: None for cell in submitted_cells if cell.name not in names and cell.name}
     if present and (len(present) >= len(unknown) or 2 * len(present) >= len(names)):
         return
     saw = f"those of another ({list_names(unknown)})" if unknown else "none of them"
@@ -189,11 +189,11 @@ def _new(kind: str, text: str, cell_id: str) -> NotebookNode:
 
 
 def _in_order(
-    order: Sequence[CellPlace], nodes: Sequence[NotebookNode], theirs: Sequence[Cell]
+    order: Sequence[CellPlace], nodes: Sequence[NotebookNode], submitted_cells: Sequence[Cell]
 ) -> list[NotebookNode]:
     cells = []
     for place in order:
-        own = None if place.released else theirs[place.index]
+        own = None if place.released else submitted_cells[place.index]
         cells.append(_new(own.kind or "code", own.text, own.id) if own else nodes[place.index])
     reserved = {node.id for node in nodes}
     for place, cell in zip(order, cells, strict=True):

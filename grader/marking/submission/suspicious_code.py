@@ -70,7 +70,7 @@ METHODS = _by_word(
         "decides how it is shown": "_repr_html_ _repr_mimebundle_ _ipython_display_",
     }
 )
-WORDS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/", "<script", "onerror=", "javascript:")
+SUSPICIOUS_TEXTS = ("COURSE_SECRET", "gradebook", ".secret", "/proc/", "<script", "onerror=", "javascript:")
 SHELL = ("system", "getoutput")  # what IPython makes of !command
 SHOWN = 60  # characters of the code that are reported
 # IPython's own lines. IPython's transformer would parse the whole cell again for each: that takes minutes.
@@ -145,7 +145,7 @@ def _oddities(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
     elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name in METHODS:
         yield f"defines `{node.name}`, which {METHODS[node.name]}"
     elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (f"speaks of `{word}`" for word in WORDS if word in node.value)
+        yield from (f"speaks of `{word}`" for word in SUSPICIOUS_TEXTS if word in node.value)
 
 
 def _imports(module: str) -> Iterator[str]:

@@ -51,10 +51,10 @@ def built(box, **other):
     """What comes back, and how the process ended."""
     files = {path: text.encode() for path, text in RIGHT.items()}
     files |= {path.replace("__", "/").replace("_py", ".py"): text.encode() for path, text in other.items()}
-    ours, theirs = socket.socketpair()
-    process = box.start(theirs)
+    parent_end, child_end = socket.socketpair()
+    process = box.start(child_end)
     try:
-        return request_build(ours, files, lambda: process.wait(PATIENCE).detail)
+        return request_build(parent_end, files, lambda: process.wait(PATIENCE).detail)
     finally:
         process.kill()
         process.wait(PATIENCE)
@@ -116,23 +116,23 @@ def test_what_uses_too_much_fails_and_nobody_else_does(builders, setup):
 
 @pytest.mark.parametrize("answer", [{}, {"files": 1}, {"files": {"a": 1}}, {"files": {"a": "text"}}])
 def test_an_answer_that_makes_no_sense_is_no_build(answer):
-    ours, theirs = socket.socketpair()
-    with theirs:
-        Wire(theirs).send(**answer)
-        made = request_build(ours, {}, lambda: "")
+    parent_end, child_end = socket.socketpair()
+    with child_end:
+        Wire(child_end).send(**answer)
+        made = request_build(parent_end, {}, lambda: "")
     assert made.problem == "What was installed can't be taken. install could not be read."
 
 
 def test_files_that_lie_outside_are_refused():
-    ours, theirs = socket.socketpair()
-    with theirs:
-        Wire(theirs).send(files={"../a": b""}, programs=[], said="", problem="")
-        made = request_build(ours, {}, lambda: "")
+    parent_end, child_end = socket.socketpair()
+    with child_end:
+        Wire(child_end).send(files={"../a": b""}, programs=[], said="", problem="")
+        made = request_build(parent_end, {}, lambda: "")
     assert made.problem.startswith("What was installed can't be taken. `install/../a`: a name may have")
 
 
 def test_a_process_that_is_gone_is_told_with_its_end():
-    ours, theirs = socket.socketpair()
-    theirs.close()
-    problem = request_build(ours, {}, lambda: "It was killed.").problem
+    parent_end, child_end = socket.socketpair()
+    child_end.close()
+    problem = request_build(parent_end, {}, lambda: "It was killed.").problem
     assert problem == "colcon build broke off. It was killed."

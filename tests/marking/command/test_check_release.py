@@ -65,7 +65,7 @@ def test_an_assignment_that_is_not_there_is_named_with_the_nearest(course):
 def test_where_nobody_has_handed_in_it_says_where_notebooks_go(course):
     shutil.rmtree(course.root / "class" / "submitted")
     place = course.root / "class" / "submitted" / "STUDENT" / ASSIGNMENT
-    message = f"nobody has handed in {ASSIGNMENT}: put the notebooks into {place}"
+    message = f"there are no submissions of {ASSIGNMENT}: put the notebooks into {place}"
     assert said(find_submissions, course, ASSIGNMENT) == message
 
 

@@ -15,7 +15,7 @@ from tests.marking.classroom import ASSIGNMENT, gradebook, result
 from tests.marking.fake_pool import ReadyPool
 from tests.marking.tiny import ROOT
 
-AGAIN = f"go on with `python -m grader mark {ASSIGNMENT} --resume`"
+AGAIN = f"continue with `python -m grader mark {ASSIGNMENT} --resume`"
 
 
 @pytest.fixture
@@ -58,7 +58,7 @@ def test_resume_goes_on_with_the_options_of_the_last_run(course, command, pool, 
 
     pool.change = interrupt
     assert command("--student", "anna", "--student", "eve", "--force", "--jobs", "3", "--csv", "a.csv") == 130
-    assert capsys.readouterr().err.endswith(f"Stopped. 1 of 2 submissions are marked and kept: {AGAIN}.\n")
+    assert capsys.readouterr().err.endswith(f"Stopped. 1 of 2 submissions are marked and stored: {AGAIN}.\n")
     pool.change = result
     pool.again()
     assert command("--resume") == 0
@@ -78,7 +78,7 @@ def refused(command, capsys, *options):
 
 
 def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
-    nothing = f"Not marked: there is no run of {ASSIGNMENT} to go on with: leave --resume out.\n"
+    nothing = f"Not marked: there is no run of {ASSIGNMENT} to continue: leave --resume out.\n"
     assert refused(command, capsys, "--resume") == nothing
     none = "give none beside it but --jobs and --dask"
     beside = f"Not marked: --resume takes the options of the last run: {none}.\n"
@@ -105,14 +105,14 @@ def test_a_problem_is_told_and_gives_an_exit_status(command, pool, course, capsy
     pool.mark = lambda tasks: (result(course, next(tasks)) for _ in range(2))
     assert command() == 1
     assert capsys.readouterr().err.endswith(
-        f"eve was not marked: mark again\nStopped. 2 of 3 submissions are marked and kept: {AGAIN}.\n"
+        f"eve was not marked: mark again\nStopped. 2 of 3 submissions are marked and stored: {AGAIN}.\n"
     )
 
 
 def test_a_file_that_cannot_be_written_stops_it_and_what_is_marked_is_kept(course, command, pool, capsys):
     (course.root / "points.csv").mkdir()
     assert command("--csv", "points.csv") == 1
-    kept = f"What is marked is kept: repair this, then {AGAIN}.\n"
+    kept = f"What is marked is stored: fix this, then {AGAIN}.\n"
     assert capsys.readouterr().err.endswith(
         f"Stopped: points.csv could not be written (Is a directory). {kept}"
     )
@@ -133,7 +133,7 @@ def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
         "usage: python -m grader mark ASSIGNMENT [--help]\n"
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
-        "       python -m grader certificate --issuer WORDS [--help]\n"
+        "       python -m grader certificate --issuer TEXT [--help]\n"
         "       python -m grader confirm PAGE [--help]\n"
     )
     assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))
@@ -164,7 +164,7 @@ def test_a_full_disk_loses_nothing_that_is_marked(course, command, pool, capsys)
     file = course.journal(ASSIGNMENT) / "bob.json"
     assert capsys.readouterr().err.endswith(
         f"Stopped: {file} could not be written (File too large). "
-        f"What is marked is kept: repair this, then {AGAIN}.\n"
+        f"What is marked is stored: fix this, then {AGAIN}.\n"
     )
     assert list(gradebook(course)) == ["anna"]
     pool.change = result

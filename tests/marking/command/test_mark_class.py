@@ -205,7 +205,7 @@ def test_a_submission_without_a_result_is_named(course, pool):
 @pytest.mark.parametrize("changes", [{"student": "mallory"}, {"key": "00"}, {"assignment": "02"}])
 def test_a_result_that_nobody_waits_for_is_refused(course, pool, changes):
     pool.change = lambda here, task: replace(result(here, task), **changes)
-    with pytest.raises(RuntimeError, match="came that nobody waits for"):
+    with pytest.raises(RuntimeError, match="that was not requested"):
         run(course, pool)
     assert gradebook(course) == {}
 

@@ -38,7 +38,7 @@ def results():
         student("anna", counted(1), lined(0.5)),
         student("bob", counted(0.25), lined(0.5), seconds=2.0, flags=["The test cell `x` was edited."]),
         student("carl", counted(1), replace(lined(0), needs_look=True, verdicts=broken)),
-        student("dora", counted(1), lined(0.25), verdict="repaired", repairs=["It was mended."]),
+        student("dora", counted(1), lined(0.25), verdict="repaired", repairs=["It was repaired."]),
         student("eve", verdict="refused", reason="`nodes.ipynb` is empty."),
     ]
     return {result.student: result for result in found}
@@ -109,12 +109,12 @@ def test_a_broken_check_without_words_and_a_stopped_notebook_are_looked_at():
     ]
 
 
-def test_what_was_mended_and_has_few_points_is_looked_at(results):
-    mended = ["It was mended.", "It was moved."]
-    few = student("anna", counted(0.5), lined(0), verdict="repaired", repairs=mended)
-    enough = student("bob", counted(1), lined(0.25), verdict="repaired", repairs=["It was mended."])
+def test_what_was_repaired_and_has_few_points_is_looked_at(results):
+    repairs = ["It was repaired.", "It was moved."]
+    few = student("anna", counted(0.5), lined(0), verdict="repaired", repairs=repairs)
+    enough = student("bob", counted(1), lined(0.25), verdict="repaired", repairs=["It was repaired."])
     assert summarise("01_class", WORTH, {"anna": few, "bob": enough}).concerns[1:] == [
-        Concern("anna", "mended, and has 2 of 10 points: It was mended. It was moved."),
+        Concern("anna", "repaired, and has 2 of 10 points: It was repaired. It was moved."),
     ]
 
 
@@ -172,7 +172,7 @@ def test_the_csv_has_a_row_for_each_student_and_exercise(results):
     assert rows[3]["flags"] == "The test cell `x` was edited."
     assert rows[3]["seconds"] == "1.0"
     assert rows[5]["needs_look"] == "yes"
-    assert rows[6]["repairs"] == "It was mended."
+    assert rows[6]["repairs"] == "It was repaired."
     assert (rows[8]["student"], rows[8]["verdict"], rows[8]["points"]) == ("eve", "refused", "")
     assert rows[8]["reason"] == "`nodes.ipynb` is empty."
 

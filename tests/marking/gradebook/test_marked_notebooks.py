@@ -14,8 +14,8 @@ from grader.marking.journal import JournalEntry
 from tests.marking.classroom import ASSIGNMENT, result, submit, tasks
 
 TIME = "2026-01-01 10:00:00 UTC"
-LOOK = "Your notebook was mended before it was marked. Please check that this is your work:"
-STOPPED = "Your notebook was stopped before its end. What was done before keeps its points."
+LOOK = "Your notebook was repaired before it was marked. Please check that this is your work:"
+STOPPED = "Your notebook was stopped before its end. The points that it had earned before count."
 NOTICES = [
     ({"verdict": "marked", "flags": ["It is odd."]}, ""),
     ({"verdict": "repaired", "repairs": ["One.", "Two\nlines."]}, f"{LOOK}\n\n- One.\n- Two lines."),
@@ -25,7 +25,7 @@ NOTICES = [
     ),
     (
         {"verdict": "stopped", "reason": "It ran on.", "repairs": ["One."]},
-        f"{STOPPED}\n\nIt ran on.\n\nIt was mended first:\n\n- One.",
+        f"{STOPPED}\n\nIt ran on.\n\nIt was repaired first:\n\n- One.",
     ),
     (
         {"verdict": "refused", "reason": "It is empty.", "notebooks": []},

@@ -19,9 +19,9 @@ class Commanded:
     """A confined process that does what the test says."""
 
     def __init__(self, sandbox: Sandbox) -> None:
-        self.wire, theirs = socket.socketpair()
+        self.wire, child_end = socket.socketpair()
         self.wire.settimeout(PATIENCE)
-        self.process = sandbox.start(theirs)
+        self.process = sandbox.start(child_end)
         self._lines = self.wire.makefile("rb")
 
     def tell(self, code: str) -> None:

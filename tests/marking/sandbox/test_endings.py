@@ -73,7 +73,7 @@ def test_when_the_warm_process_dies_a_new_one_takes_its_place(make_commanded):
     with sandbox() as box:
         before = make_commanded(box)
         os.kill(fork_server(box), signal.SIGKILL)
-        assert before.ending().detail == "The process was killed: the cage around it broke."
+        assert before.ending().detail == "The process was killed: its supervisor had died."
         after = make_commanded(box)
         assert after.ask("answer = 'alive'") == "alive"
         after.leave()

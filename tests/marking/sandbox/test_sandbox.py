@@ -45,10 +45,10 @@ def test_waiting_for_one_that_runs_takes_as_long_as_said(commanded):
 
 
 def test_the_socket_is_handed_over(usual_sandbox, make_commanded):
-    ours, theirs = socket.socketpair()
-    process = usual_sandbox.start(theirs)
-    assert theirs.fileno() == -1
-    ours.close()
+    parent_end, child_end = socket.socketpair()
+    process = usual_sandbox.start(child_end)
+    assert child_end.fileno() == -1
+    parent_end.close()
     assert process.wait(PATIENCE).kind == "exited"
 
 

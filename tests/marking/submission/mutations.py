@@ -19,7 +19,7 @@ from grader.marking.submission.plain_cells import read_notebook
 from grader.marking.submission.rebuild import rebuild
 from tests.marking.submission.damage import ASSIGNMENTS, ROOT, data
 
-VERDICTS = ("refused", "mended", "flagged", "as it was")
+VERDICTS = ("refused", "repaired", "flagged", "as it was")
 NUMBERS = [True, -1, 1e308, 10**400]
 ODD: list[Any] = [None, *NUMBERS, "", "x" * 300, "`\n\ud800\0", [], {}, [[]], {"": None}, [None, 1]]
 MARKS = [b"<<<<<<< HEAD\n", b"\n>>>>>>> mine\n"]
@@ -111,7 +111,7 @@ def verdict(release: nbformat.NotebookNode, file: bytes) -> str:
     assert nbformat.writes(twice.notebook).encode() == text
     assert twice.repairs == twice.flags == []
     assert all(len(sentence) < 1000 and sentence.isprintable() for sentence in once.repairs + once.flags)
-    return "flagged" if once.flags else "mended" if once.repairs else "as it was"
+    return "flagged" if once.flags else "repaired" if once.repairs else "as it was"
 
 
 def main(count: int, start: int = 0) -> None:

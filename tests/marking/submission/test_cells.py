@@ -224,7 +224,7 @@ def test_what_changes_nothing_is_passed_over_in_silence(damage):
 
 
 @pytest.mark.parametrize(("damage", "words"), REPAIRED.values(), ids=REPAIRED)
-def test_an_accident_is_mended_and_said(damage, words, request):
+def test_an_accident_is_repaired_and_reported(damage, words, request):
     result = rebuilt(damage)
     assert (result.repairs, result.flags) == ([words], [])
     if request.node.callspec.id in LOSES_THE_ANSWER:

@@ -51,7 +51,7 @@ class Certificate:
 
     def fields(self) -> dict[str, str]:
         """The texts on the page, by field; the fields of a mark end with its assignment."""
-        words = {
+        fields = {
             "name": self.name,
             "student id": self.student,
             "issuer": self.issuer,
@@ -61,10 +61,10 @@ class Certificate:
             "number of assignments": f"{len(self.marks)} of {self.assignments}",
         }
         for mark in self.marks:
-            words[f"title of {mark.assignment}"] = mark.title
-            words[f"score of {mark.assignment}"] = format_score(mark)
-            words[f"digest of {mark.assignment}"] = mark.digest
-        return words
+            fields[f"title of {mark.assignment}"] = mark.title
+            fields[f"score of {mark.assignment}"] = format_score(mark)
+            fields[f"digest of {mark.assignment}"] = mark.digest
+        return fields
 
 
 def format_score(mark: Mark) -> str:

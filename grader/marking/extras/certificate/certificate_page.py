@@ -11,8 +11,8 @@ NUMBER = "certificate number"
 
 def as_page(certificate: Certificate, number: str) -> str:
     """The whole page of a certificate with this number."""
-    words = {NUMBER: number, **certificate.fields()}
-    return _pages.get_template("page.html").render(certificate=certificate, words=words).lstrip()
+    fields = {NUMBER: number, **certificate.fields()}
+    return _pages.get_template("page.html").render(certificate=certificate, fields=fields).lstrip()
 
 
 def read_page(text: str) -> dict[str, str]:
@@ -20,26 +20,26 @@ def read_page(text: str) -> dict[str, str]:
     reader = _Reader()
     reader.feed(text)
     reader.close()
-    return reader.words
+    return reader.fields
 
 
 class _Reader(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
-        self.words: dict[str, str] = {}
+        self.fields: dict[str, str] = {}
         self._open = ""
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self._open = dict(attrs).get(FIELD_ATTRIBUTE) or ""
         if self._open:
-            self.words.setdefault(self._open, "")
+            self.fields.setdefault(self._open, "")
 
     def handle_endtag(self, tag: str) -> None:
         self._open = ""
 
     def handle_data(self, data: str) -> None:
         if self._open:
-            self.words[self._open] += data
+            self.fields[self._open] += data
 
 
 _pages = template_environment(Path(__file__).parent)

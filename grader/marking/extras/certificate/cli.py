@@ -18,7 +18,7 @@ from grader.marking.progress_line import printable
 from grader.marking.version import versions
 
 CERTIFICATE = """Write a page for each student that says which assignments were passed:
-class/certificates/STUDENT.html. What was certified is kept, sealed with your secret, in
+class/certificates/STUDENT.html. What was certified is stored, sealed with your secret, in
 class/certificates/receipt.json; `python -m grader confirm` compares a page with it."""
 CONFIRM = """Say in one sentence whether a certificate is genuine: a page is compared with the receipt,
 and with the marks as they are now. Of a printed page give the number."""
@@ -52,7 +52,7 @@ def confirm(arguments: list[str] | None = None) -> int:
     """Confirm a page or a number; returns the exit status: 0 where all agrees."""
     options = _confirm_parser().parse_args(arguments)
     try:
-        receipt, now = _kept(options.kept)
+        receipt, now = _receipt(options.kept)
         if NUMBER.fullmatch(options.page):
             sentence = confirm_number(options.page, receipt, now)
         else:
@@ -97,13 +97,13 @@ def _write_pages(
 
 def _report(records: dict[str, StudentMarks], made: dict[str, Certificate], receipt: Receipt) -> int:
     for student in records:
-        words = made[student].fields()["number of assignments"] if student in made else ""
-        print(printable(f"{student}: {words} passed" if words else f"{student}: none passed, no page"))
+        count = made[student].fields()["number of assignments"] if student in made else ""
+        print(printable(f"{student}: {count} passed" if count else f"{student}: none passed, no page"))
     left_out = [(student, *doubt) for student, each in records.items() for doubt in each.doubts.items()]
     for student, assignment, doubt in left_out:
         print(printable(f"{student}: {assignment} {doubt}. It is left out."), file=sys.stderr)
-    kept = f"Keep {FILE} there, and .secret, as long as you want to confirm them."
-    print(f"{len(made)} certificates in {receipt.file.parent}. {kept}")
+    advice = f"Keep {FILE} there, and .secret, as long as you want to confirm them."
+    print(f"{len(made)} certificates in {receipt.file.parent}. {advice}")
     return int(bool(left_out))
 
 
@@ -114,7 +114,7 @@ def _secret(folder: Path) -> str:
     return found
 
 
-def _kept(folder: str) -> tuple[Receipt, CurrentMarks | None]:
+def _receipt(folder: str) -> tuple[Receipt, CurrentMarks | None]:
     """The receipt, and a function for the current marks: None if the class is over."""
     if folder:
         place, key, now = Path(folder), _secret(Path(folder)), None
@@ -126,7 +126,7 @@ def _kept(folder: str) -> tuple[Receipt, CurrentMarks | None]:
             return read_marks(course, [student]).get(student, StudentMarks(student))
 
     if not (place / FILE).exists():
-        raise CourseError(f"there is no {FILE} in {place}: nothing was issued, or it lies elsewhere")
+        raise CourseError(f"there is no {FILE} in {place}: nothing was issued, or it is elsewhere")
     return Receipt(place, key), now
 
 
@@ -146,8 +146,8 @@ def _failed(text: str) -> int:
 def _certificate_parser() -> argparse.ArgumentParser:
     made = argparse.ArgumentParser("python -m grader certificate", description=CERTIFICATE)
     add = made.add_argument
-    who = "who issues them, and how you are reached: who sees a page asks you"
-    add("--issuer", required=True, type=_words, metavar="WORDS", help=who)
+    who = "your name and contact, for anyone who wants a certificate confirmed"
+    add("--issuer", required=True, type=_text, metavar="TEXT", help=who)
     share = "percent of an assignment's points that pass; default: 50"
     add("--pass", dest="least", type=_percent, default=50.0, metavar="PERCENT", help=share)
     add("--student", action="append", default=[], metavar="NAME", help="only this one; may be given again")
@@ -162,10 +162,10 @@ def _confirm_parser() -> argparse.ArgumentParser:
     return made
 
 
-def _words(words: str) -> str:
-    if not words.strip():
+def _text(text: str) -> str:
+    if not text.strip():
         raise argparse.ArgumentTypeError("expected your name and address, saw nothing")
-    return printable(words)
+    return printable(text)
 
 
 def _percent(word: str) -> float:

@@ -9,7 +9,7 @@ from grader.marking.extras.certificate.student_marks import StudentMarks
 from grader.marking.progress_line import printable
 
 CurrentMarks = Callable[[str], StudentMarks]  # of a student
-MAX_TEXT_CHARS = 80  # characters of a stranger's words
+MAX_QUOTE_CHARS = 80  # of untrusted text
 
 
 def confirm_page(page: str, receipt: Receipt, now: CurrentMarks | None = None) -> str:
@@ -17,12 +17,12 @@ def confirm_page(page: str, receipt: Receipt, now: CurrentMarks | None = None) -
 
     Raises NotConfirmed with what does not agree.
     """
-    words = read_page(page)
-    number = words.pop(NUMBER, "")
+    fields = read_page(page)
+    number = fields.pop(NUMBER, "")
     if not number:
         raise NotConfirmed("this is not a certificate of this course: it has no number")
     issued = receipt.find(printable(number))
-    _compare(words, issued.certificate.fields())
+    _compare(fields, issued.certificate.fields())
     if receipt.seal_of_page(page) != issued.page:
         what = "name and marks agree, but something else on the page was changed"
         raise NotConfirmed(f"{what}: ask for the file as it was issued")
@@ -38,11 +38,11 @@ def confirm_number(number: str, receipt: Receipt, now: CurrentMarks | None = Non
 
 def _compare(seen: dict[str, str], issued: dict[str, str]) -> None:
     """Raise NotConfirmed with the first thing on the page that is not what was issued."""
-    for what, words in issued.items():
+    for what, text in issued.items():
         if what not in seen:
-            raise NotConfirmed(f"the page lacks the {what}, which was {quote_text(words)} when it was issued")
-        if seen[what] != words:
-            was = f"and was {quote_text(words)} when it was issued"
+            raise NotConfirmed(f"the page lacks the {what}, which was {quote_text(text)} when it was issued")
+        if seen[what] != text:
+            was = f"and was {quote_text(text)} when it was issued"
             raise NotConfirmed(f"the {what} is {quote_text(seen[what])} on the page, {was}")
     for what in seen:
         if what not in issued:
@@ -75,7 +75,7 @@ def _changes(certificate: Certificate, record: StudentMarks) -> list[str]:
     return again
 
 
-def quote_text(words: str) -> str:
+def quote_text(text: str) -> str:
     """Untrusted text, quoted for a sentence on a terminal."""
-    plain = printable(words)
-    return f"“{plain if len(plain) <= MAX_TEXT_CHARS else plain[: MAX_TEXT_CHARS - 1] + '…'}”"
+    plain = printable(text)
+    return f"“{plain if len(plain) <= MAX_QUOTE_CHARS else plain[: MAX_QUOTE_CHARS - 1] + '…'}”"

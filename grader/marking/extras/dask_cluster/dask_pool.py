@@ -182,8 +182,8 @@ class DaskPool:
             raise DaskPoolError(f"the scheduler at {self._address} has not answered for {self._wait_s:g} s")
         if monotonic() - self._seen > self._wait_s:
             start = f"`.venv/bin/dask worker {self._address} --nworkers -1 --nthreads 1` starts some"
-            nobody = f"no worker of the scheduler at {self._address} could mark anything"
-            raise DaskPoolError(f"{nobody} for {self._wait_s:g} s: {start}")
+            missing = f"no worker of the scheduler at {self._address} could mark anything"
+            raise DaskPoolError(f"{missing} for {self._wait_s:g} s: {start}")
 
 
 def _connect(address: str, wait_s: float) -> Client:

@@ -28,10 +28,10 @@ from grader.marking.task import TaskPool
 
 DESCRIPTION = """Let delivery robots work in the same warehouses, and compare them.
 
-Without a NOTEBOOK, these are all that a class handed in, in warehouses that nobody knew. The pages are in
-class/league/, where robots have names that say nothing of their makers; the terminal's table has both.
-With notebooks, these, for example your own of today and of last week, in public warehouses, with pages in
-work/league/. The same command goes on after a stop, and plays again only what has changed."""
+Without a NOTEBOOK, these are all submissions of a class, in new warehouses. The pages are in class/league/,
+where the robots have anonymous names; the table on the terminal shows both. With notebooks, for example your
+own of today and of last week, they work in public warehouses, and the pages are in work/league/. The same
+command continues after a stop, and runs again only what has changed."""
 ASSIGNMENT = "13_delivery"
 INTERRUPTED = 130  # the exit status of shells
 MAX_SECONDS = 2400.0  # s of simulated time in all warehouses together
@@ -49,9 +49,9 @@ def parser() -> argparse.ArgumentParser:
     add("--worlds", type=_number, metavar="N", help="how many warehouses; default: 10")
     add("--seconds", type=_number, metavar="S", help="simulated, in each; default: 120")
     add("--robots", type=int, choices=(1, 2, 3), help="in each, with the same programs; default: 1")
-    add("--seed", metavar="WORDS", help="draw the warehouses from these words, such as a league's page tells")
+    add("--seed", metavar="TEXT", help="draw the warehouses from this text, as it is on a league's page")
     add("--draw", action="store_true", help="draw new warehouses for a class that has played already")
-    which = f"whose last exercise gets the programs; default: {ASSIGNMENT}"
+    which = f"whose last exercise receives the programs; default: {ASSIGNMENT}"
     add("--assignment", default=ASSIGNMENT, help=which)
     add("--jobs", type=_number, metavar="N", help="robots at a time; default: as many as cores")
     add("--unsafe", action="store_true", help="no sandbox: the notebooks' code can do all that you can")
@@ -79,11 +79,11 @@ def main(arguments: list[str] | None = None, open_pool: OpenPool | None = None) 
         return 1
     except OSError as error:
         what = f"{error.filename or 'a file'} could not be written ({error.strerror})"
-        print(f"Stopped: {what}. Repair this: the same command goes on.", file=sys.stderr)
+        print(f"Stopped: {what}. Fix this: the same command continues.", file=sys.stderr)
         return 1
     if played.interrupted:
-        done = f"{len(played.results)} of {played.total} have played, and that is kept"
-        print(f"Stopped. {done}: the same command goes on.", file=sys.stderr)
+        done = f"{len(played.results)} of {played.total} have played, and their results are stored"
+        print(f"Stopped. {done}: the same command continues.", file=sys.stderr)
         return INTERRUPTED
     return 0
 

@@ -172,7 +172,7 @@ def test_a_class_that_is_over_is_confirmed_from_what_was_kept(course, page, say,
     shutil.rmtree(course.root)
     assert say("confirm", "kept/anna.html", "--kept", "kept")[0] == 0
     (kept / "receipt.json").unlink()
-    words = "there is no receipt.json in kept: nothing was issued, or it lies elsewhere"
+    words = "there is no receipt.json in kept: nothing was issued, or it is elsewhere"
     assert say("confirm", "kept/anna.html", "--kept", "kept") == refused(words)
     (kept / ".secret").unlink()
     words = "certificates need your secret, and there is no .secret in kept"

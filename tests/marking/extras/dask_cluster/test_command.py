@@ -44,10 +44,10 @@ def test_without_a_scheduler_it_stops_and_goes_on_with_another(shared, folder, c
     shared.with_workers(1)
     assert main([ASSIGNMENT, "--dask", "hill", "--student", "honest_right", "--no-feedback"]) == 1
     why = "no Dask scheduler answers at hill (missing port number in address 'hill')"
-    again = f"go on with `python -m grader mark {ASSIGNMENT} --resume`"
+    again = f"continue with `python -m grader mark {ASSIGNMENT} --resume`"
     assert capsys.readouterr().err == (
         f"Stopped: {why}: `.venv/bin/dask scheduler` starts one. "
-        f"What is marked is kept: repair this, then {again}.\n"
+        f"What is marked is stored: fix this, then {again}.\n"
     )
     assert main([ASSIGNMENT, "--resume", "--dask", shared.address]) == 0
     assert kept(folder) == {"honest_right": 33.0}

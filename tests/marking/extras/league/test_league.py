@@ -91,7 +91,7 @@ def test_a_class_has_a_table_and_a_page_for_each_warehouse(played):
     assert found["warehouse_01.html"].count('<div class="ros2-replay"') == 4
     assert found["warehouse_02.html"].count('<div class="ros2-replay"') == 3
     assert "The grey shadow is <bdi>the reference</bdi>" in found["warehouse_01.html"]
-    assert "The warehouses were drawn from <code>words</code>, which nobody knew before." in found[INDEX]
+    assert "The warehouses were drawn from <code>words</code>, which was unknown before." in found[INDEX]
 
 
 def test_its_pages_say_nothing_of_students_and_have_no_word_of_theirs(played):
@@ -155,7 +155,7 @@ def test_robots_work_together_with_one_set_of_programs(league, tmp_path):
     for (alone, _), (together, _) in zip(ways[1, False], ways[2, True], strict=True):
         assert together == pytest.approx(2 * alone, rel=0.01) and alone > 0.3
     table = pages(course / "class" / "league")[INDEX]
-    assert "<p>2 warehouses, 4 s in each with 2 robots, the same for everybody." in table
+    assert "<p>2 warehouses, 4 s in each with 2 robots, the same for all." in table
 
 
 class Interrupted:
@@ -172,7 +172,7 @@ class Interrupted:
 def test_a_league_that_is_interrupted_goes_on(league, pool, tmp_path, capsys):
     other = classroom(tmp_path / "course", {"fay": PROGRAMS, "gus": PROGRAMS})
     assert league(other, pool=Interrupted(pool)) == 130
-    stopped = "Stopped. 1 of 2 have played, and that is kept: the same command goes on.\n"
+    stopped = "Stopped. 1 of 2 have played, and their results are stored: the same command continues.\n"
     assert capsys.readouterr().err.endswith(stopped)
     assert not (other / "class" / "league" / INDEX).exists()
     assert league(other) == 0
@@ -221,7 +221,7 @@ def test_students_compare_versions_of_their_own_in_public_warehouses(league, pla
         (["d.ipynb"], f"`d.ipynb` is a folder; expected a notebook's file. {ITSELF}"),
         (["--worlds", "99", "a/x.ipynb"], f"{MAX_SECONDS}, saw 99 of 120 s"),
         (["--assignment", "13", "a/x.ipynb"], "expected the assignment 13 in EXERCISES, saw none"),
-        ([], f"nobody has handed in {ASSIGNMENT}: put the notebooks into PLACE"),
+        ([], f"there are no submissions of {ASSIGNMENT}: put the notebooks into PLACE"),
     ],
 )
 def test_what_keeps_it_from_working_is_said(tmp_path, capsys, words, why):
