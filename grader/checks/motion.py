@@ -33,7 +33,7 @@ def keeps_clear(recording: Recording, hint: str = SLOW_DOWN) -> None:
         )
 
 
-def touches_nothing(
+def has_no_contacts(
     recording: Recording, hint: str = "", expected: str = "no contact with walls or boxes"
 ) -> None:
     """Raise Missed, as unsafe, with where the robot first touched something."""

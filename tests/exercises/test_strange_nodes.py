@@ -14,8 +14,8 @@ from std_msgs.msg import Float64
 
 from grader import Missed
 from grader.exercises import navigator, sensing
-from grader.exercises.navigator.mapping import answers_clicks
-from grader.exercises.navigator.planning import answers_a_goal
+from grader.exercises.navigator.costmap import answers_clicks
+from grader.exercises.navigator.plan import answers_a_goal
 from grader.exercises.sensing.turning import does_not_drift
 from grader.programs import LocalPrograms
 from sim.evidence import Ended, Graph

@@ -1,28 +1,27 @@
-"""Exercise: the whole navigator, as an action server that serves every client of Nav2's NavigateToPose."""
+"""The whole navigator: an action server for every client of Nav2's NavigateToPose."""
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from typing import Any
 
-from grader.checks import Missed, cancels, series, serves_action, travelled
-from grader.checks.check import tenths
-from grader.checks.motion import after_a_touch, is_hopeless
-from grader.checks.motion import touches_nothing as keeps_off
+from grader.checks import (
+    Missed,
+    cancels,
+    has_no_contacts,
+    series,
+    serves_action,
+    tenths,
+    travelled,
+)
+from grader.checks.motion import after_a_touch, is_hopeless, length
+from grader.checks.navigation import ACTION, TYPE, end_of, feedback_faults, goals_from_course, to_go
 from grader.companions.goals import GoalClient
 from grader.companions.maps import bringup, made_for
 from grader.exercise import Exercise, Scenario
-from grader.exercises.navigator.progress import (
-    ACTION,
-    TYPE,
-    end_of,
-    goals_of,
-    no_estimate,
-    to_go,
-    wrong_distance,
-    wrong_pose,
-)
+from grader.responses import Window
 from grader.worlds.rooms import blocked, world_of
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds, stamps
 from sim.world import World
@@ -37,7 +36,7 @@ TURNED = "This lidar sits turned: its rays begin where scan.header.frame_id is i
 
 
 def _done(goals: int) -> Any:
-    """The last of so many goals is over for a second, or nothing more will come of it."""
+    """Ends a run 1 s after the last of so many goals, or when nothing more will come of it."""
 
     def until(run: Recording) -> bool:
         if is_hopeless(run, patience=30.0):
@@ -73,50 +72,101 @@ navigate = Exercise(
 KNOWN = "clutter", "maze"  # where all that stands in the way is in the map
 
 
-@navigate.check(2)
+def _other_action(run: Recording) -> Any:
+    others = [end.name for end in run.graph.ends("action server") if end.name != ACTION]
+    return others and {"other": others[0], "action": ACTION}
+
+
+@navigate.check(
+    2,
+    hints={
+        "Yours is {other}, and clients look for {action}: the third argument of ActionServer.": _other_action
+    },
+    guess="In __init__: ActionServer(self, NavigateToPose, 'navigate_to_pose', ...).",
+)
 def serves(run: Recording) -> None:
     """The node serves the action /navigate_to_pose of the type NavigateToPose."""
-    try:
-        serves_action(run, ACTION, TYPE)
-    except Missed as missed:
-        missed.guess = "In __init__: ActionServer(self, NavigateToPose, 'navigate_to_pose', ...)."
-        others = [end.name for end in run.graph.ends("action server") if end.name != ACTION]
-        if others:
-            missed.hint = (
-                f"Yours is {others[0]}, and clients look for {ACTION}: the third argument of ActionServer."
-            )
-        raise
+    serves_action(run, ACTION, TYPE)
 
 
-@navigate.check(7, after=serves, only=KNOWN)
+def _plans(run: Recording) -> list[Any]:
+    return [row.message for row in run.messages("/plan")]
+
+
+def _succeeded(goal: Goal, left: float) -> bool:
+    return goal.status == "succeeded" and left > NEAR
+
+
+def _stands(run: Recording) -> bool:
+    return travelled(run) < 0.05
+
+
+ARRIVES: dict[str, Callable[..., Any]] = {
+    "The goal was rejected. Without a goal_callback every goal is accepted.": (
+        lambda run, goal, left: goal.status == "rejected"
+    ),
+    "It is said to have succeeded before the robot has moved: go on as long as the goal is far.": (
+        lambda run, goal, left: _succeeded(goal, left) and _stands(run)
+    ),
+    "That is too early: go on until the robot is nearer than 0.1 m.": (
+        lambda run, goal, left: _succeeded(goal, left) and left < 1.0
+    ),
+    "It is said to have succeeded, but the robot is not there. The goal is in the frame map: compare it with "
+    "the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
+    "No plan was published. In the loop: where there is no path yet, or it is blocked, self.plan(goal). And "
+    f"while a goal is executed the node has to hear /tf and /map: {THREADS}.": (
+        lambda run, goal, left: not _plans(run)
+    ),
+    "All plans are empty. Is the start where the robot is in the map, and are both cells free?": (
+        lambda run, goal, left: not any(plan.poses for plan in _plans(run))
+    ),
+    f"It plans again and again. Does it mark the box, and no more? {TURNED}": (
+        lambda run, goal, left: run.world.lidar.yaw and len(_plans(run)) > 3
+    ),
+    f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}.": (
+        lambda run, goal, left: _stands(run) and any(series(run, "/cmd_vel", "angular.z"))
+    ),
+    "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop.": (
+        lambda run, goal, left: _stands(run)
+    ),
+    "{touch}": lambda run, goal, left: run.contacts and {"touch": after_a_touch(run)},
+    "The picture shows where it stopped. Compare it with the last message on /plan.": (
+        lambda run, goal, left: True
+    ),
+}
+
+
+@navigate.check(7, after=serves, only=KNOWN, hints=ARRIVES)
 def reaches_the_goal(run: Recording) -> None:
     """The robot is led to the goal, within 25 cm, and then the goal has succeeded."""
     _succeeds(run)
 
 
-@navigate.check(4, after=serves, only="blocked")
+@navigate.check(4, after=serves, only="blocked", hints=ARRIVES)
 def goes_round(run: Recording) -> None:
     """The robot gets to the goal, too, when a box that is in no map stands in its way; it touches nothing."""
     hint = "The map doesn't know the box, but the lidar sees it: plan anew when the path is blocked."
     if len(run.messages("/plan")) > 1:
         hint = f"It planned anew. Is the box inflated, and marked where it is? {TURNED}"
-    keeps_off(run, hint, "no contact")
+    has_no_contacts(run, hint, "no contact")
     _succeeds(run)
 
 
 @navigate.check(3, after=reaches_the_goal, only=KNOWN)
 def touches_nothing(run: Recording) -> None:
     """In the known world the robot touches nothing."""
-    keeps_off(run, "Inflate walls by more than the robot's radius of 0.1 m, and don't look too far ahead.")
+    has_no_contacts(
+        run, "Inflate walls by more than the robot's radius of 0.1 m, and don't look too far ahead."
+    )
 
 
 @navigate.check(3, after=(serves, reaches_the_goal))
 def does_not_dawdle(run: Recording) -> None:
     """The way is at most 35 % longer than the shortest one, and the robot makes 15 cm of it in a second."""
-    goal = goals_of(run)[-1]
+    goal = goals_from_course(run)[-1]
     begin, end = goal.at("accepted") or 0.0, end_of(run, goal)
     least = max(to_go(run.world, run.pose_at(begin)), 0.5)
-    way = travelled(run.during(begin, end + 1e-6))
+    way = length(Window(begin, end).rows(run.path))
     if way > RIGHT * least:
         credit = tenths(0.8 * (1 - (way / least - RIGHT) / (POOR - RIGHT)))
         hint = "The picture shows the detour. Does each new plan begin where the robot is now?"
@@ -131,15 +181,14 @@ def does_not_dawdle(run: Recording) -> None:
 @navigate.check(3, after=(serves, reaches_the_goal))
 def tells_how_far(run: Recording) -> None:
     """At least every 2 s the feedback says where the robot is, how far it is to go and how long it takes."""
-    goal = goals_of(run)[-1]
+    goal = goals_from_course(run)[-1]
     moments = [goal.at("executing") or 0.0, *stamps(goal.feedback), end_of(run, goal)]
     pause = max(after - before for before, after in itertools.pairwise(moments))
     if pause > FEEDBACK:
         hint = "In the loop of the execute callback: goal_handle.publish_feedback(feedback)."
         saw = f"none for {pause:.3g} s" if goal.feedback else "none"
         raise Missed(f"feedback at least every {FEEDBACK:g} s", saw, hint)
-    found = wrong_pose(run, goal), wrong_distance(run, goal), no_estimate(goal)
-    faults = [fault for fault in found if fault]
+    faults = feedback_faults(run, goal)
     if faults:
         raise Missed(*faults[0], credit=tenths(0.9 - 0.3 * len(faults)))
 
@@ -147,13 +196,13 @@ def tells_how_far(run: Recording) -> None:
 @navigate.check(2, after=serves, only="clutter")
 def obeys_a_cancel(run: Recording) -> None:
     """A goal that the client cancels ends as canceled within 1 s, and the robot stops."""
-    first, last = goals_of(run)[0], goals_of(run)[-1]
+    first, last = goals_from_course(run)[0], goals_from_course(run)[-1]
     if first.at(CANCEL_REQUESTED) is None:
         saw = f"a goal that is {last.status or 'not answered'}"
         hint = "First the goal has to be accepted, and be executed for a while."
         raise Missed("a goal under way, to be canceled", saw, hint)
     ended = _canceled(run, first)
-    later = run.during(ended + 0.5, ended + 1.5 + 1e-6).path
+    later = Window(ended + 0.5, ended + 1.5).rows(run.path)
     moved = math.dist(later[0][1:3], later[-1][1:3]) if later else 0.0
     if moved > 0.02:
         hint = "Send zeros before you return the result."
@@ -162,21 +211,20 @@ def obeys_a_cancel(run: Recording) -> None:
 
 
 def _canceled(run: Recording, goal: Goal) -> Seconds:
-    """When the goal was canceled, within 1 s of the client's wish."""
-    asked = goal.at(CANCEL_REQUESTED)
-    expected = f"the goal canceled within 1 s of the request at {asked:.3g} s"
-    if goal.ended is not None and goal.ended < asked:
+    """When the goal was canceled, within 1 s of the client's request."""
+    requested = goal.at(CANCEL_REQUESTED)
+    expected = f"the goal canceled within 1 s of the request at {requested:.3g} s"
+    if goal.ended is not None and goal.ended < requested:
         hint = "The goal was over before the client changed its mind: end it when the robot is there."
         raise Missed(expected, f"{goal.status} at {goal.ended:.3g} s already", hint)
     try:
         return cancels(run, ACTION, within=1.0, where=lambda other: other.id == goal.id)[0].ended
     except Missed as missed:
-        guess = "In the loop, look at goal_handle.is_cancel_requested."
-        raise Missed(expected, missed.saw, missed.hint, guess=guess) from None
+        raise Missed(expected, missed.saw, missed.hint) from None
 
 
 def _succeeds(run: Recording) -> None:
-    goal, world = goals_of(run)[-1], run.world
+    goal, world = goals_from_course(run)[-1], run.world
     end = run.pose_at(end_of(run, goal))
     left = math.dist(world.goal, (end.x, end.y))
     state = goal.status or "not answered"
@@ -185,9 +233,9 @@ def _succeeds(run: Recording) -> None:
         raise Missed(
             f"the robot within {NEAR} m of ({world.goal[0]:.2f}, {world.goal[1]:.2f}) m",
             f"({end.x:.2f}, {end.y:.2f}) m, {left:.2f} m away; the goal is {state}",
-            _why_not_there(run, goal, left),
             credit=tenths(0.6 * came),
             picture="path",
+            about=(goal, left),
         )
     if goal.status != "succeeded":
         moment = "the end" if goal.ended is None else f"{goal.ended:.3g} s"
@@ -197,38 +245,3 @@ def _succeeds(run: Recording) -> None:
     if goal.received is None:
         hint = "End the execute callback with `return NavigateToPose.Result()`."
         raise Missed("a result for the client", "none", hint, credit=0.6)
-
-
-def _why_not_there(run: Recording, goal: Goal, left: float) -> str:
-    """The usual reasons for a robot that doesn't arrive."""
-    if goal.status == "rejected":
-        return "The goal was rejected. Without a goal_callback every goal is accepted."
-    if goal.status == "succeeded":
-        return _too_early(run, left)
-    plans = [heard.message for heard in run.messages("/plan")]
-    if not plans:
-        return (
-            "No plan was published. In the loop: where there is no path yet, or it is blocked, "
-            f"self.plan(goal). And while a goal is executed the node has to hear /tf and /map: {THREADS}."
-        )
-    if not any(plan.poses for plan in plans):
-        return "All plans are empty. Is the start where the robot is in the map, and are both cells free?"
-    if run.world.lidar.yaw and len(plans) > 3:
-        return f"It plans again and again. Does it mark the box, and no more? {TURNED}"
-    if travelled(run) < 0.05 and any(series(run, "/cmd_vel", "angular.z")):
-        return f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}."
-    if travelled(run) < 0.05:
-        return "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop."
-    picture = "The picture shows where it stopped. Compare it with the last message on /plan."
-    return after_a_touch(run) or picture
-
-
-def _too_early(run: Recording, left: float) -> str:
-    if travelled(run) < 0.05:
-        return "It is said to have succeeded before the robot has moved: go on as long as the goal is far."
-    if left < 1.0:
-        return "That is too early: go on until the robot is nearer than 0.1 m."
-    return (
-        "It is said to have succeeded, but the robot is not there. The goal is in the frame map: compare it "
-        "with the robot's pose in the map, not with /odom."
-    )

@@ -1,4 +1,4 @@
-"""Exercise on planning: the shortest way over the free cells of a map."""
+"""Plan the shortest path over the free cells of a map."""
 
 from __future__ import annotations
 
@@ -8,21 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from grader.checks import Missed, hinting, publishes
-from grader.checks.check import tenths
-from grader.checks.no_data import no_data
+from grader.checks import Missed, hinting, publishes, tenths
 from grader.companions.goals import GoalSender
 from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
-from grader.geometry.ground import Point, ground
+from grader.geometry import Point
+from grader.geometry.ground import ground
 from grader.geometry.occupancy import cells_of
+from grader.responses import Window, from_course
 from grader.worlds.rooms import world_of
 from sim.evidence import Recording, Seconds
-from sim.world import World
 
-PATH = "nav_msgs/msg/Path"
+WITHIN = 2.0  # s from a goal to its path; the next goal comes later
 GAP = 0.15  # metres between two points of a path
-RIGHT, POOR = 1.1, 1.5  # times the shortest way: full points, no points
+RIGHT, POOR = 1.1, 1.5  # times the shortest path: full points, no points
 
 
 def _scenario(kind: str, seed: int) -> Scenario:
@@ -41,7 +40,7 @@ plan = Exercise("plan", "A*", scenarios=[_scenario("room", 3), _scenario("maze",
 def answers_a_goal(run: Recording) -> list[Point]:
     """A goal on /goal_pose is answered within 2 s with a Path on /plan, in the frame map."""
     with hinting(guess="Publish the path on /plan, in the callback of /goal_pose."):
-        publishes(run, "/plan", PATH)
+        publishes(run, "/plan", "nav_msgs/msg/Path")
     stamp, path = _answer(run, 0)
     if path is None or not path.poses:
         raise Missed(
@@ -59,17 +58,36 @@ def answers_a_goal(run: Recording) -> list[Point]:
     return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
 
 
-@plan.check(4, after=answers_a_goal)
+def _is_reversed(run: Recording, points: list[Point]) -> bool:
+    begin, end = run.world.start[:2], run.world.goal
+    return math.dist(points[0], end) < GAP and math.dist(points[-1], begin) < GAP
+
+
+@plan.check(
+    4,
+    after=answers_a_goal,
+    hints={
+        "The way back from the goal to the start has to be turned round: way[::-1].": _is_reversed,
+        "x and y are swapped: a cell is (column, row).": lambda run, points: (
+            math.dist(points[-1], run.world.goal[::-1]) < GAP
+        ),
+        "The way back begins at the goal and ends at the cell that came from nowhere (None).": (
+            lambda run, points: True
+        ),
+    },
+)
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""
-    world = run.world
-    ends = {"begins at the robot": (points[0], world.start[:2]), "ends at the goal": (points[-1], world.goal)}
-    for words, (point, right) in ends.items():
-        if not math.dist(point, right) <= GAP:  # so that NaN doesn't pass
+    begin, end = run.world.start[:2], run.world.goal
+    for words, point, right in (
+        ("begins at the robot", points[0], begin),
+        ("ends at the goal", points[-1], end),
+    ):
+        if not math.dist(point, right) <= GAP:  # so that NaN fails
             raise Missed(
                 f"a path that {words}, ({right[0]:.2f}, {right[1]:.2f}) m",
                 f"({point[0]:.2f}, {point[1]:.2f}) m, which is {math.dist(point, right):.2f} m away",
-                _ends_hint(points, world),
+                about=(points,),
             )
     gap, near = max(_gaps(points))
     if gap > GAP:
@@ -99,7 +117,10 @@ def keeps_to_free_cells(run: Recording, points: list[Point]) -> list[Point]:
 @plan.check(5, after=keeps_to_free_cells)
 def is_short(run: Recording, points: list[Point]) -> None:
     """The path is at most 10 % longer than the shortest one."""
-    way, shortest = math.fsum(gap for gap, _ in _gaps(points)), _shortest(run)
+    world, floor = run.world, ground(run.world)
+    column, row = floor.cell(world.start[:2])
+    shortest = float(floor.lengths(_costmap(run) == 0, world.goal)[row, column])
+    way = math.fsum(gap for gap, _ in _gaps(points))
     if way > RIGHT * shortest:
         hint = (
             "A cell may be found again on a shorter way: then note the new cost, and where it came from. "
@@ -121,34 +142,18 @@ def admits_that_there_is_no_way(run: Recording) -> None:
         )
 
 
-def _answer(run: Recording, goal: int) -> tuple[Seconds, Any]:
-    """When a goal was sent, and the last path of the 2 s after it; None without one."""
-    goals = [heard.stamp for heard in run.messages("/goal_pose") if heard.from_course]
-    if len(goals) <= goal:
-        raise no_data(run, "goals on /goal_pose", f"{len(goals)}", run.graph.publishers("/goal_pose"))
-    paths = run.during(goals[goal] - 1e-6, goals[goal] + 2.0 + 1e-6).messages("/plan")
-    return goals[goal], paths[-1].message if paths else None
+def _answer(run: Recording, number: int) -> tuple[Seconds, Any]:
+    """When a goal was sent, and the last path within its time; None without one."""
+    goal = from_course(run, "/goal_pose", at_least=number + 1, what="goals on /goal_pose")[number]
+    paths = Window.after(goal.stamp, WITHIN).rows(run.messages("/plan"))
+    return goal.stamp, paths[-1].message if paths else None
 
 
 def _gaps(points: list[Point]) -> list[tuple[float, Point]]:
-    """How far it is from each point to the next one (m), and the point; inf where one is not a number."""
+    """The distance from each point to the next one (m), and the point; inf where one is not a number."""
     gaps = [(math.dist(one, two), one) for one, two in itertools.pairwise([*points, points[-1]])]
     return [(gap if math.isfinite(gap) else math.inf, one) for gap, one in gaps]
 
 
 def _costmap(run: Recording) -> np.ndarray:
     return cells_of(run.messages("/global_costmap/costmap")[0].message)
-
-
-def _shortest(run: Recording) -> float:
-    world, floor = run.world, ground(run.world)
-    column, row = floor.cell(world.start[:2])
-    return float(floor.lengths(_costmap(run) == 0, world.goal)[row, column])
-
-
-def _ends_hint(points: list[Point], world: World) -> str:
-    if math.dist(points[0], world.goal) < GAP and math.dist(points[-1], world.start[:2]) < GAP:
-        return "The way back from the goal to the start has to be turned round: way[::-1]."
-    if math.dist(points[-1], world.goal[::-1]) < GAP:
-        return "x and y are swapped: a cell is (column, row)."
-    return "The way back begins at the goal and ends at the cell that came from nowhere (None)."

@@ -1,0 +1,217 @@
+"""Cells and metres of a map, and walls that are made thicker by the robot's size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from grader.checks import Missed, publishes, subscribes, tenths
+from grader.companions.maps import MapServer, PointClicker, made_for
+from grader.exercise import Exercise
+from grader.geometry import Point
+from grader.geometry.occupancy import cells_of, distances_to_occupied
+from grader.responses import Stimuli, Stimulus
+from grader.worlds.rooms import world_of
+from sim.evidence import Recording
+
+GRID = "nav_msgs/msg/OccupancyGrid"
+COSTMAP = "/global_costmap/costmap"
+RADIUS = 0.2  # metres by which walls are to be thicker
+
+costmap = Exercise(
+    "costmap",
+    "Cells and walls",
+    world=lambda seed: world_of("clutter", seed),
+    seconds=8,
+    companions=lambda seed: [
+        made_for(node, world=world_of("clutter", seed)) for node in (MapServer, PointClicker)
+    ],
+    seeds=(4, 9),
+)
+clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
+
+
+@costmap.check(
+    1,
+    guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.",
+)
+def hears_the_map(run: Recording) -> Any:
+    """The node hears /map, though it was published before."""
+    for end in subscribes(run, "/map", GRID):
+        if end.qos["durability"] != "transient_local":
+            raise Missed(
+                "a subscription to /map with the durability transient_local",
+                f"one with {end.qos['durability']}",
+                "The map was published before the node was there. It comes later only to those who "
+                "subscribe with the profile LATCHED instead of a queue depth.",
+            )
+    return run.messages("/map", "/map_server")[0].message
+
+
+@costmap.check(2, after=hears_the_map, guess="Publish it in on_map, as soon as the map is there.")
+def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
+    """The node publishes an OccupancyGrid on /global_costmap/costmap, with the form of /map."""
+    made = publishes(run, COSTMAP, GRID)[-1].message
+    expected, saw = _form(given), _form(made)
+    if expected == saw:
+        expected, saw = (f"{len(msg.data)} cells in data" for msg in (given, made))
+    if expected != saw:
+        raise Missed(expected, saw, "Send the map's own header and info along: only the data changes.")
+    walls = cells_of(given) == 100
+    kept = int((cells_of(made)[walls] == 100).sum())
+    if kept < 0.9 * walls.sum():
+        hint = "Begin with a copy of the map's cells: what is occupied there stays 100."
+        raise Missed(f"the {int(walls.sum())} cells that are 100 in the map", f"{kept} of them are", hint)
+    return given, made
+
+
+def _centre(
+    info: Any, point: Point, whole: Callable[[float], float] = math.floor, offset: float = 0.5
+) -> Point:
+    corner = info.origin.position
+    return tuple(
+        low + (whole((value - low) / info.resolution) + offset) * info.resolution
+        for value, low in zip(point, (corner.x, corner.y), strict=True)
+    )
+
+
+def _without_origin(info: Any, point: Point) -> Point:
+    return tuple((math.floor(value / info.resolution) + 0.5) * info.resolution for value in point)
+
+
+def _origin_half_way(info: Any, point: Point) -> Point:
+    x, y = _centre(info, point)
+    return x - info.origin.position.x, y - info.origin.position.y
+
+
+def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
+    """The cause of a miss: all wrong answers are what a wrong formula gives."""
+
+    def explains(run: Recording, info: Any, wrong: list[Stimulus]) -> bool:
+        answered = [click for click in wrong if click.responses]
+        return bool(answered) and all(_is_answered(click, formula(info, _point(click))) for click in answered)
+
+    return explains
+
+
+@costmap.check(
+    5,
+    after=hears_the_map,
+    hints={
+        "The map begins at info.origin, not at (0, 0): take the origin away before you divide.": (
+            _all_are(_without_origin)
+        ),
+        "Add the map's origin again in to_point.": _all_are(_origin_half_way),
+        "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.": (
+            _all_are(lambda info, point: _centre(info, point, offset=0.0))
+        ),
+        "round() takes the nearest cell, which may be the next one: use math.floor().": (
+            _all_are(lambda info, point: _centre(info, point, round))
+        ),
+        "A column and a row are whole numbers: math.floor() rounds down.": (
+            _all_are(lambda info, point: _centre(info, point, lambda value: value))
+        ),
+        "x belongs to the column and y to the row; here they are swapped.": (
+            _all_are(lambda info, point: _centre(info, point)[::-1])
+        ),
+    },
+    guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down.",
+)
+def answers_clicks(run: Recording, given: Any) -> None:
+    """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
+    publishes(run, "/cell_centre", "geometry_msgs/msg/PointStamped")
+    sent = clicks(run)
+    wrong = [click for click in sent if not _is_answered(click, _centre(given.info, _point(click)))]
+    if wrong:
+        (x, y), right = _point(wrong[0]), _centre(given.info, _point(wrong[0]))
+        saw = "({:.3f}, {:.3f})".format(*_first(wrong[0])) if wrong[0].responses else "no answer"
+        raise Missed(
+            f"({right[0]:.3f}, {right[1]:.3f}) m after the click on ({x:.3f}, {y:.3f}) m "
+            f"at {wrong[0].stamp:.3g} s",
+            f"{saw}; {len(wrong)} of {len(sent)} are wrong" if len(wrong) > 1 else saw,
+            credit=tenths(min(1 - len(wrong) / len(sent), 0.5)),
+            about=(given.info, wrong),
+        )
+
+
+def _point(click: Stimulus) -> Point:
+    return click.value.point.x, click.value.point.y
+
+
+def _first(click: Stimulus) -> Point:
+    return click.values("point.x")[0], click.values("point.y")[0]
+
+
+def _is_answered(click: Stimulus, point: Point) -> bool:
+    return bool(click.responses) and math.dist(_first(click), point) <= 0.001
+
+
+class Inflation(NamedTuple):
+    """The cells of the map and of the costmap, what differs, and how far the walls are."""
+
+    given: np.ndarray
+    made: np.ndarray
+    missing: np.ndarray
+    extra: np.ndarray
+    far: np.ndarray  # m
+
+    @property
+    def reaches_too_far(self) -> bool:
+        """Whether nothing is missing, but there is more than should be."""
+        return self.extra.any() and not self.missing.any()
+
+
+@costmap.check(
+    8,
+    after=publishes_a_costmap,
+    guess={
+        "The costmap is the map as it was: set cells of the copy, `inflated`, to 100, up to `reach` cells "
+        f"away, which is {RADIUS} m / resolution.": lambda run, it: np.array_equal(it.given, it.made),
+        "Some cells became another number than 100: that is what stands for occupied.": (
+            lambda run, it: ((it.made != it.given) & (it.made != 100)).any()
+        ),
+        "Corners are too thick: skip cells that are farther than `reach`, by math.hypot(right, up).": (
+            lambda run, it: not it.missing.any() and it.far[it.extra].max(initial=0.0) <= RADIUS * 1.5
+        ),
+        "Nearly all is occupied: look for occupied cells in the old map, and write into the copy.": (
+            lambda run, it: not it.missing.any() and (it.made[it.given != -1] == 100).mean() > 0.9
+        ),
+        f"That is too far: it should reach {RADIUS} m, in cells {RADIUS} / resolution.": (
+            lambda run, it: it.reaches_too_far
+        ),
+        f"It should reach {RADIUS} m in all directions; in cells that is {RADIUS} / resolution.": (
+            lambda run, it: it.missing.any() and not it.extra.any()
+        ),
+        "Is it cells[row, column]: first the row (y), then the column (x)?": lambda run, it: True,
+    },
+)
+def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
+    """In the costmap every cell within 0.2 m of an occupied one is 100, and no other cell has changed."""
+    given, made = map(cells_of, maps)
+    resolution = maps[0].info.resolution
+    far, half = distances_to_occupied(given) * resolution, 0.5 * resolution
+    known, occupied = given != -1, given == 100
+    due = known & ~occupied & (far <= RADIUS + 1e-6)
+    sure = due & (far <= RADIUS - half)
+    missing, lost = sure & (made != 100), known & occupied & (made != 100)
+    extra = known & (far > RADIUS + half) & (made != given)
+    faults = {"missing": missing, "too many": extra, "no longer occupied": lost}
+    counts = {words: int(cells.sum()) for words, cells in faults.items() if cells.any()}
+    if counts:
+        raise Missed(
+            f"{int(due.sum())} cells more that are 100",
+            ", ".join(f"{count} {words}" for words, count in counts.items()),
+            credit=tenths(0.8 * (1 - sum(counts.values()) / sure.sum())),
+            about=(Inflation(given, made, missing, extra, far),),
+        )
+
+
+def _form(msg: Any) -> str:
+    corner = msg.info.origin.position
+    return (
+        f"{msg.info.width} by {msg.info.height} cells of {msg.info.resolution:.3g} m from "
+        f"({corner.x:.2f}, {corner.y:.2f}) m in the frame “{msg.header.frame_id}”"
+    )

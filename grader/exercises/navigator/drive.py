@@ -1,0 +1,125 @@
+"""Drive to a goal without a map."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from grader.checks import (
+    Missed,
+    arrives,
+    ends_with_a_stop,
+    publishes,
+    series,
+    stands_still,
+    tenths,
+    travelled,
+)
+from grader.checks.motion import length
+from grader.exercise import Exercise
+from grader.responses import Window, closest
+from grader.worlds.rooms import yard_from
+from sim.evidence import Recording
+
+GOAL = (5.0, 5.0)
+NEAR, STOP = 0.2, 0.1  # metres
+
+drive = Exercise("drive", "To the goal", world=yard_from, seconds=60, seeds=(1, 2), may_end=True)
+
+
+def _speeds(run: Recording) -> list[float]:
+    return [value for _, value in series(run, "/cmd_vel", "linear.x")]
+
+
+def _turns(run: Recording) -> bool:
+    return any(value for _, value in series(run, "/cmd_vel", "angular.z"))
+
+
+def _straight(run: Recording) -> float:
+    """The length of the straight line from the start to the goal (m)."""
+    return math.dist(GOAL, run.path[0][1:3])
+
+
+def _stops_on_the_way(run: Recording) -> Any:
+    return _speeds(run)[-1] == 0.0 and run.path[-1]._asdict()
+
+
+@drive.check(1)
+def sends_velocities(run: Recording) -> None:
+    """The node publishes Twist messages on /cmd_vel."""
+    publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
+
+
+@drive.check(
+    7,
+    after=sends_velocities,
+    guess={
+        "The robot never turned: angular.z follows the bearing, such as 2.0 * bearing.": (
+            lambda run: any(_speeds(run)) and not _turns(run)
+        ),
+        "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?": (
+            lambda run: not any(_speeds(run)) and not _turns(run)
+        ),
+        "The robot was never told to go ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
+        "It was told to go backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
+        "The commands stopped too early. Send one with each /odom, until the robot is there.": (
+            lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1
+        ),
+        "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.": (
+            lambda run: travelled(run) < 0.5
+        ),
+        "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.": _stops_on_the_way,
+        "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.": (
+            lambda run: travelled(run) > _straight(run)
+        ),
+        "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.": (
+            lambda run: {"way": travelled(run), "time": run.ended.stamp}
+        ),
+    },
+)
+def gets_there(run: Recording) -> None:
+    """The robot comes within 20 cm of (5, 5)."""
+    left, stamp = closest(run.path, GOAL)
+    if left > NEAR:
+        come = 1 - math.dist(GOAL, run.path[-1][1:3]) / _straight(run)
+        raise Missed(
+            "the robot within 0.2 m of (5, 5) m",
+            f"{left:.2f} m away at the nearest, at {stamp:.3g} s",
+            credit=tenths(0.8 * come) if come >= 0.75 else 0.0,  # less may be by chance
+            picture="path",
+        )
+
+
+def _goes_past(run: Recording) -> Any:
+    left, _ = closest(run.path, GOAL)
+    return left > STOP and {"left": left}
+
+
+@drive.check(
+    4,
+    after=gets_there,
+    guess={
+        "First get there.": lambda run: closest(run.path, GOAL)[0] > NEAR,
+        "It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower.": (
+            _goes_past
+        ),
+        "Nearer than 0.1 m is near enough: then send a Twist() with zeros.": lambda run: True,
+    },
+)
+def stays_there(run: Recording) -> None:
+    """In the end the robot stands still, within 20 cm of (5, 5)."""
+    arrives(run, GOAL, tolerance=NEAR)
+    stands_still(run)
+    ends_with_a_stop(run)
+
+
+@drive.check(2, after=gets_there)
+def goes_straight(run: Recording) -> None:
+    """The way to the goal is no more than 15 % longer than the straight line."""
+    reached = next((pose.stamp for pose in run.path if math.dist(GOAL, pose[1:3]) <= NEAR), None)
+    if reached is None:
+        raise Missed("a way to (5, 5)", "the robot did not get there", "First get there.", picture="path")
+    way, most = length(Window(0.0, reached).rows(run.path)), 1.15 * _straight(run)
+    if way > most:
+        hint = "Turn towards the goal first; while the bearing is large, drive slowly or not at all."
+        raise Missed(f"a way of {most:.2f} m or less", f"{way:.2f} m", hint, picture="path")
