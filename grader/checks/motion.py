@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import math
 from collections.abc import Iterable, Sequence
 
@@ -179,6 +180,12 @@ def ends_with_a_stop(recording: Recording, *, credit: float = 0.0) -> None:
     left = last_command_that_moves(recording)
     if left:
         raise Missed("zeros as the last command", left, STOP, credit=credit)
+
+
+def yaw_at(recording: Recording, stamp: Seconds) -> float:
+    """Return the robot's true yaw at a time (degrees): of its last pose until then, as a node can know it."""
+    index = bisect.bisect_right(recording.path, stamp + 1e-6, key=lambda pose: pose.stamp) - 1
+    return math.degrees(recording.path[max(index, 0)].yaw)
 
 
 def last_pose(recording: Recording) -> Pose:

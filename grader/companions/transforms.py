@@ -23,7 +23,7 @@ def transform(parent: str, child: str, pose: Pose2D, stamp: Time | None = None) 
     return sent
 
 
-class Localization(Node):
+class StaticLocalization(Node):
     """Publishes static transforms from map to the odom of each robot of a world: where it began."""
 
     def __init__(self, world: World) -> None:
@@ -36,4 +36,4 @@ class Localization(Node):
 
 def localization(world: World) -> list[Callable[[], Node]]:
     """Return the localization of a world, as companions of a run in it."""
-    return [functools.partial(Localization, world)]
+    return [functools.partial(StaticLocalization, world)]

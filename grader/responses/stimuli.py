@@ -1,5 +1,6 @@
 """What the course's programs send, and what the student's programs publish in response."""
 
+import bisect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -40,8 +41,9 @@ def requests_from_course(run: Recording, service: str, *, at_least: int = 1, wha
 
 
 def last_before(rows: Sequence[Row], stamp: Seconds) -> Row | None:
-    """Return the last row that is not later than a stamp, or None."""
-    return next((row for row in reversed(rows) if row.stamp <= stamp + EDGE), None)
+    """Return the last row that is not later than a stamp, or None; the rows are in their order."""
+    index = bisect.bisect_right(rows, stamp + EDGE, key=lambda row: row.stamp)
+    return rows[index - 1] if index else None
 
 
 @dataclass(frozen=True)

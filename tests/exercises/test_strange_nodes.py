@@ -16,7 +16,7 @@ from grader import Missed
 from grader.exercises import navigator, sensing
 from grader.exercises.navigator.costmap import answers_clicks
 from grader.exercises.navigator.plan import answers_a_goal
-from grader.exercises.sensing.turning import does_not_drift
+from grader.exercises.sensing.gyro import does_not_drift
 from grader.programs import LocalPrograms
 from sim.evidence import Ended, Graph
 from tests.exercises.assignment import first_run

@@ -3,11 +3,13 @@
 from grader.companions.blind_drivers import CarelessDriver, Circling, CrashingDriver, LateStarter
 from grader.companions.radio_link import BadRadio, Radio
 from grader.companions.strange_lidar import StrangeLidar
-from grader.exercises.sensing.driving import avoid, stop
-from grader.exercises.sensing.guarding import guard
-from grader.exercises.sensing.looking import sectors
-from grader.exercises.sensing.turning import gyro, heading
-from grader.exercises.sensing.walls import wall
+from grader.exercises.sensing.avoid import avoid
+from grader.exercises.sensing.guard import guard
+from grader.exercises.sensing.gyro import gyro
+from grader.exercises.sensing.heading import heading
+from grader.exercises.sensing.sectors import sectors
+from grader.exercises.sensing.stop import stop
+from grader.exercises.sensing.wall import wall
 from grader.worlds.rooms import furnished_room, gallery, hall, long_hall
 
 __all__ = [

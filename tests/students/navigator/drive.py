@@ -232,3 +232,15 @@ class WrongWayRound(GoToGoal):
     def steer(self, command, distance, bearing):
         if distance < self.near:
             super().steer(command, 1.0, bearing)
+
+
+class DrivesThrough(GoToGoal):
+    """Near the goal it carries on straight ahead."""
+
+    near = 0.15
+
+    def steer(self, command, distance, bearing):
+        super().steer(command, distance, bearing)
+        self.near = math.inf if distance < self.near else self.near
+        if self.near == math.inf:
+            command.linear.x = self.speed

@@ -221,3 +221,11 @@ class PlaceByDistance(Follower):
     def carrot(self):
         distances = [math.dist(self.pose[:2], point) for point in self.path]
         return self.path[min(distances) :][0]
+
+
+class HardlyTurns(Follower):
+    """Takes the curvature for degrees."""
+
+    def steer(self, point):
+        speed, turn = super().steer(point)
+        return speed or 0.1, math.radians(turn)

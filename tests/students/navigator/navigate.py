@@ -436,6 +436,33 @@ class TellsTheStraightLine(Navigator):
         return feedback
 
 
+class IsThereFarTooEarly(Navigator):
+    near = 2.0
+
+
+class Crawls(Navigator):
+    def drive(self, speed, turn):
+        super().drive(speed / 20, turn)
+
+
+class NeverEnds(Navigator):
+    near = 0.0
+
+
+class KeepsTooFarAway(Navigator):
+    """Inflates by 1 m whenever it plans again: then there is no path."""
+
+    def plan(self, goal):
+        points = super().plan(goal)
+        self.wall = 1.0
+        return points
+
+
+def without_a_server():
+    rclpy.init()
+    rclpy.spin(Mapper())
+
+
 other_name = main_of(OtherName)
 other_type = main_of(OtherType)
 blind = main_of(Blind)
@@ -458,5 +485,9 @@ never_drives = main_of(NeverDrives)
 never_plans_without_a_path = main_of(NeverPlansWithoutAPath)
 tells_the_straight_line = main_of(TellsTheStraightLine)
 with_one_thread = main_of(Navigator, SingleThreadedExecutor)
+is_there_far_too_early = main_of(IsThereFarTooEarly)
+crawls = main_of(Crawls)
+never_ends = main_of(NeverEnds)
+keeps_too_far_away = main_of(KeepsTooFarAway)
 
 PARTS = ("main_of", *(name for name, item in list(vars().items()) if isinstance(item, type)))

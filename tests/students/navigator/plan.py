@@ -247,3 +247,13 @@ class GivesNoWayBack(Planner):
     def find(self, cells, start, goal):
         way = super().find(cells, start, goal)[::-1]
         return way.reverse()
+
+
+class SwapsXAndY(Planner):
+    """Turns a cell into (y, x)."""
+
+    def on_goal(self, msg):
+        info, goal = self.costmap.info, msg.pose.position
+        start, end = to_cell(info, *self.pose[:2]), to_cell(info, goal.x, goal.y)
+        way = self.find(cells_of(self.costmap).tolist(), start, end)
+        self.publisher.publish(path_message([to_point(info, *cell)[::-1] for cell in way]))

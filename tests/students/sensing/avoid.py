@@ -208,3 +208,10 @@ class WrongWayRound(Wanderer):
 class SlicePastTheEnd(Wanderer):
     def look(self, msg):
         return min(msg.ranges[-35:36])
+
+
+class Stands(Wanderer):
+    """Publishes zeros."""
+
+    def choose(self, command, ahead):
+        pass

@@ -230,3 +230,9 @@ class KeepsTheLastStepOnly(Gyro):
 
 class DegreesTwice(Gyro):
     step = math.degrees(0.01)
+
+
+class BeginsWithNoNumber(Gyro):
+    def __init__(self):
+        super().__init__()
+        self.yaw = math.nan

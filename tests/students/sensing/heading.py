@@ -140,3 +140,10 @@ class SumOfRates(Compass):
     def look(self, msg):
         self.total += math.degrees(msg.twist.twist.angular.z) * 0.1
         self.publisher.publish(Float64(data=self.total))
+
+
+class ForgetsTheArcTangent(Compass):
+    """Half of the tutorials' formula."""
+
+    def heading(self, q):
+        return math.degrees(2.0 * (q.w * q.z + q.x * q.y))

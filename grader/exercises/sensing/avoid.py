@@ -1,0 +1,93 @@
+"""Turn away from what is in the way."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from grader.checks import Missed, keeps_clear, publishes, series, travelled, until_a_touch
+from grader.exercise import Exercise
+from grader.worlds.rooms import furnished_room
+from sim.evidence import Recording
+
+FAR, LONG = 1.0, 4.0  # metres: from the start, and of the path
+BESIDE = (
+    "It hit something with its side. Look in a wider sector, at least 30 degrees to each side, for the robot "
+    "is 20 cm wide. And while it turns, linear.x should be 0."
+)
+AHEAD = (
+    "Look ahead in every scan: the rays from -30 to 30 degrees lie at both ends of msg.ranges. When one of "
+    "them is nearer than 0.5 m, turn on the spot: linear.x is 0 then."
+)
+
+avoid = Exercise("avoid", "Turn until it is free", world=furnished_room, seconds=60, seeds=(1, 2))
+
+
+def _why_it_hits(run: Recording) -> str:
+    return BESIDE if run.contacts[0].side in ("left", "right") else AHEAD
+
+
+def _pushes(run: Recording, way: float) -> Any:
+    return run.contacts and {"why": _why_it_hits(run)}
+
+
+def _turning(run: Recording) -> float:
+    """The share of commands that turn the robot."""
+    turns = [abs(turn) > 0.05 for _, turn in series(run, "/cmd_vel", "angular.z")]
+    return sum(turns) / len(turns)
+
+
+@avoid.check(2, guess="Ahead with linear.x, or, where something is near ahead, a turn: angular.z.")
+def wanders_off(run: Recording) -> None:
+    """The robot moves, with commands on /cmd_vel."""
+    publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
+    first = run.path[0]
+    if all(math.dist(first[1:], pose[1:]) < 0.05 for pose in run.path):
+        raise Missed("a robot that drives or turns", "a robot that stands", picture="path")
+
+
+@avoid.check(
+    3,
+    after=wanders_off,
+    hints={
+        "It pushes against something. {why}": _pushes,
+        "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way round "
+        "is the comparison? Look ahead only, not all round: a wall beside the robot stays near, however "
+        "long it turns. And turn one way until it is free, not to and fro.": (
+            lambda run, way: _turning(run) > 0.6
+        ),
+        "It never turns: where something is near ahead, set angular.z, until it is free.": (
+            lambda run, way: _turning(run) == 0
+        ),
+        "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": lambda run, way: True,
+    },
+)
+def drives_on(run: Recording) -> None:
+    """It does not get stuck: in 60 s it comes 4 m far, or more."""
+    way = travelled(until_a_touch(run))
+    if way < LONG:
+        credit = 0.7 * way / LONG if way > 1.0 else 0.0
+        raise Missed(f"a way of {LONG:g} m", f"{way:.2f} m", credit=credit, picture="path", about=(way,))
+
+
+@avoid.check(5, after=drives_on)
+def hits_nothing(run: Recording) -> None:
+    """It touches nothing for 60 s."""
+    try:
+        keeps_clear(run)
+    except Missed as missed:
+        missed.hint = _why_it_hits(run)
+        missed.credit = 0.5 * min(run.contacts[0].stamp / run.seconds, 1.0)
+        raise
+
+
+@avoid.check(
+    4, after=drives_on, guess="Drive straight on while it is free ahead, and turn only when it is not."
+)
+def gets_about(run: Recording) -> None:
+    """It gets about: at some time it is 1 m from where it started, or further."""
+    start = run.path[0]
+    far = max(math.dist(start[1:3], pose[1:3]) for pose in until_a_touch(run).path)
+    if far < FAR:
+        expected = f"the robot {FAR:g} m from its start, or further"
+        raise Missed(expected, f"at most {far:.2f} m", picture="path")

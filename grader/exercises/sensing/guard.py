@@ -1,0 +1,247 @@
+"""The project: a safety node between a careless driver and the robot."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from grader.checks import Missed, keeps_clear, lasts, publishes, subscribes
+from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
+from grader.companions.radio_link import BadRadio, Radio
+from grader.exercise import Exercise, Scenario
+from grader.responses import Window, from_course, last_before, same, speeds
+from grader.responses.motion import STANDING
+from grader.worlds.rooms import free_start, long_hall
+from sim import Process
+from sim.evidence import Message, Recording, Seconds, since_start, stamps
+
+RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
+TWIST = "geometry_msgs/msg/Twist"
+STEP = 0.1  # seconds between the moments that are looked at
+FRESH = 0.2  # seconds: younger commands and scans are good for sure
+FREE, BLOCKED = 1.0, 0.45  # metres ahead: the limit is 0.5 m
+ENOUGH = 5  # moments
+SETTLING = 1.0  # seconds to notice that something is old, and to brake
+
+Command = tuple[float, float]  # m/s and rad/s
+
+
+class Moment(NamedTuple):
+    """What a guard knew at a moment, and what it published."""
+
+    stamp: Seconds
+    requested: Command | None  # by the driver; None if that is old, or about to change
+    ahead: float  # the nearest distance ahead, m; nan where the scans are old
+    sent: Command | None  # None if nothing was sent lately
+
+
+class Ahead(NamedTuple):
+    """What a scan shows: when it came, how old it was then, and the nearest distance ahead."""
+
+    stamp: Seconds
+    age: Seconds
+    distance: float  # m, within 60 degrees of straight ahead
+
+
+REMAPPED = [(OUT, RAW)]
+
+guard = Exercise(
+    "guard",
+    "A guard for the robot",
+    scenarios=[
+        Scenario(free_start, 40, 1, [Radio, Process(CarelessDriver, remappings=REMAPPED)]),
+        Scenario(long_hall, 24, 2, [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
+    ],
+)
+
+
+@guard.check(
+    3, guess="The driver talks on /cmd_vel_raw, the lidar on /lidar, and the robot listens to /cmd_vel."
+)
+def stands_between(run: Recording) -> None:
+    """The node hears /cmd_vel_raw and /lidar, and publishes Twist messages on /cmd_vel."""
+    subscribes(run, RAW, TWIST)
+    subscribes(run, LIDAR, "sensor_msgs/msg/LaserScan")
+    publishes(run, OUT, TWIST, at_least=10)
+
+
+def _had_a_fault(run: Recording, moment: Moment) -> bool:
+    faults = [*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run)]
+    return any(fault.end < moment.stamp for fault in faults)
+
+
+@guard.check(
+    4,
+    after=stands_between,
+    hints={
+        "There was a fault before, but now all is well again: then the commands should pass again.": (
+            _had_a_fault
+        ),
+        "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.": (
+            lambda run, moment: moment.sent is None
+        ),
+        "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
+        "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side.": (
+            lambda run, moment: moment.sent == (0.0, 0.0)
+        ),
+        "Copy the driver's linear.x and angular.z as they are.": lambda run, moment: True,
+    },
+)
+def lets_through(run: Recording) -> list[Moment]:
+    """What is harmless passes: while all is well and 1 m is free ahead, the robot does as the driver asks."""
+    moments = list(_moments(run))
+    fine = [moment for moment in moments if moment.requested and moment.ahead > FREE]
+    wrong = [moment for moment in fine if not (moment.sent and same(moment.sent, moment.requested, 0.05))]
+    steps = len({int(moment.stamp / STEP) for moment in fine})
+    if steps < ENOUGH:
+        expected = f"{ENOUGH * STEP:g} s or more in which all is well and {FREE:g} m are free ahead"
+        hint = "The driver turns the robot away from walls, and drives on: its commands have to pass."
+        saw = f"{steps * STEP:.1f} s: the robot does not get there"
+        raise Missed(expected, saw, hint, picture="path")
+    if len(wrong) > 0.05 * len(fine):
+        first = wrong[0]
+        raise Missed(
+            f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver asks: {first.ahead:.2f} m are "
+            "free ahead",
+            _text(first.sent),
+            picture="topics",
+            about=(first,),
+        )
+    lasts(run, OUT)
+    return moments
+
+
+@guard.check(5, after=lets_through)
+def keeps_from_hitting(run: Recording) -> None:
+    """The robot touches nothing, wherever the driver steers it."""
+    keeps_clear(
+        run,
+        "When something is nearer than 0.5 m within 30 degrees of straight ahead, linear.x becomes 0. "
+        "These rays lie at both ends of msg.ranges. Fewer are not enough: the robot is 20 cm wide.",
+    )
+
+
+@guard.check(2, after=lets_through)
+def lets_turn(run: Recording, moments: list[Moment]) -> None:
+    """Before a wall it takes away the speed ahead only: the driver can still turn the robot."""
+    for moment in moments:
+        turn = moment.requested[1] if moment.requested and moment.ahead < BLOCKED else 0.0
+        if turn and not (moment.sent and same(moment.sent[1], turn, 0.05)):
+            raise Missed(
+                f"a turn of {turn:g} rad/s at {moment.stamp:.3g} s, as the driver asks",
+                _text(moment.sent),
+                "Set linear.x to 0, and leave angular.z as it is: a turn on the spot hits nothing.",
+            )
+
+
+@guard.check(3, after=lets_through)
+def stops_without_driver(run: Recording) -> None:
+    """When the driver falls silent, the robot stands within 1 s."""
+    hint = (
+        "Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
+        "zeros go out. Else the timer repeats the last command for ever."
+    )
+    _stands(run, _pauses(run, RAW), "the driver's last command", hint)
+
+
+@guard.check(3, after=lets_through)
+def stops_without_scans(run: Recording) -> None:
+    """When no scan comes any more, the robot stands within 1 s."""
+    hint = (
+        "No news is bad news. Remember when the last scan came, and look at its age in the timer, not in "
+        "the scan's callback: that one isn't called any more."
+    )
+    _stands(run, _pauses(run, LIDAR), "the last scan", hint)
+
+
+@guard.check(2, after=(lets_through, stops_without_scans))
+def stops_with_late_scans(run: Recording) -> None:
+    """When the scans come 1 s late, the robot stands within 1 s."""
+    hint = (
+        "Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
+        "but the time since it was measured: now minus msg.header.stamp."
+    )
+    _stands(run, _delays(run), "the last scan that came in time", hint, unsafe=False)
+
+
+def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsafe: bool = True) -> None:
+    """Raise Missed where the robot still moves, 1 s after a window has begun."""
+    for begin, end in windows:
+        path = Window(begin + SETTLING, end).rows(run.path)
+        fastest = max(speeds(path), key=lambda speed: (speed.linear, speed.stamp), default=None)
+        if fastest and fastest.linear > STANDING:
+            raise Missed(
+                f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)",
+                f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s",
+                hint,
+                picture="topics",
+                unsafe=unsafe,
+            )
+
+
+def _text(command: Command | None) -> str:
+    if command is None:
+        return "no command for 0.3 s"
+    return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
+
+
+def _pauses(run: Recording, topic: str) -> list[Window]:
+    """Where nothing of the course came on a topic for more than 1.5 s."""
+    return _gaps(stamps(from_course(run, topic, at_least=0)))
+
+
+def _delays(run: Recording) -> list[Window]:
+    """Where for more than 1.5 s all scans that came were more than half a second old."""
+    in_time = [scan.stamp for scan in _scans(run) if scan.age < 0.5]
+    return [gap for gap in _gaps(in_time) if gap not in _pauses(run, LIDAR)]
+
+
+def _gaps(moments: list[Seconds]) -> list[Window]:
+    return [Window(a, b) for a, b in itertools.pairwise(moments) if b - a > 1.5]
+
+
+def _scans(run: Recording) -> list[Ahead]:
+    return [
+        Ahead(
+            row.stamp,
+            row.stamp - since_start(row.message.header.stamp),
+            float(np.nanmin(np.array(row.message.ranges[:61] + row.message.ranges[-60:]))),
+        )
+        for row in from_course(run, LIDAR, at_least=0)
+    ]
+
+
+def _moments(run: Recording) -> Iterator[Moment]:
+    """What a guard knew, and what it sent: every tenth of a second, and with each command that it sent."""
+    scans, sent = _scans(run), run.messages(OUT)
+    requested = from_course(run, RAW, at_least=0)
+    # Those of a tenth are beside the moments at which timers fire.
+    times = [index * STEP + 0.01 for index in range(10, int(run.ended.stamp / STEP))]
+    rows = [(now, last_before(sent, now)) for now in times]
+    rows += [(row.stamp, row) for row in sent if row.stamp > times[0]]
+    for now, last in sorted(rows, key=lambda row: row[0]):
+        seen, commands = (
+            [last_before(rows, now - lag * STEP) for lag in range(4)] for rows in (scans, requested)
+        )
+        good = all(seen) and all(scan.age < FRESH and now - scan.stamp < 0.5 for scan in seen)
+        good = good and now - seen[0].stamp < FRESH and _agree(seen)
+        steady = all(commands) and len({_command(row) for row in commands}) == 1
+        yield Moment(
+            now,
+            _command(commands[0]) if steady and now - commands[0].stamp < FRESH else None,
+            seen[0].distance if good else math.nan,
+            _command(last) if last and now - last.stamp < 0.3 else None,
+        )
+
+
+def _agree(scans: list[Ahead]) -> bool:
+    """Whether all are free, or all are blocked."""
+    return all(scan.distance > FREE for scan in scans) or all(scan.distance < BLOCKED for scan in scans)
+
+
+def _command(row: Message) -> Command:
+    return row.message.linear.x, row.message.angular.z

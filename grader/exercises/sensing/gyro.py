@@ -1,0 +1,181 @@
+"""A heading from a gyro that has a bias."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+from grader.checks import Missed, publishes, series, subscribes
+from grader.checks.motion import yaw_at
+from grader.checks.no_data import no_data
+from grader.companions.blind_drivers import LateStarter
+from grader.exercise import Exercise
+from grader.geometry.angles import least_turn, turn_between
+from sim.evidence import Recording, Seconds
+
+Headings = list[tuple[Seconds, float]]  # degrees
+
+HEADING = "/heading"
+RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LEAVING
+LEAVING = 3.0
+ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
+BIAS = (
+    "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
+    "angular_velocity.z over the first 2 s, when the robot stands, and subtract it from every reading "
+    "after."
+)
+
+gyro = Exercise(
+    "gyro", "A gyro without drift", world="lab", seconds=28, companions=[LateStarter], seeds=(5, 6)
+)
+
+
+@gyro.check(3, lasts=True)
+def sums_up(run: Recording) -> Headings:
+    """The node hears /imu/data, and publishes Float64 messages on /heading, from start to end."""
+    subscribes(run, "/imu/data", "sensor_msgs/msg/Imu")
+    sent = publishes(run, HEADING, "std_msgs/msg/Float64", at_least=50)
+    pause = max(after.stamp - before.stamp for before, after in itertools.pairwise(sent))
+    if pause > 1.0 or sent[0].stamp > LEAVING or sent[-1].stamp < run.ended.stamp - 1.0:
+        raise Missed(
+            "a heading all the time, from 3 s on at the latest",
+            f"messages from {sent[0].stamp:.3g} s to {sent[-1].stamp:.3g} s, with a pause of {pause:.3g} s",
+            "Publish in every callback. Before the bias is known, the heading is 0.0.",
+        )
+    return series(run, HEADING, "data")
+
+
+def _largest(headings: Headings) -> float:
+    return max(abs(value) for _, value in headings)
+
+
+def _no_number(run: Recording, headings: Headings) -> Any:
+    value = next((value for _, value in headings if not math.isfinite(value)), None)
+    return value is not None and {"value": value}
+
+
+def _ratio(run: Recording, headings: Headings) -> float:
+    """The last heading divided by the angle that the robot turned; NaN where it turned too little."""
+    steps = (after.yaw - before.yaw for before, after in itertools.pairwise(run.path))
+    turned = math.degrees(sum(math.remainder(step, math.tau) for step in steps))
+    return math.nan if abs(turned) < 60.0 else headings[-1][1] / turned
+
+
+def _times_too_far(run: Recording, headings: Headings) -> Any:
+    ratio = _ratio(run, headings)
+    return ratio > 2.5 and {"ratio": ratio}
+
+
+def _begins_late(run: Recording, headings: Headings) -> Any:
+    begin = next((stamp for stamp, value in headings if value != 0.0), 0.0)
+    return begin > LEAVING + 0.1 and {"begin": begin, "leaving": LEAVING}
+
+
+def _at_rest(headings: Headings) -> Headings:
+    return [(stamp, value) for stamp, value in headings if stamp >= RESTING]
+
+
+def _is_rounded(run: Recording, headings: Headings) -> Any:
+    resting = _at_rest(headings)
+    rounded = all(abs(math.remainder(value, ROUNDED)) < 0.02 for _, value in resting)
+    return rounded and {"step": ROUNDED}
+
+
+def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
+    rates = series(run.during(0.0, 2.0), "/imu/data", "angular_velocity.z")
+    bias = math.degrees(sum(rate for _, rate in rates) / len(rates)) if rates else 0.0
+    (first, before), (last, after) = _at_rest(headings)[0], _at_rest(headings)[-1]
+    drift = (after - before) / (last - first)
+    return bias and 50.0 < abs(drift / bias) < 200.0 and {"times": abs(drift / bias)}
+
+
+@gyro.check(
+    4,
+    after=sums_up,
+    hints={
+        "It stays 0 all the time: collect the first 200 rates, and add up from then on.": (
+            lambda run, headings: _largest(headings) == 0.0
+        ),
+        "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01.": (
+            lambda run, headings: _largest(headings) < 2.0
+        ),
+        "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up.": (
+            lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0
+        ),
+        "{value} is not a heading: something was divided by zero, or a sum began with no number.": _no_number,
+        "The sign is wrong: a positive angular_velocity.z is a turn to the left, and so is the heading.": (
+            lambda run, headings: -1.2 < _ratio(run, headings) < -0.8
+        ),
+        "That is the angle in radians: math.degrees(...) turns it into degrees.": (
+            lambda run, headings: 0.01 < _ratio(run, headings) < 0.025
+        ),
+        "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
+        "comes only once, where it is published.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
+        "That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the time "
+        "since the last one, 0.01 s: add rate * 0.01.": _times_too_far,
+        "The heading begins at {begin:.3g} s, and the robot sets off at {leaving:g} s: the mean of the rates "
+        "until then has its turn in it, too. Take the mean over the first 2 s only.": _begins_late,
+        "The heading comes to rest on a multiple of {step:.2g} degrees, or 0.01 rad: is the sum rounded at "
+        "each step? Then small steps are lost. Round only what you print.": _is_rounded,
+        "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, and counts for the "
+        "0.01 s since the last message, not for a whole second: (rate - bias) * 0.01.": _drifts_by_the_bias,
+        BIAS: lambda run, headings: True,
+    },
+)
+def ends_right(run: Recording, headings: Headings) -> Headings:
+    """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
+    stamp, value = headings[-1]
+    turned = _turned(run, stamp)
+    if abs(turn_between(value, turned)) >= 3.0:
+        raise Missed(
+            f"{turned:.1f} degrees at {stamp:.3g} s",
+            f"{value:.4g} degrees",
+            credit=0.5 if _is_in_other_units(value, turned) else 0.0,
+            picture="topics",
+            measured=headings,
+            about=(headings,),
+        )
+    return headings
+
+
+def _is_in_other_units(value: float, turned: float) -> bool:
+    """Whether a heading is right but for its sign or its unit: then the turn is added up."""
+    if not math.isfinite(value):
+        return False
+    radians = abs(math.remainder(value - math.radians(turned), math.tau)) < math.radians(3.0)
+    return abs(turn_between(-value, turned)) < 3.0 or (radians and abs(turned) > 20.0)
+
+
+@gyro.check(5, after=ends_right)
+def does_not_drift(run: Recording, headings: Headings) -> None:
+    """At the end the robot stands for 8 s, and the heading stands, too: it changes by less than 1 degree."""
+    resting = _at_rest(headings)
+    if len(resting) < 2:
+        raise no_data(run, f"headings from {RESTING:g} s on", f"{len(resting)}", [])
+    (first, before), (last, after) = resting[0], resting[-1]
+    drift = turn_between(after, before)
+    if abs(drift) >= 1.0:
+        raise Missed(
+            f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot stands",
+            f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second",
+            "It comes to the right heading too late: publish the sum as it is, without smoothing.",
+            picture="topics",
+        )
+
+
+@gyro.check(3, after=ends_right)
+def is_right_all_the_time(run: Recording, headings: Headings) -> None:
+    """It is right on the way, too, within 5 degrees."""
+    for stamp, value in headings:
+        if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= 5.0:
+            raise Missed(
+                f"{_turned(run, stamp):.1f} degrees at {stamp:.3g} s",
+                f"{value:.4g} degrees",
+                "A heading is the sum of rate times time step, with each reading as it comes.",
+            )
+
+
+def _turned(run: Recording, stamp: Seconds) -> float:
+    """How far the robot has turned since the start, degrees to the left, in -180..180."""
+    return turn_between(yaw_at(run, stamp), math.degrees(run.path[0].yaw))

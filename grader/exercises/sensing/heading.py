@@ -1,0 +1,85 @@
+"""A compass from odometry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from grader.checks import Missed, lasts, publishes, series, subscribes
+from grader.checks.motion import yaw_at
+from grader.companions.blind_drivers import Circling
+from grader.exercise import Exercise
+from grader.geometry.angles import least_turn, turn_between
+from sim.evidence import Recording, Seconds
+
+Headings = list[tuple[Seconds, float]]  # degrees
+
+HEADING = "/heading"
+NEAR = 1.0  # degrees
+LAGS = 0.0, 0.05, 0.1, 0.15  # s for which a heading may be late
+
+heading = Exercise(
+    "heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling], seeds=(1, 2)
+)
+
+
+@heading.check(2)
+def says_a_heading(run: Recording) -> Headings:
+    """The node hears /odom, and publishes Float64 messages on /heading."""
+    subscribes(run, "/odom", "nav_msgs/msg/Odometry")
+    publishes(run, HEADING, "std_msgs/msg/Float64", at_least=20)
+    return series(run, HEADING, "data")
+
+
+def _is(formula: Callable[[float], float]) -> Callable[..., bool]:
+    """The cause of a miss: the heading is what a wrong formula gives for a yaw in rad."""
+    return lambda run, value, yaw: abs(turn_between(value, formula(math.radians(yaw)))) < 0.5
+
+
+@heading.check(
+    4,
+    after=says_a_heading,
+    hints={
+        "That is the angle in radians: math.degrees(...) turns it into degrees.": _is(lambda yaw: yaw),
+        "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).": (
+            _is(lambda yaw: math.sin(yaw / 2))
+        ),
+        "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).": (
+            _is(lambda yaw: math.degrees(math.sin(yaw / 2)))
+        ),
+        "That is half of it: a quaternion holds half the angle. yaw = 2 * atan2(z, w).": (
+            _is(lambda yaw: math.degrees(yaw / 2))
+        ),
+        "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).": (
+            _is(lambda yaw: math.degrees(-yaw))
+        ),
+        "That is the sine of the angle, not the angle.": _is(lambda yaw: math.degrees(math.sin(yaw))),
+        "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": (
+            lambda run, value, yaw: True
+        ),
+    },
+)
+def heading_is_right(run: Recording, headings: Headings) -> Headings:
+    """It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right."""
+
+    def error(stamp: Seconds, value: float) -> float:
+        return least_turn(value, [yaw_at(run, stamp - lag) for lag in LAGS])
+
+    stamp, worst = max(headings, key=lambda pair: error(*pair))
+    if error(stamp, worst) > NEAR:
+        yaw = yaw_at(run, stamp)
+        raise Missed(f"{yaw:.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(worst, yaw))
+    lasts(run, HEADING)
+    return headings
+
+
+@heading.check(2, after=heading_is_right)
+def heading_is_in_range(run: Recording, headings: Headings) -> None:
+    """It is always from -180 to 180 degrees."""
+    for stamp, value in headings:
+        if not abs(value) <= 180.0 + 1e-6:
+            raise Missed(
+                "degrees from -180 to 180",
+                f"{value:.4g} at {stamp:.3g} s",
+                "math.atan2 gives an angle in this range. Don't add 360, and don't use % 360 alone.",
+            )

@@ -1,0 +1,191 @@
+"""The nearest thing ahead, to the left and to the right, from any lidar's scans."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from grader.checks import Missed, hinting, lasts, publishes, subscribes
+from grader.companions.blind_drivers import Circling
+from grader.companions.strange_lidar import StrangeLidar
+from grader.exercise import Exercise, Scenario
+from grader.geometry.scan_sectors import Sector, sector_of
+from grader.worlds.rooms import furnished_room
+from sim.evidence import Recording, Seconds, stamps
+
+SCAN = "sensor_msgs/msg/LaserScan"
+MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
+LAG, PATIENCE = 0.02, 0.3  # seconds
+
+
+class Answer(NamedTuple):
+    """What a node published for a direction after a scan, None for nothing, and what there was to see."""
+
+    stamp: Seconds
+    topic: str
+    value: float | None
+    sector: Sector
+    before: Sector | None  # of the scan before, where the node may not have received this one yet
+
+    @property
+    def right(self) -> bool:
+        """Whether it is what the rays show."""
+        sectors = [sector for sector in (self.sector, self.before) if sector is not None]
+        return self.value is not None and any(sector.fits(self.value) for sector in sectors)
+
+
+sectors = Exercise(
+    "sectors",
+    "Ahead, left and right",
+    scenarios=[
+        Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
+        Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
+    ],
+)
+
+
+@sectors.check(3)
+def says_three_distances(run: Recording) -> list[Answer]:
+    """The node hears /scan, and publishes Float64 messages on /front, /left and /right."""
+    subscribes(run, "/scan", SCAN)
+    with hinting(guess="A publisher for each of the three, and a message on each after every scan."):
+        for topic in MIDDLES:
+            publishes(run, topic, "std_msgs/msg/Float64", at_least=5)
+    return list(_answers(run))
+
+
+def _all(condition: Callable[[Answer], bool]) -> Callable[..., bool]:
+    """The cause of a miss: all wrong answers are like this."""
+    return lambda run, wrong: all(map(condition, wrong))
+
+
+def _returns_in_the_loop(run: Recording, wrong: list[Answer]) -> bool:
+    first_ray = [answer.value == answer.sector.middle != math.inf for answer in wrong]
+    return any(first_ray) and all(
+        is_first or answer.value == math.inf for is_first, answer in zip(first_ray, wrong, strict=True)
+    )
+
+
+def _is_nearest_around(run: Recording, wrong: list[Answer]) -> bool:
+    return all(answer.value == answer.sector.around for answer in wrong if answer.topic == wrong[0].topic)
+
+
+def _sides(wrong: list[Answer]) -> list[Answer]:
+    return [answer for answer in wrong if answer.topic != "/front"]
+
+
+def _is_within(run: Recording, wrong: list[Answer]) -> bool:
+    finite = [answer for answer in _sides(wrong) if answer.value and math.isfinite(answer.value)]
+    return any(answer.value in answer.sector.rays for answer in finite)
+
+
+def _is_too_far_aside(run: Recording, wrong: list[Answer]) -> bool:
+    sides = _sides(wrong)
+    return bool(sides) and all(answer.value in answer.sector.beside for answer in sides)
+
+
+@sectors.check(
+    5,
+    after=says_three_distances,
+    hints={
+        "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it.": (
+            _all(lambda answer: answer.value == answer.sector.middle)
+        ),
+        "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?": (
+            _returns_in_the_loop
+        ),
+        "That is the greatest distance. min(...) finds the least one.": _all(
+            lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()
+        ),
+        "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
+        "makes degrees of radians.": _is_nearest_around,
+        "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "
+        "each, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
+        "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides.": (
+            _is_within
+        ),
+        "That is too far to the side: only the rays up to 30 degrees from the middle count.": (
+            _is_too_far_aside
+        ),
+        "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at -10. "
+        "Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180.": (
+            lambda run, wrong: wrong[0].topic == "/front"
+        ),
+        "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right.": (
+            lambda run, wrong: True
+        ),
+    },
+)
+def knows_the_directions(run: Recording, answers: list[Answer]) -> list[Answer]:
+    """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
+    _all_right(answers, "plain")
+    for topic in MIDDLES:
+        lasts(run, topic)
+    return answers
+
+
+@sectors.check(
+    4,
+    after=knows_the_directions,
+    hints={
+        "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False.": (
+            lambda run, wrong: True
+        )
+    },
+)
+def leaves_out_lost_rays(run: Recording, answers: list[Answer]) -> None:
+    """Rays that got lost (nan) change nothing."""
+    _all_right(answers, "lost")
+
+
+@sectors.check(
+    3,
+    after=knows_the_directions,
+    hints={
+        "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is.": (
+            lambda run, wrong: wrong[0].sector.kind == "near"
+        ),
+        "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default.": (
+            lambda run, wrong: True
+        ),
+    },
+)
+def knows_near_and_far(run: Recording, answers: list[Answer]) -> None:
+    """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
+    _all_right(answers, "near")
+    _all_right(answers, "empty")
+
+
+def _all_right(answers: list[Answer], kind: str) -> None:
+    """Raise Missed for a wrong answer about a sector of this kind."""
+    wrong = [answer for answer in answers if answer.sector.kind == kind and not answer.right]
+    if wrong:
+        stamp, topic, value, sector, _ = wrong[0]
+        raise Missed(
+            f"{sector.nearest:.3g} m on {topic} at {stamp:.3g} s{sector.text}",
+            "nothing" if value is None else f"{value:.3g} m",
+            about=(wrong,),
+        )
+
+
+def _answers(run: Recording) -> Iterator[Answer]:
+    """The last message on each topic after each scan and before the next one."""
+    messages = {topic: run.messages(topic) for topic in MIDDLES}
+    times = {topic: stamps(rows) for topic, rows in messages.items()}
+    before: dict[str, Sector] = {}
+    for scan, following in itertools.pairwise(run.messages("/scan")):
+        seen = {topic: sector_of(scan.message, middle) for topic, middle in MIDDLES.items()}
+        for topic, sector in seen.items():
+            if scan.stamp < 0.3:
+                continue  # the node may just have started
+            last = bisect.bisect_left(times[topic], following.stamp) - 1
+            if last >= 0 and times[topic][last] >= scan.stamp:
+                at_once = times[topic][last] < scan.stamp + LAG
+                value = messages[topic][last].message.data
+                yield Answer(scan.stamp, topic, value, sector, before.get(topic) if at_once else None)
+            elif following.stamp > scan.stamp + PATIENCE:
+                yield Answer(scan.stamp, topic, None, sector, None)
+        before = seen

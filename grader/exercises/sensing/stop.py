@@ -1,0 +1,94 @@
+"""Stop before a wall."""
+
+from __future__ import annotations
+
+from grader.checks import Missed, otherwise, publishes, series, stands_still
+from grader.exercise import Exercise
+from grader.worlds.rooms import hall
+from sim.evidence import Recording
+
+STOP_AT = 1.0  # metres before the wall
+
+stop = Exercise("stop", "Stop before the wall", world=hall, seconds=30, seeds=(1, 2))
+
+
+def _any(run: Recording, field: str) -> bool:
+    return any(value for _, value in series(run, "/cmd_vel", field))
+
+
+@stop.check(
+    2,
+    hints={
+        "linear.x is negative: that is backwards.": lambda run, far: any(
+            speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")
+        ),
+        "The commands stop too early, or come too rarely: publish one in every callback.": (
+            lambda run, far: _any(run, "linear.x")
+        ),
+        "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.": (
+            lambda run, far: _any(run, "angular.z")
+        ),
+        "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line say "
+        "then?": otherwise,
+    },
+)
+def sets_off(run: Recording) -> None:
+    """The robot drives ahead, with commands on /cmd_vel."""
+    publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
+    far = max(pose.x for pose in run.path)
+    if far < 0.5:
+        raise Missed(
+            "a robot that drives ahead while nothing is nearer than 1 m",
+            f"it comes {far:.2f} m far",
+            picture="path",
+            about=(far,),
+        )
+
+
+@stop.check(
+    4,
+    after=sets_off,
+    hints={
+        "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": (
+            lambda run, gap: gap > STOP_AT
+        ),
+        "That is late for a robot at 0.3 m/s: is a zero sent at once, in the same callback?": (
+            lambda run, gap: gap > STOP_AT - 0.25
+        ),
+        "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": otherwise,
+    },
+)
+def stops_in_time(run: Recording) -> None:
+    """It stops when the wall is nearer than 1 m, and at once."""
+    gap = run.world.bounds[2] - run.path[-1].x
+    if run.contacts:
+        raise Missed(
+            "a stop before the wall",
+            f"the robot drove into it at {run.contacts[0].stamp:.3g} s",
+            "Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
+            "comparison the right way round?",
+            picture="path",
+            unsafe=True,
+        )
+    if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
+        raise Missed(
+            "a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few centimetres",
+            f"it ends {gap:.2f} m before the wall",
+            picture="path",
+            about=(gap,),
+        )
+
+
+@stop.check(2, after=stops_in_time)
+def says_stop(run: Recording) -> None:
+    """It stays there, and goes on sending zeros."""
+    stands_still(run)
+    stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
+    if speed or run.ended.stamp - stamp > 0.5:
+        raise Missed(
+            "zeros on /cmd_vel as long as the wall is near",
+            f"{speed:g} m/s as the last command, at {stamp:.3g} s",
+            "It stood still only because the robot stops by itself without commands. Publish in every "
+            "callback, a Twist() of zeros, too.",
+            picture="topics",
+        )

@@ -1,0 +1,139 @@
+"""Follow the wall round a room."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import statistics
+from typing import Any
+
+from grader.checks import Missed, keeps_clear, passes, publishes, travelled, until_a_touch
+from grader.diagnosis.driving import refused_command
+from grader.exercise import Exercise
+from grader.worlds.rooms import MARGIN, gallery
+from sim.evidence import Pose, Recording
+
+NEAR, FAR = 0.3, 0.8  # metres from the wall
+SETTLED = 3.0  # seconds
+SHARE = 0.9  # of the time
+
+wall = Exercise("wall", "Round the room", world=gallery, seconds=90, seeds=(1, 2))
+
+
+def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
+    """How far (m) the nearest of the room's walls is, and in which direction (rad, in the map)."""
+    left, low, right, top = run.world.bounds
+    gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
+    return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
+
+
+def _infinite(run: Recording) -> Any:
+    command = refused_command(run)
+    return command and (not run.contacts or run.contacts[0].side != "front") and {"command": command}
+
+
+def _usual_gap(run: Recording) -> Any:
+    gap = statistics.median(_nearest_wall(run, pose)[0] for pose in run.path)
+    return not NEAR <= gap <= FAR and {"gap": gap}
+
+
+def _goes_the_other_way(run: Recording) -> bool:
+    left, low, right, top = run.world.bounds
+    x, y = (left + right) / 2, (low + top) / 2
+    bearings = [math.atan2(pose.y - y, pose.x - x) for pose in run.path]
+    return sum(math.remainder(b - a, math.tau) for a, b in itertools.pairwise(bearings)) < -math.pi / 2
+
+
+@wall.check(2, guess="While nothing is ahead, linear.x should be 0.2 or more.")
+def leaves_the_start(run: Recording) -> None:
+    """The robot drives ahead, with commands on /cmd_vel."""
+    publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
+    if travelled(run) < 0.5:
+        raise Missed("a robot that drives", f"a way of {travelled(run):.2f} m", picture="path")
+
+
+@wall.check(
+    4,
+    after=leaves_the_start,
+    hints={
+        "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.": _infinite,
+        "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
+        "0.6 m, stop and turn left until it is free again.": (
+            lambda run: run.contacts and run.contacts[0]._asdict()
+        ),
+        "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.": _usual_gap,
+        "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].": (
+            _goes_the_other_way
+        ),
+        "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.": (
+            lambda run: travelled(run) < 10.0
+        ),
+        "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays at "
+        "0.5 m.": lambda run: True,
+    },
+)
+def goes_round(run: Recording) -> None:
+    """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
+    left, low, right, top = run.world.bounds
+    corners = {
+        "lower right": (right - MARGIN, low + MARGIN),
+        "upper right": (right - MARGIN, top - MARGIN),
+        "upper left": (left + MARGIN, top - MARGIN),
+        "lower left": (left + MARGIN, low + MARGIN),
+    }
+    try:
+        passes(until_a_touch(run), list(corners.values()), tolerance=0.6)
+    except Missed as missed:
+        done = round(missed.credit * len(corners))
+        raise Missed(
+            f"the four corners: {', '.join(corners)}",
+            f"{done} of them; then it never came within 0.6 m of the {list(corners)[done]} one's inside",
+            credit=max(0, done - 1) / (len(corners) - 1),  # one may be passed by chance
+            picture="path",
+        ) from None
+
+
+@wall.check(
+    8,
+    after=goes_round,
+    hints={
+        "Look to the right, at ranges[270], and steer by what is there.": (
+            lambda run, left, near, far: left > 0.5
+        ),
+        "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before it is "
+        "0.3 m: is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
+        "Turn a little to the right when the wall on the right is further than 0.5 m: it must not get "
+        "lost.": lambda run, left, near, far: True,
+    },
+)
+def keeps_the_distance(run: Recording) -> None:
+    """It keeps 30 cm to 80 cm from the wall on its right, for nine tenths of the time or more."""
+    rows = [(pose.yaw, *_nearest_wall(run, pose)) for pose in run.path if pose.stamp >= SETTLED]
+    on_left = [math.sin(direction - yaw) > 0.5 for yaw, _, direction in rows]  # and not ahead or behind
+    is_near, is_far = [gap < NEAR for _, gap, _ in rows], [gap > FAR for _, gap, _ in rows]
+    wrong = [any(flags) for flags in zip(on_left, is_near, is_far, strict=True)]
+    share = wrong.count(False) / len(rows)
+    left, near, far = (flags.count(True) / len(rows) for flags in (on_left, is_near, is_far))
+    if share >= SHARE:
+        return
+    if left > 0.5:
+        expected = "a robot with the wall on its right"
+        saw = f"the nearest wall on its left, for {left:.0%} of the time"
+        raise Missed(expected, saw, picture="path", about=(left, near, far))
+    other = 1.0 - share - near - far
+    raise Missed(
+        f"{SHARE:.0%} of the time at {NEAR:g} m to {FAR:g} m from the nearest wall",
+        f"{share:.0%} of the time; {near:.0%} nearer, {far:.0%} further away"
+        + (f", {other:.0%} with a wall on its left" if other >= 0.05 else ""),
+        credit=share * 0.8 if share >= 0.5 else 0.0,
+        picture="path",
+        about=(left, near, far),
+    )
+
+
+@wall.check(4, after=goes_round)
+def touches_nothing(run: Recording) -> None:
+    """It touches nothing."""
+    keeps_clear(
+        run, "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m."
+    )
