@@ -6,7 +6,16 @@ from geometry_msgs.msg import Twist
 
 from grader import Missed
 from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, travelled
-from grader.checks.motion import distances_to_line, until_a_touch
+from grader.checks.check import tenths
+from grader.checks.motion import (
+    after_a_touch,
+    distances_to_line,
+    has_no_contacts,
+    is_hopeless,
+    stood_still,
+    until_a_touch,
+    yaw_at,
+)
 from sim import run
 from sim.evidence import Pose
 from tests.grader.recordings import driven, published, recording
@@ -173,3 +182,37 @@ def test_a_robot_that_stands_was_told_to():
 def test_a_run_without_a_robot_is_the_authors_mistake(measure):
     with pytest.raises(ValueError, match=r"^this run has no robot: give the exercise a world$"):
         measure(recording())
+
+
+def test_has_no_contacts_says_where_the_first_one_was():
+    has_no_contacts(driven(SQUARE))
+    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall")])
+    miss = missed(has_no_contacts, touched, "Look ahead.")
+    assert miss.expected == "no contact with walls or boxes"
+    assert miss.saw == "a wall touched at 1.5 s, at (1.00, 2.00) m"
+    assert miss.hint == "Look ahead." and miss.unsafe
+    assert after_a_touch(touched) == "It drove into a wall at 1.5 s, and its odometry has been wrong since."
+    assert after_a_touch(driven(SQUARE)) == ""
+
+
+def test_a_robot_stood_still_if_it_did_not_move_for_so_long():
+    rests = driven([(0.0, 0.0), *[(1.0, 0.0)] * 30])
+    assert stood_still(rests, 20.0)
+    assert not stood_still(rests, 30.0)
+    assert not stood_still(driven([(0.0, 0.0)] * 5), 20.0)
+
+
+def test_a_run_is_hopeless_some_time_after_a_touch_or_where_nothing_moves():
+    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall")])
+    assert is_hopeless(touched, patience=2.0)
+    assert not is_hopeless(touched, patience=2.5)
+    assert is_hopeless(driven([(0.0, 0.0)] * 30), patience=2.0)
+
+
+def test_the_true_yaw_is_that_of_the_last_pose_until_then():
+    turns = recording(path=[Pose(0.0, 0.0, 0.0, 0.0), Pose(1.0, 0.0, 0.0, math.pi / 2)])
+    assert [yaw_at(turns, stamp) for stamp in (-1.0, 0.5, 1.0)] == [0.0, 0.0, 90.0]
+
+
+def test_a_credit_in_tenths_is_rounded_down_and_from_0_to_1():
+    assert [tenths(credit) for credit in (-0.5, 0.3, 0.39, 1.7)] == [0.0, 0.3, 0.3, 1.0]
