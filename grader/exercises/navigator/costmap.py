@@ -51,7 +51,7 @@ def hears_the_map(run: Recording) -> Any:
     return run.messages("/map", "/map_server")[0].message
 
 
-@costmap.check(2, after=hears_the_map, guess="Publish it in on_map, as soon as the map is there.")
+@costmap.check(2, after=hears_the_map)
 def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     """The node publishes an OccupancyGrid on /global_costmap/costmap, with the form of /map."""
     made = publishes(run, COSTMAP, GRID)[-1].message
