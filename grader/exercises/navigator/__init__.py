@@ -10,24 +10,3 @@ from grader.exercises.navigator.follow import follow
 from grader.exercises.navigator.navigate import navigate
 from grader.exercises.navigator.plan import plan
 from grader.worlds.rooms import blocked, world_of
-
-__all__ = [
-    "CostmapServer",
-    "GoalClient",
-    "GoalSender",
-    "Localization",
-    "MapServer",
-    "Planner",
-    "PointClicker",
-    "Wanderer",
-    "blocked",
-    "bringup",
-    "compass",
-    "costmap",
-    "drive",
-    "follow",
-    "made_for",
-    "navigate",
-    "plan",
-    "world_of",
-]

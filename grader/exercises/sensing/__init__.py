@@ -11,24 +11,3 @@ from grader.exercises.sensing.sectors import sectors
 from grader.exercises.sensing.stop import stop
 from grader.exercises.sensing.wall import wall
 from grader.worlds.rooms import furnished_room, gallery, hall, long_hall
-
-__all__ = [
-    "BadRadio",
-    "CarelessDriver",
-    "Circling",
-    "CrashingDriver",
-    "LateStarter",
-    "Radio",
-    "StrangeLidar",
-    "avoid",
-    "furnished_room",
-    "gallery",
-    "guard",
-    "gyro",
-    "hall",
-    "heading",
-    "long_hall",
-    "sectors",
-    "stop",
-    "wall",
-]
