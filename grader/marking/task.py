@@ -35,7 +35,7 @@ class Procedure(Protocol):
     """What a judge does with a submission in place of marking it; it crosses processes with the task."""
 
     def run(self, marking: Any) -> None:
-        """Take all steps. marking: the `Marking` of the task, which gets the results."""
+        """Take all steps. marking: the `MarkingState` of the task, which gets the results."""
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ SAME_MEANING = {
 # What is still to be renamed: paths, a folder with everything in it.
 STILL: tuple[str, ...] = (
     *("sim/ros/engine/", "sim/ros/recorder/", "sim/ros/fibers/", "sim/ros/hooks/"),
-    *("grader/checks/", "grader/companions/", "grader/diagnosis/", "grader/exercises/", "grader/marking/"),
+    *("grader/checks/", "grader/companions/", "grader/diagnosis/", "grader/exercises/"),
     *("grader/workspace/", "grader/worlds/"),
 )
 

@@ -10,7 +10,7 @@ from time import monotonic
 from nbformat import NotebookNode
 
 from grader.marking.errors import Unusable
-from grader.marking.judge.marking import Marking, StartSession, cell_name, no_points
+from grader.marking.judge.marking_state import MarkingState, StartSession, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.testcells import exercise_names, find_exercise, is_test
 from grader.marking.outputs import writable_text
@@ -23,20 +23,20 @@ from grader.seeds import secret_of_student
 MAX_SUSPICIOUS = 20  # of a notebook that are reported
 
 
-def rebuild_notebooks(marking: Marking) -> None:
+def rebuild_notebooks(marking: MarkingState) -> None:
     """Insert the student's answers into the release's notebooks. Raises Unusable if none can be marked."""
     marking.rebuilt = rebuild_submission(marking.task.submitted, marking.task.release)
     marking.flags += marking.rebuilt.flags
 
 
-def find_exercises(marking: Marking) -> None:
+def find_exercises(marking: MarkingState) -> None:
     """Find the exercises of the test cells. Raises UnknownTest for a release that can't be marked here."""
     for name, released in marking.task.release.notebooks.items():
         names = exercise_names(released)
         marking.exercises[name] = {cell: find_exercise(full) for cell, full in names.items()}
 
 
-def flag_suspicious_code(marking: Marking) -> None:
+def flag_suspicious_code(marking: MarkingState) -> None:
     """Flag suspicious code in a notebook that is not in the release itself."""
     for name, rebuilt in marking.rebuilt.notebooks.items():
         released = set(find_suspicious_code(_sources(marking.task.release.notebooks[name])))
@@ -46,7 +46,7 @@ def flag_suspicious_code(marking: Marking) -> None:
         marking.flags += found
 
 
-def run_and_judge(marking: Marking) -> None:
+def run_and_judge(marking: MarkingState) -> None:
     """Run each notebook to its end, or as far as its process lives."""
     for name in marking.task.release.notebooks:
         marking.cells[name] = []
@@ -56,7 +56,7 @@ def run_and_judge(marking: Marking) -> None:
             marking.stops.append(marking.rebuilt.missing[name])
 
 
-def fill_in_missed_tests(marking: Marking) -> None:
+def fill_in_missed_tests(marking: MarkingState) -> None:
     """Give no points for tests that were not reached."""
     for name, results in marking.cells.items():
         done = {result.cell for result in results}
@@ -75,7 +75,7 @@ def mark_submission(task: MarkingTask, secret: str, start_session: StartSession)
     and nothing else, whatever the submission does.
     """
     began = monotonic()
-    marking = Marking(task, secret_of_student(secret, task.student), start_session)
+    marking = MarkingState(task, secret_of_student(secret, task.student), start_session)
     try:
         if task.procedure is None:
             for step in STEPS:

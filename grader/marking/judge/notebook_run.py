@@ -15,7 +15,7 @@ from grader.marking.errors import StudentProcessGone
 from grader.marking.judge import score_outputs
 from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.display_only_cells import display_only_cells
-from grader.marking.judge.marking import Marking, cell_name, no_points
+from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
 from grader.marking.judge.student_session import StudentSession
 from grader.marking.judge.testcells import is_test
 from grader.marking.outputs import writable_text
@@ -29,7 +29,7 @@ THREADS = "A thread of the notebook {} still ran when its last cell was over."
 class NotebookRun:
     """The run of one notebook. `marking` receives its cells' results, outputs, flags and timings."""
 
-    def __init__(self, marking: Marking, name: str) -> None:
+    def __init__(self, marking: MarkingState, name: str) -> None:
         self._marking, self._name = marking, name
         self._exercises, self._results = marking.exercises[name], marking.cells[name]
         self._cells = _code_cells(marking.notebook(name))

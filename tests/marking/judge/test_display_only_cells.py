@@ -2,7 +2,7 @@ import nbformat
 import pytest
 
 from grader.marking.judge.display_only_cells import display_only_cells
-from grader.marking.judge.marking import cell_name
+from grader.marking.judge.marking_state import cell_name
 from tests.marking.tiny import ROOT
 
 SETUP = "from sim import run"

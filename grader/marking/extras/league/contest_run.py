@@ -13,7 +13,7 @@ from grader.exercise import Exercise
 from grader.marking.extras.league.contest import Contest, Game, game_of
 from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.mark_submission import find_exercises, flag_suspicious_code, rebuild_notebooks
-from grader.marking.judge.marking import Marking, cell_name, no_points
+from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
 from grader.marking.judge.notebook_run import NotebookRun
 from grader.marking.judge.student_session import StudentSession
 from grader.programs import ProgramSource
@@ -21,7 +21,7 @@ from grader.score import Score
 from grader.stderr_redirect import redirect_stderr
 
 
-def run_contest(marking: Marking, contest: Contest) -> None:
+def run_contest(marking: MarkingState, contest: Contest) -> None:
     """Run the contest with the programs of the release's last test cell. Raises Unusable, UnknownTest."""
     rebuild_notebooks(marking)
     find_exercises(marking)
@@ -65,7 +65,7 @@ class ContestJudge:
 class ContestRun(NotebookRun):
     """The run of a notebook for a contest: tests of other exercises are skipped."""
 
-    def __init__(self, marking: Marking, name: str, contest: Contest) -> None:
+    def __init__(self, marking: MarkingState, name: str, contest: Contest) -> None:
         super().__init__(marking, name)
         self._contest = contest
 

@@ -18,7 +18,7 @@ StartSession = Callable[[], StudentSession]  # with a new process, for one noteb
 
 
 @dataclass
-class Marking:
+class MarkingState:
     """The results of the steps so far.
 
     secret: this student's worlds and seeds are derived from it; "" for the public ones. exercises: those of
