@@ -1,7 +1,5 @@
 """Action servers for students' clients; they drive by the clock alone, less exactly than by odometry."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from typing import Any

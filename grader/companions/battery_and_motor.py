@@ -1,7 +1,5 @@
 """A battery and a motor that get tired, hot, and silent."""
 
-from __future__ import annotations
-
 import random
 
 from sensor_msgs.msg import BatteryState, Temperature

@@ -1,7 +1,5 @@
 """Programs that drive the robot, without looking where: Twist on /cmd_vel, ten times a second."""
 
-from __future__ import annotations
-
 import random
 
 from geometry_msgs.msg import Twist

@@ -1,7 +1,5 @@
 """Publishes values of three types on three topics."""
 
-from __future__ import annotations
-
 import random
 
 from rclpy.node import Node

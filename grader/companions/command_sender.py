@@ -1,7 +1,5 @@
 """Publishes commands for a robot, and words that only look like one."""
 
-from __future__ import annotations
-
 import random
 
 from rclpy.node import Node

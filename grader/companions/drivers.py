@@ -1,7 +1,5 @@
 """Drivers of a robot: an operator with an emergency button, a navigator and a joystick, a rough driver."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

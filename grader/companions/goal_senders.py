@@ -1,7 +1,5 @@
 """Clients that send goals to a student's action server, one after the other."""
 
-from __future__ import annotations
-
 import random
 from typing import Any, NamedTuple
 

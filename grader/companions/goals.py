@@ -1,7 +1,5 @@
 """Programs that send goals and plans to a navigator, and follow what becomes of them."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, ClassVar
 

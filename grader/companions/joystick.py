@@ -1,7 +1,5 @@
 """A joystick that goes silent, as one with an empty battery or out of range."""
 
-from __future__ import annotations
-
 import random
 
 from geometry_msgs.msg import Twist

@@ -1,7 +1,5 @@
 """A latched map, and a visitor that subscribes late."""
 
-from __future__ import annotations
-
 import contextlib
 import random
 

@@ -1,7 +1,5 @@
 """Observes what a student's main() leaves behind when it returns."""
 
-from __future__ import annotations
-
 import functools
 from typing import Any, NamedTuple
 

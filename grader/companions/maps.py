@@ -3,8 +3,6 @@
 These programs know the world, so each class is made for one: `bringup(world)`.
 """
 
-from __future__ import annotations
-
 import array
 import math
 import random

@@ -1,7 +1,5 @@
 """A node written for another robot, which students connect to ours."""
 
-from __future__ import annotations
-
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.node import Node

@@ -1,7 +1,5 @@
 """A weather station and a voltage probe, which programs of packages subscribe to."""
 
-from __future__ import annotations
-
 import random
 
 from rclpy.node import Node

@@ -1,7 +1,5 @@
 """A broken package: as it should be, the faults that it may have, and one with six of them."""
 
-from __future__ import annotations
-
 import functools
 import os
 import random

@@ -1,7 +1,5 @@
 """A lidar whose scans cross a lossy network."""
 
-from __future__ import annotations
-
 import math
 import random
 

@@ -1,7 +1,5 @@
 """A radio link for scans, that may fall silent and get slow."""
 
-from __future__ import annotations
-
 import random
 
 from rclpy.node import Node

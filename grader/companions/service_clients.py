@@ -1,7 +1,5 @@
 """Programs that call students' services. Everything they do varies with the run's seed."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from typing import Any

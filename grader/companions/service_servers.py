@@ -1,7 +1,5 @@
 """Programs whose services and topics students' clients use: a door, an adder, wheels, a raw gyro."""
 
-from __future__ import annotations
-
 import random
 
 from example_interfaces.srv import AddTwoInts

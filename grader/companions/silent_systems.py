@@ -1,7 +1,5 @@
 """Six systems of a sensor and a display, each with a fault of its own, and a node that complains."""
 
-from __future__ import annotations
-
 import functools
 import random
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Eight nodes that publish on topics of their own, and one that asks who publishes where."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 import random

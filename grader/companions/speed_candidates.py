@@ -3,8 +3,6 @@
 The contract is in the assignment; the seed decides which is which.
 """
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Callable

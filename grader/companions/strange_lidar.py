@@ -1,7 +1,5 @@
 """Another robot's lidar, with rays of every kind."""
 
-from __future__ import annotations
-
 import math
 import random
 

@@ -1,7 +1,5 @@
 """A workshop of candidate functions, and a bench that runs a student's tests on them."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Rooms, halls and mazes, drawn from a seed; one with a box in the way that is in no map."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 import math

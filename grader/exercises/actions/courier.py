@@ -1,7 +1,5 @@
 """A client that gives up in time."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, hinting, sends_goals
 from grader.checks.course_goals import DRIVE, lines, quoted
 from grader.companions.action_servers import CarpetServer, DriveServer

@@ -1,7 +1,5 @@
 """A client that logs how its goal goes, and that it was rejected."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, hinting, sends_goals
 from grader.checks.course_goals import FIBONACCI, FIBONACCI_TYPE, lines, numbers_in, quoted
 from grader.companions.action_servers import BusyFibonacci, LateFibonacci

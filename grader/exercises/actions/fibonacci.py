@@ -1,7 +1,5 @@
 """A first action server, which computes."""
 
-from __future__ import annotations
-
 from grader.checks import Missed
 from grader.checks.course_goals import (
     FIBONACCI,

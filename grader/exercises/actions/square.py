@@ -1,7 +1,5 @@
 """A square out of two actions: four drives and four turns."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """An action server that publishes feedback, and rejects what it cannot do."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, rejects
 from grader.checks.actions import state
 from grader.checks.course_goals import (

@@ -1,7 +1,5 @@
 """An action server whose goals can be canceled."""
 
-from __future__ import annotations
-
 from grader.checks import Missed
 from grader.checks.actions import state
 from grader.checks.course_goals import (

@@ -1,7 +1,5 @@
 """An action server that turns the robot by an angle."""
 
-from __future__ import annotations
-
 import bisect
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A battery that warns: log levels."""
 
-from __future__ import annotations
-
 from grader.checks import LogMatch, Missed, come_every, hinting, logs
 from grader.checks.fields import listed
 from grader.checks.logs import FLOOD

@@ -1,7 +1,5 @@
 """A node that counts."""
 
-from __future__ import annotations
-
 from grader.checks import LogMatch, Missed, come_every, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise

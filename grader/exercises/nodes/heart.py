@@ -1,7 +1,5 @@
 """A heart in a robot's namespace: a full name, and two timers that share what the node knows."""
 
-from __future__ import annotations
-
 from grader.checks import LogMatch, Missed, come_every, logs
 from grader.exercise import Exercise
 from grader.responses import EDGE

@@ -1,7 +1,5 @@
 """A node that says hello."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, hinting, logs
 from grader.exercise import Exercise
 from sim.evidence import Recording

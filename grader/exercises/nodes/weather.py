@@ -1,7 +1,5 @@
 """A weather station whose conversions live in a module of the student's own."""
 
-from __future__ import annotations
-
 from grader.checks import LogMatch, Missed, come_every, logs, named
 from grader.checks.fields import listed
 from grader.exercise import Exercise

@@ -1,7 +1,5 @@
 """A whole main(): it starts ROS, spins a node, and cleans up on Ctrl-C."""
 
-from __future__ import annotations
-
 import re
 
 from grader.checks import Missed, hinting, logs

@@ -1,7 +1,5 @@
 """A launch file that starts one program for each of two robots, under other names and with other settings."""
 
-from __future__ import annotations
-
 import functools
 
 from grader.checks import Missed, publishes

@@ -1,7 +1,5 @@
 """A message, a service and an action of one's own, in a package that makes types of them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from grader.checks import Missed

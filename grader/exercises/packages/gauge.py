@@ -1,7 +1,5 @@
 """A module of one's own, imported by the package's name."""
 
-from __future__ import annotations
-
 import ast
 import functools
 

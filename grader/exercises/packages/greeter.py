@@ -1,7 +1,5 @@
 """A package from nothing: three files, and what colcon makes of them."""
 
-from __future__ import annotations
-
 import functools
 
 from grader.checks import Missed, publishes, rate

@@ -1,7 +1,5 @@
 """A broken package to repair."""
 
-from __future__ import annotations
-
 import functools
 
 from grader.checks import Missed, publishes, series

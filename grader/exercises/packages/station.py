@@ -1,7 +1,5 @@
 """Entry points: names for the functions that a package's programs start with."""
 
-from __future__ import annotations
-
 import functools
 
 from grader.checks import Missed, publishes, rate

@@ -1,7 +1,5 @@
 """Diagnostics: a program that reports how the robot is, so that others can act on it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import NamedTuple

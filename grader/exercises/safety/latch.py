@@ -1,7 +1,5 @@
 """An emergency stop: what has stopped stays stopped, until it is reset."""
 
-from __future__ import annotations
-
 import itertools
 from typing import NamedTuple
 

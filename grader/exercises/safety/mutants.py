@@ -1,7 +1,5 @@
 """Tests that pass what is right, and catch what is wrong."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes

@@ -1,7 +1,5 @@
 """A velocity mux: two drivers, one robot."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes

@@ -1,7 +1,5 @@
 """A driver's commands, as fast and as suddenly as the robot may."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator

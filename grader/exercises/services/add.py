@@ -1,7 +1,5 @@
 """A service in one line, which adds."""
 
-from __future__ import annotations
-
 from grader.checks.services import call_text, course_calls, offers, response_fields, wrong_response
 from grader.companions.service_clients import Questioner
 from grader.exercise import Exercise

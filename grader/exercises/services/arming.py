@@ -1,7 +1,5 @@
 """A service with an effect on the robot: it drives only while it is armed."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re

@@ -1,7 +1,5 @@
 """A gyro that can be calibrated by a service."""
 
-from __future__ import annotations
-
 import math
 import re
 from typing import NamedTuple

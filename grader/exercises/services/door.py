@@ -1,7 +1,5 @@
 """A client that gets what it wants from a door, and goes on meanwhile."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.checks import Missed, series

@@ -1,7 +1,5 @@
 """A mode manager: a parameter, two services and a bumper."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, ends_with_a_stop, named, publishes
 from grader.checks.fields import plain
 from grader.checks.services import (

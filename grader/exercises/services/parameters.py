@@ -1,7 +1,5 @@
 """A speed that can be set within limits, and a node that is started with another one."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, named, publishes, series

@@ -1,7 +1,5 @@
 """A client that must not freeze while it waits for an answer."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, publishes, series
 from grader.checks.services import call_text, has_client
 from grader.checks.topics import keeps_pace

@@ -1,7 +1,5 @@
 """Name the faults of six systems, and fix them."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes

@@ -1,7 +1,5 @@
 """The graph: which nodes publish on a topic?"""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

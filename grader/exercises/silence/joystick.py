@@ -1,7 +1,5 @@
 """Deadlines: a joystick goes silent, and the robot stops."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """Durability: receive what was published before the node started, and latch for later subscribers."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.check import otherwise
 from grader.companions.latched_map import FREE, LatchedMap, LateSubscriber

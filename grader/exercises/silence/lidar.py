@@ -1,7 +1,5 @@
 """A sensor's QoS profile: receive a lidar over a lossy network, and count what got lost."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 from typing import NamedTuple

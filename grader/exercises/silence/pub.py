@@ -1,7 +1,5 @@
 """One ros2 command that drives the robot."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re

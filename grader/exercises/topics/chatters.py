@@ -1,7 +1,5 @@
 """Three topics with one callback."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, subscribes
 from grader.companions.chatterbox import Chatterbox
 from grader.exercise import Exercise

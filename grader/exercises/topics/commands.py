@@ -1,7 +1,5 @@
 """A robot that obeys commands, and reports each with its own log line."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from grader.checks import Missed, answers, subscribes

@@ -1,7 +1,5 @@
 """A publisher in one line."""
 
-from __future__ import annotations
-
 from grader.checks import publishes, rate
 from grader.exercise import Exercise
 from sim.evidence import Recording

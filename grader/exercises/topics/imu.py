@@ -1,7 +1,5 @@
 """An IMU: rate, header, acceleration and orientation."""
 
-from __future__ import annotations
-
 import math
 
 from grader.checks import Missed, publishes, rate, within

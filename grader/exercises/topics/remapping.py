@@ -1,7 +1,5 @@
 """Another robot's node, connected to ours by remapping its topics."""
 
-from __future__ import annotations
-
 from grader.checks import arrives, ends_with_a_stop, publishes, stands_still, subscribes
 from grader.exercise import Exercise
 from sim.evidence import Recording

@@ -1,7 +1,5 @@
 """A square, driven by the clock."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

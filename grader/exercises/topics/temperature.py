@@ -1,7 +1,5 @@
 """A thermometer: a timer, a message, a number in a range."""
 
-from __future__ import annotations
-
 import itertools
 
 from grader.checks import Missed, publishes, rate, within
