@@ -24,8 +24,8 @@ from grader.typos import (
     typos_of,
     with_right_types,
 )
-from grader.workspace.description import PYTHON
 from grader.workspace.package import Package
+from grader.workspace.package_xml import PYTHON
 from sim.evidence import Recording, Seconds
 from sim.network import Network
 

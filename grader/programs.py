@@ -8,7 +8,7 @@ from typing import Any, NoReturn, Protocol
 
 from grader.diagnosis.fault import Fault
 from grader.grade_arguments import outdated_code, refusal, unusable_argument
-from grader.workspace import building, place
+from grader.workspace import building, installation
 from grader.workspace.building import Build
 from grader.workspace.package import Package, make_package
 from sim.ros.remote import Remote, RemoteLost
@@ -58,14 +58,14 @@ class LocalPrograms:
 
     def package(self, name: str, build_type: str) -> Package | Fault:
         """See ProgramSource."""
-        made = make_package(name, place.told_sources(self._nodes, name), self._build, build_type)
+        made = make_package(name, installation.serialize_sources(self._nodes, name), self._build, build_type)
         if isinstance(made, Package):
-            place.install(made.built.files, made.built.programs)
+            installation.install(made.built.files, made.built.programs)
         return made
 
     def leave(self) -> None:
         """See ProgramSource."""
-        place.leave()
+        installation.uninstall()
 
 
 class RemotePrograms:
@@ -93,10 +93,11 @@ class RemotePrograms:
 
     def package(self, name: str, build_type: str) -> Package | Fault:
         """See ProgramSource. The other process sends the sources and installs what was built."""
-        sources = self._remote.call(_name(place.told_sources), name)
+        sources = self._remote.call(_name(installation.serialize_sources), name)
         made = make_package(name, sources, self._build, build_type)
         if isinstance(made, Package):
-            self._remote.call(_name(place.installed), *place.told(made.built))
+            built = installation.serialize_installation(made.built)
+            self._remote.call(_name(installation.install_remotely), *built)
         return made
 
     def leave(self) -> None:

@@ -11,7 +11,7 @@ from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.exercise import Exercise
 from grader.programs import LocalPrograms
 from grader.tell import BEGIN, tell
-from grader.workspace.building import NotHere
+from grader.workspace.building import CannotBuildHere
 from grader.workspace.package import Package
 from sim.evidence import Recording
 
@@ -35,7 +35,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
         recording = chosen.run(source, seed)
         tell(recording)
         return recording
-    except NotHere:
+    except CannotBuildHere:
         print("Here nothing can be built: when a class is marked, the test cell below does it.")
         return Recording()
     finally:
@@ -44,7 +44,7 @@ def see(exercise: Exercise, workspace: str | os.PathLike[str] | None, scenario: 
 
 def _print_definitions(package: Package) -> None:
     """Print what rosidl reads in the definitions, as `ros2 interface show` does; or why it reads nothing."""
-    name = package.description.name
+    name = package.package_xml.name
     for path, data in package.sources.items():
         stem, _, kind = path.rpartition(".")
         if kind in PARTS:

@@ -30,7 +30,7 @@ def names_what_it_imports(run: PackageRun) -> None:
         for name in imports(data)
     }
     wanted = sorted({name.split(".")[0] for name in imported if ROS.fullmatch(name.split(".")[0])})
-    left_out = [name for name in wanted if name not in package.description.needs]
+    left_out = [name for name in wanted if name not in package.package_xml.needs]
     if left_out:
         raise Missed(
             f"<depend> or <exec_depend> for each of {', '.join(wanted)} in package.xml",
@@ -42,12 +42,12 @@ def names_what_it_imports(run: PackageRun) -> None:
 
 def installs_by_itself(run: PackageRun) -> None:
     """setup.py installs what colcon would otherwise add. Raises Missed."""
-    name = package_of(run).description.name
+    name = package_of(run).package_xml.name
     pairs = {
         "marker": f"('share/ament_index/resource_index/packages', ['resource/{name}'])",
         "package.xml": f"('share/{name}', ['package.xml'])",
     }
-    for line in package_of(run).built.said.splitlines():
+    for line in package_of(run).built.output.splitlines():
         if "explicitly install" in line:
             what = next((what for what in pairs if what in line), "package.xml")
             raise Missed(

@@ -1,1 +1,1 @@
-"""A student's workspace: its sources as data, what colcon builds of them, and their programs."""
+"""A student's colcon workspace: its sources as data, the build by colcon, and the installed programs."""

@@ -1,4 +1,4 @@
-"""Builds a package with colcon, from its sources alone: what a fresh copy on another machine would give."""
+"""Builds a package with colcon from its sources alone, as a fresh clone on another machine would be built."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from grader.workspace.sources import INSTALLED, Refused, Sources, checked, read_files
+from grader.workspace.sources import INSTALLED, InvalidFiles, Sources, read_files, validate_files
 
-SECONDS = 300.0  # only against hanging: a busy machine is slow, and the sandbox counts what is computed
-SAID = 50_000  # bytes of what colcon says last
+SECONDS = 300.0  # only against hanging: a busy machine is slow, and the sandbox limits the CPU time
+OUTPUT_BYTES = 50_000  # limit of colcon's output; its end is kept
 COLCON = (
     *("--log-base", "/dev/null", "build", "--merge-install", "--executor", "sequential"),
     *("--event-handlers", "console_stderr+", "console_direct-"),
@@ -25,21 +25,21 @@ NOT_TAKEN = "What was installed can't be taken."
 TOO_LONG = f"colcon build did not end within {SECONDS:g} s."
 
 
-class NotHere(Exception):
-    """No program can be started in this process: something else builds for it."""
+class CannotBuildHere(Exception):
+    """This process can't start programs, so it can't run colcon."""
 
 
 @dataclass(frozen=True)
 class Built:
-    """What became of a build.
+    """The result of a build.
 
-    files: what was installed, by path below install/. programs: those of them that can be executed. said: the
-    last that colcon said, in full lines. problem: why there is nothing to run, or "".
+    files: the installed files, by path below install/. programs: the executable ones. output: the end of
+    colcon's output, in full lines. problem: why the build failed, or "".
     """
 
     files: Mapping[str, bytes] = field(default_factory=dict)
     programs: frozenset[str] = frozenset()
-    said: str = ""
+    output: str = ""
     problem: str = ""
 
 
@@ -47,45 +47,45 @@ Build = Callable[[Sources], Built]
 
 
 def build(sources: Sources) -> Built:
-    """Build in a folder that is gone afterwards. Raises NotHere where no program can be started."""
+    """Build in a temporary folder. Raises CannotBuildHere."""
     with tempfile.TemporaryDirectory(prefix="ws-", ignore_cleanup_errors=True) as folder:
         return build_in(Path(folder), sources)
 
 
 def build_in(folder: Path, sources: Sources) -> Built:
-    """Build in this folder. Raises NotHere where no program can be started."""
+    """Build in this folder. Raises CannotBuildHere."""
     for path, data in sources.items():
         file = folder / "src" / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-    status, said = _colcon(folder)
+    status, output = _colcon(folder)
     if status is None:
-        return Built(said=said, problem=TOO_LONG)
-    if status or "Finished <<<" not in said:
-        return Built(said=said, problem="colcon build failed.")
+        return Built(output=output, problem=TOO_LONG)
+    if status or "Finished <<<" not in output:
+        return Built(output=output, problem="colcon build failed.")
     install = folder / "install"
     try:
         files = read_files(install, "install", INSTALLED)
-    except Refused as reason:
-        return Built(said=said, problem=f"{NOT_TAKEN} {reason}")
+    except InvalidFiles as reason:
+        return Built(output=output, problem=f"{NOT_TAKEN} {reason}")
     programs = frozenset(path for path in files if os.access(install / path, os.X_OK))
-    return Built(files, programs, said)
+    return Built(files, programs, output)
 
 
-def checked_built(files: Any, programs: Any, said: Any, problem: Any) -> Built:
-    """The same for what another process says. Raises Refused."""
-    taken = checked(files, "install", INSTALLED)
+def parse_built(files: Any, programs: Any, output: Any, problem: Any) -> Built:
+    """The result of a build in another process, validated. Raises InvalidFiles."""
+    taken = validate_files(files, "install", INSTALLED)
     listed = programs if isinstance(programs, list) else []
     names = [name for name in listed if isinstance(name, str)]
-    words = [word if isinstance(word, str) else "" for word in (said, problem)]
-    said, problem = (word[-SAID:].encode(errors="replace").decode() for word in words)
-    return Built(taken, frozenset(name for name in names if name in taken), said, problem)
+    texts = [text if isinstance(text, str) else "" for text in (output, problem)]
+    output, problem = (text[-OUTPUT_BYTES:].encode(errors="replace").decode() for text in texts)
+    return Built(taken, frozenset(name for name in names if name in taken), output, problem)
 
 
 def _colcon(folder: Path) -> tuple[int | None, str]:
-    """Its exit status, None if it did not end in time, and the last that it said."""
-    kept = ("PATH", "HOME", "TMPDIR", "LANG", "PYTHONHASHSEED")
-    environment = {name: os.environ[name] for name in kept if name in os.environ}
+    """Colcon's exit status, None after a timeout, and the end of its output."""
+    inherited = ("PATH", "HOME", "TMPDIR", "LANG", "PYTHONHASHSEED")
+    environment = {name: os.environ[name] for name in inherited if name in os.environ}
     environment |= {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONWARNINGS": "ignore", "COLCON_HOME": str(folder)}
     command = [sys.executable, str(Path(sys.executable).with_name("colcon")), *COLCON]
     with tempfile.TemporaryFile() as output:
@@ -95,7 +95,7 @@ def _colcon(folder: Path) -> tuple[int | None, str]:
                 stderr=subprocess.STDOUT, start_new_session=True,
             )  # fmt: skip
         except PermissionError:
-            raise NotHere from None
+            raise CannotBuildHere from None
         try:
             status = process.wait(SECONDS)
         except subprocess.TimeoutExpired:
@@ -114,5 +114,5 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 def _last(output: Any) -> str:
     size = output.seek(0, os.SEEK_END)
-    output.seek(max(0, size - SAID))
+    output.seek(max(0, size - OUTPUT_BYTES))
     return output.read().decode(errors="replace")

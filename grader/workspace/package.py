@@ -1,4 +1,4 @@
-"""A student's package as data: what exercises look at besides what its programs did."""
+"""A student's package as data, for the checks of exercises."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ from dataclasses import dataclass, fields
 from typing import Any, Self
 
 from grader.diagnosis.fault import NOT_STARTED, Fault
+from grader.workspace.build_errors import explain_build_error
 from grader.workspace.building import Build, Built
-from grader.workspace.description import CMAKE, PYTHON, Description, describe
-from grader.workspace.reasons import why
-from grader.workspace.sources import Refused, Sources, checked
+from grader.workspace.package_xml import CMAKE, PYTHON, PackageXml, parse_package_xml
+from grader.workspace.sources import InvalidFiles, Sources, validate_files
 from sim.evidence import Recording
 
 STUB = b"raise NotImplementedError()"
-MOST_TEXT = 500  # characters of what another process says
+MAX_TEXT = 500  # characters of a text from another process
 
 
 @dataclass(frozen=True)
 class Package:
-    """A package that was built: its sources, what it says of itself, and what was installed.
+    """A built package: its sources, its package.xml, and the result of the build.
 
-    One of interfaces is only read: to build it takes most of a minute, and its sources tell what is in it.
+    A package of interfaces is not built: that takes most of a minute, and its sources are sufficient.
     """
 
     sources: Sources
-    description: Description
+    package_xml: PackageXml
     built: Built
 
 
@@ -36,44 +36,44 @@ class PackageRun(Recording):
 
     @classmethod
     def of(cls, recording: Recording, package: Package) -> Self:
-        """The recording with the package beside it."""
-        told = {one.name: getattr(recording, one.name) for one in fields(Recording)}
-        return cls(**told, package=package)
+        """The recording together with the package."""
+        values = {one.name: getattr(recording, one.name) for one in fields(Recording)}
+        return cls(**values, package=package)
 
 
-def make_package(name: str, told: Any, build: Build, build_type: str = PYTHON) -> Package | Fault:
-    """The package of what `told_sources` has told; or why there is none, in words for the student.
+def make_package(name: str, received: Any, build: Build, build_type: str = PYTHON) -> Package | Fault:
+    """The package of the sources that `serialize_sources` returned, or a fault for the student.
 
-    build_type: that of its package.xml.
+    build_type: the required one in package.xml.
     """
-    if told is None:
+    if received is None:
         return _not_started(f"the cell above, about {name}")
-    if isinstance(told, str):
-        return _fault("a workspace with your package", told[:MOST_TEXT])
+    if isinstance(received, str):
+        return _fault("a workspace with your package", received[:MAX_TEXT])
     try:
-        sources = checked(told, f"ws/src/{name}")
+        sources = validate_files(received, f"ws/src/{name}")
         if any(STUB in data for data in sources.values()):
             return _not_started("ws/src/" + next(path for path, data in sources.items() if STUB in data))
-        description = describe(sources, name, build_type)
+        package_xml = parse_package_xml(sources, name, build_type)
         built = Built() if build_type == CMAKE else build(sources)
-    except Refused as reason:
+    except InvalidFiles as reason:
         return _fault("a package that can be built", str(reason))
     if built.problem:
-        saw, hint = why(built)
+        saw, hint = explain_build_error(built)
         return _fault("a package that can be built", saw, hint)
-    return Package(sources, description, built)
+    return Package(sources, package_xml, built)
 
 
 def _fault(expected: str, saw: str, hint: str = "") -> Fault:
-    if not hint:  # a refusal: the first sentence says what was seen, the others what to do
+    if not hint:  # an InvalidFiles: the first sentence is the observation, the others are the hint
         end = saw.find(". ") + 1
         saw, hint = (saw[: end - 1], saw[end + 1 :]) if end else (saw, "")
-    words = _plain(saw), _plain(hint)
-    return Fault(expected, *words, before_start=True, sentence="Your package is built.")
+    texts = _plain(saw), _plain(hint)
+    return Fault(expected, *texts, before_start=True, sentence="Your package is built.")
 
 
 def _plain(text: str) -> str:
-    """Without what a terminal would take for a command."""
+    """The text without control characters."""
     return "".join(letter if letter.isprintable() else " " for letter in text)
 
 

@@ -9,7 +9,7 @@ from grader.companions.patrol_package import FAULTS, FAULTY, faulty
 from grader.exercises import packages
 from grader.programs import _refuse_to_build
 from grader.workspace import building
-from grader.workspace.building import NotHere
+from grader.workspace.building import CannotBuildHere
 from grader.workspace.package import PackageRun
 from tests.exercises.assignment import Assignment
 from tests.exercises.score_tables import executed
@@ -74,7 +74,7 @@ def test_what_can_not_be_built_is_told_beside_the_notebook(tmp_path, capsys):
 
 def test_where_nothing_can_be_built_the_notebook_says_who_does(monkeypatch, capsys):
     def refuse(_):
-        raise NotHere
+        raise CannotBuildHere
 
     monkeypatch.setattr(building, "build", refuse)
     assert packages.see(packages.greeter, Workspace(__name__, RIGHT)).seconds == 0

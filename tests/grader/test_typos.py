@@ -197,7 +197,7 @@ def test_several_programs_that_a_scenario_makes_of_one_are_mended_each():
 
 
 def test_a_launch_file_has_no_slips_that_are_mended():
-    assert auto_correct(None, ["grader.workspace.place:launched", "patrol", "patrol.launch.py"], "a:=b") == (
+    assert auto_correct(None, ["grader.workspace.installation:ros2_launch", "patrol", "patrol.launch.py"], "a:=b") == (
         "patrol patrol.launch.py"
     )
 

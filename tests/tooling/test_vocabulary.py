@@ -56,7 +56,7 @@ SAME_MEANING = {
 STILL: tuple[str, ...] = (
     *("sim/ros/engine/", "sim/ros/recorder/", "sim/ros/fibers/", "sim/ros/hooks/"),
     *("grader/checks/", "grader/companions/", "grader/diagnosis/", "grader/exercises/"),
-    *("grader/workspace/", "grader/worlds/"),
+    "grader/worlds/",
 )
 
 

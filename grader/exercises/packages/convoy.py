@@ -5,7 +5,7 @@ import functools
 from grader.checks import Missed, publishes
 from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.workspace import place
+from grader.workspace import installation
 from grader.workspace.package import PackageRun
 from sim import World
 
@@ -26,7 +26,7 @@ LANES = World.from_data(
 
 
 def _launch(*words: str) -> functools.partial:
-    return functools.partial(place.launched, "convoy", "two.launch.py", *words)
+    return functools.partial(installation.ros2_launch, "convoy", "two.launch.py", *words)
 
 
 convoy = Exercise(

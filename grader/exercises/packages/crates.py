@@ -7,8 +7,8 @@ from grader.checks.cmake_lists import Command, read_commands
 from grader.checks.interface_definitions import PARTS, Part, read_definition
 from grader.checks.packages import package_of
 from grader.exercise import Exercise
-from grader.workspace.description import CMAKE
 from grader.workspace.package import PackageRun
+from grader.workspace.package_xml import CMAKE
 from grader.workspace.sources import Sources
 
 NAME = "crate_interfaces"
@@ -79,7 +79,7 @@ def has_an_action(run: PackageRun, read: Read) -> None:
 @crates.check(2)
 def describes_itself(run: PackageRun) -> None:
     """package.xml names what makes types of the definitions, and the package whose message they use."""
-    tags = package_of(run).description.tags
+    tags = package_of(run).package_xml.tags
     for name, ways in NEEDS.items():
         if not any(all(name in tags.get(tag, ()) for tag in way.split()) for way in ways):
             there = ", ".join(f"<{tag}>" for tag, texts in tags.items() if name in texts)

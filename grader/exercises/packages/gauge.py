@@ -8,7 +8,7 @@ from grader.checks.packages import ROS, imports, package_of, parsed
 from grader.companions.package_sensors import VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
-from grader.workspace import place
+from grader.workspace import installation
 from grader.workspace.package import PackageRun
 
 DEGREES = "/celsius"
@@ -24,7 +24,7 @@ gauge = Exercise(
     scenarios=[
         Scenario(
             seconds=6,
-            prepare=functools.partial(place.program, "gauge", "gauge"),
+            prepare=functools.partial(installation.ros2_run, "gauge", "gauge"),
             companions=lambda seed: [functools.partial(VoltageProbe, seed)],
         )
     ],

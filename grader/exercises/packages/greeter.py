@@ -5,7 +5,7 @@ import functools
 from grader.checks import Missed, publishes, rate
 from grader.checks.packages import installs_by_itself, names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.workspace import place
+from grader.workspace import installation
 from grader.workspace.package import PackageRun
 
 TOPIC = "/greeting"
@@ -14,7 +14,7 @@ greeter = Exercise(
     "greeter",
     "A package from nothing",
     package="greeter",
-    scenarios=[Scenario(seconds=6, prepare=functools.partial(place.program, "greeter", "hello"))],
+    scenarios=[Scenario(seconds=6, prepare=functools.partial(installation.ros2_run, "greeter", "hello"))],
 )
 
 

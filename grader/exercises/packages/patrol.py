@@ -6,7 +6,7 @@ from grader.checks import Missed, publishes, series
 from grader.checks.packages import installs_by_itself, names_what_it_imports
 from grader.exercise import Exercise, Scenario
 from grader.responses import same
-from grader.workspace import place
+from grader.workspace import installation
 from grader.workspace.package import PackageRun
 
 TWIST = "geometry_msgs/msg/Twist"
@@ -17,11 +17,15 @@ patrol = Exercise(
     "A broken package",
     package="patrol",
     scenarios=[
-        Scenario(seconds=3, name="program", prepare=functools.partial(place.program, "patrol", "patrol")),
+        Scenario(
+            seconds=3,
+            name="program",
+            prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
+        ),
         Scenario(
             seconds=4,
             name="launch",
-            prepare=functools.partial(place.launched, "patrol", "patrol.launch.py"),
+            prepare=functools.partial(installation.ros2_launch, "patrol", "patrol.launch.py"),
         ),
     ],
 )

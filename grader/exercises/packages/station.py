@@ -7,7 +7,7 @@ from grader.checks.packages import package_of
 from grader.companions.package_sensors import TEMPERATURE, WeatherStation
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli
-from grader.workspace import place
+from grader.workspace import installation
 from grader.workspace.package import PackageRun
 
 SHOWN = "/display"
@@ -20,11 +20,15 @@ station = Exercise(
     "Names for two programs",
     package="station",
     scenarios=[
-        Scenario(seconds=4, name="sensor", prepare=functools.partial(place.program, "station", "sensor")),
+        Scenario(
+            seconds=4,
+            name="sensor",
+            prepare=functools.partial(installation.ros2_run, "station", "sensor"),
+        ),
         Scenario(
             seconds=5,
             name="display",
-            prepare=functools.partial(place.program, "station", "display"),
+            prepare=functools.partial(installation.ros2_run, "station", "display"),
             companions=lambda seed: [functools.partial(WeatherStation, seed)],
         ),
     ],

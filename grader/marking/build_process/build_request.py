@@ -5,8 +5,8 @@ from __future__ import annotations
 import socket
 from collections.abc import Callable
 
-from grader.workspace.building import NOT_TAKEN, SECONDS, Built, checked_built
-from grader.workspace.sources import Refused, Sources
+from grader.workspace.building import NOT_TAKEN, SECONDS, Built, parse_built
+from grader.workspace.sources import InvalidFiles, Sources
 from sim.ros.remote import Wire, WireError
 
 MESSAGE = 6_000_000  # bytes
@@ -27,6 +27,6 @@ def request_build(sock: socket.socket, sources: Sources, describe_end: Callable[
         except WireError:
             return Built(problem=f"{BROKE_OFF} {describe_end()}".strip())
     try:
-        return checked_built(*(answer.get(name) for name in ("files", "programs", "said", "problem")))
-    except Refused as reason:
+        return parse_built(*(answer.get(name) for name in ("files", "programs", "output", "problem")))
+    except InvalidFiles as reason:
         return Built(problem=f"{NOT_TAKEN} {reason}")

@@ -18,9 +18,9 @@ LIMITS = ResourceLimits(
 
 
 def main(sock: socket.socket) -> None:
-    """Receive {"sources": {path: bytes}}, build, and send what `checked_built` takes."""
+    """Receive {"sources": {path: bytes}}, build, and send the arguments of `parse_built`."""
     wire = Wire(sock)
     with contextlib.suppress(WireError):
         built = build_in(Path("ws"), wire.receive()["sources"])
         programs = sorted(built.programs)
-        wire.send(files=dict(built.files), programs=programs, said=built.said, problem=built.problem)
+        wire.send(files=dict(built.files), programs=programs, output=built.output, problem=built.problem)

@@ -11,7 +11,7 @@ from pathlib import Path
 from grader.marking.errors import Unusable
 from grader.marking.submission.assignment_release import SUFFIX, Release, digest_parts, is_hidden
 from grader.marking.submission.untrusted_folder import FILE, FolderEntry, list_entries, read_file
-from grader.workspace.sources import Refused, read_files
+from grader.workspace.sources import InvalidFiles, read_files
 
 MAX_NOTEBOOK_BYTES = 128_000_000
 MAX_CANDIDATES = 20  # notebooks under other names that are read
@@ -60,9 +60,9 @@ def _workspace(folder: Path) -> Mapping[str, bytes] | str:
     """The sources in a workspace beside the notebook, by path in the folder; or why they can't be used."""
     try:
         if (folder / WORKSPACE).is_symlink():
-            raise Refused(f"`{WORKSPACE}` is a link. Hand in the folder itself.")
+            raise InvalidFiles(f"`{WORKSPACE}` is a link. Hand in the folder itself.")
         found = read_files(folder / WORKSPACE / "src", f"{WORKSPACE}/src")
-    except Refused as reason:
+    except InvalidFiles as reason:
         return str(reason)
     return {f"{WORKSPACE}/src/{path}": data for path, data in found.items()}
 

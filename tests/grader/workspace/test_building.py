@@ -1,4 +1,4 @@
-"""Builds by colcon as they end, and what is said of them."""
+"""Builds by colcon, their results and the explanations of their errors."""
 
 import os
 import subprocess
@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.workspace import building, package, place
-from grader.workspace.building import Built, NotHere, build, checked_built
+from grader.workspace import building, installation, package
+from grader.workspace.build_errors import explain_build_error
+from grader.workspace.building import Built, CannotBuildHere, build, parse_built
 from grader.workspace.package import make_package
-from grader.workspace.reasons import why
-from grader.workspace.sources import Refused
+from grader.workspace.sources import InvalidFiles
 from tests.students.packages import greeter
 
 RIGHT = {path: text.encode() for path, text in greeter.RIGHT.items()}
@@ -45,12 +45,12 @@ def test_a_process_that_can_start_nothing_says_so(monkeypatch):
         raise PermissionError
 
     monkeypatch.setattr(subprocess, "Popen", denied)
-    with pytest.raises(NotHere):
+    with pytest.raises(CannotBuildHere):
         build(RIGHT)
 
 
 @pytest.mark.parametrize(
-    ("said", "hint"),
+    ("output", "hint"),
     [
         ("", "Look at the lines above, or say colcon build in ws, and read its first error."),
         ("KeyError: 'a'\n", "The first error is: KeyError: 'a'"),
@@ -61,31 +61,31 @@ def test_a_process_that_can_start_nothing_says_so(monkeypatch):
         ),
     ],
 )
-def test_a_reason_is_put_in_a_beginners_words(said, hint):
-    assert why(Built(said=said, problem="colcon build failed.")) == ("colcon build failed.", hint)
+def test_a_reason_is_put_in_a_beginners_words(output, hint):
+    assert explain_build_error(Built(output=output, problem="colcon build failed.")) == ("colcon build failed.", hint)
 
 
 def test_where_what_was_installed_is_refused_that_says_it_all():
     problem = "What was installed can't be taken. It is too much. Leave it out."
-    built = Built(said="error: no matter\nFinished <<< greeter [1s]\n", problem=problem)
-    assert why(built) == (built.problem, "")
+    built = Built(output="error: no matter\nFinished <<< greeter [1s]\n", problem=problem)
+    assert explain_build_error(built) == (built.problem, "")
 
 
 def test_without_a_known_reason_the_last_lines_are_told():
-    built = Built(said="one\n\n two\n", problem="colcon build failed.")
-    assert why(built)[0] == "colcon build failed. It said last: one / two"
+    built = Built(output="one\n\n two\n", problem="colcon build failed.")
+    assert explain_build_error(built)[0] == "colcon build failed. It said last: one / two"
 
 
 def test_what_another_process_built_is_looked_at():
-    built = checked_built({"a": b"1"}, ["a", "b"], "x" * 60_000, 7)
-    assert (built.files, built.programs, len(built.said), built.problem) == ({"a": b"1"}, {"a"}, 50_000, "")
-    assert checked_built({}, "a", None, "\ud800").problem == "?"
-    with pytest.raises(Refused, match=r"^`install/\.\./a`: a name may have"):
-        checked_built({"../a": b""}, [], "", "")
+    built = parse_built({"a": b"1"}, ["a", "b"], "x" * 60_000, 7)
+    assert (built.files, built.programs, len(built.output), built.problem) == ({"a": b"1"}, {"a"}, 50_000, "")
+    assert parse_built({}, "a", None, "\ud800").problem == "?"
+    with pytest.raises(InvalidFiles, match=r"^`install/\.\./a`: a name may have"):
+        parse_built({"../a": b""}, [], "", "")
 
 
 @pytest.mark.parametrize(
-    ("told", "saw", "hint"),
+    ("received", "saw", "hint"),
     [
         ("Give the folder.", "Give the folder.", ""),
         ([1], "ws/src/greeter could not be read.", ""),
@@ -93,26 +93,26 @@ def test_what_another_process_built_is_looked_at():
         ({}, "There is no ws/src/greeter", "The package lies in a folder of its name, in ws/src."),
     ],
 )
-def test_what_can_not_be_a_package_is_a_fault(told, saw, hint):
-    found = make_package("greeter", told, build)
+def test_what_can_not_be_a_package_is_a_fault(received, saw, hint):
+    found = make_package("greeter", received, build)
     assert (found.saw, found.hint, found.before_start) == (saw, hint, True)
 
 
 def test_a_workspace_is_given_as_a_folder(tmp_path):
-    assert place.told_sources([7], "greeter") == "Give the folder of the workspace, in quotes."
-    assert place.told_sources([], "greeter") == "Give the folder of the workspace, in quotes."
-    assert place.told_sources([str(tmp_path)], "greeter") == {}
-    assert place.told_sources([None], "greeter") is None
+    assert installation.serialize_sources([7], "greeter") == "Give the folder of the workspace, in quotes."
+    assert installation.serialize_sources([], "greeter") == "Give the folder of the workspace, in quotes."
+    assert installation.serialize_sources([str(tmp_path)], "greeter") == {}
+    assert installation.serialize_sources([None], "greeter") is None
 
 
 def test_what_was_installed_is_forgotten_again(monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", "/somewhere")
-    place.install({"lib/greeter/hello": b"#!python", "share/x": b""}, ["lib/greeter/hello"])
+    installation.install({"lib/greeter/hello": b"#!python", "share/x": b""}, ["lib/greeter/hello"])
     first, _, _ = os.environ["AMENT_PREFIX_PATH"].partition(os.pathsep)
     assert os.access(Path(first, "lib/greeter/hello"), os.X_OK)
-    place.install({}, [])
+    installation.install({}, [])
     assert not Path(first).exists()
-    place.leave()
+    installation.uninstall()
     assert os.environ["AMENT_PREFIX_PATH"] == "/somewhere"
 
 

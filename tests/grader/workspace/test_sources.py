@@ -5,13 +5,13 @@ import socket
 
 import pytest
 
-from grader.workspace.sources import Most, Refused, checked, read_files
+from grader.workspace.sources import InvalidFiles, SizeLimits, read_files, validate_files
 
-SMALL = Most(files=3, file=1000, all=2000, deep=2)
+SMALL = SizeLimits(files=3, file=1000, all=2000, deep=2)
 
 
 def refusal(folder, most=SMALL):
-    with pytest.raises(Refused) as refused:
+    with pytest.raises(InvalidFiles) as refused:
         read_files(folder, "ws/src", most)
     return str(refused.value)
 
@@ -96,13 +96,13 @@ def test_too_many_too_large_and_too_deep_are_refused(tmp_path):
 
 
 def test_what_another_process_says_is_held_to_the_same():
-    assert checked({"a/b": b"1"}, "ws/src", SMALL) == {"a/b": b"1"}
+    assert validate_files({"a/b": b"1"}, "ws/src", SMALL) == {"a/b": b"1"}
     nonsense = [None, [], {1: b""}, {"a": "text"}]
     strange = [{"../a": b""}, {"/etc/passwd": b""}, {"a//b": b""}, {"": b""}, {"a/..": b""}, {"a\0": b""}]
     much = [{"a/b/c/d": b""}, {"a": bytes(1001)}, {str(number): b"" for number in range(4)}]
     for files in nonsense:
-        with pytest.raises(Refused, match=r"^ws/src could not be read\.$"):
-            checked(files, "ws/src", SMALL)
+        with pytest.raises(InvalidFiles, match=r"^ws/src could not be read\.$"):
+            validate_files(files, "ws/src", SMALL)
     for files in strange + much:
-        with pytest.raises(Refused):
-            checked(files, "ws/src", SMALL)
+        with pytest.raises(InvalidFiles):
+            validate_files(files, "ws/src", SMALL)

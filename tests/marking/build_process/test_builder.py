@@ -73,7 +73,7 @@ def test_a_setup_that_reaches_out_reaches_nothing(builders, tmp_path):
     (tmp_path / "secret").write_text("a secret")
     made = with_setup(builders, ESCAPES.format(private=str(tmp_path)))
     assert made.problem == "colcon build failed."
-    assert "SAID []" in made.said
+    assert "SAID []" in made.output
     assert [path.name for path in tmp_path.iterdir()] == ["secret"]
 
 
@@ -126,7 +126,7 @@ def test_an_answer_that_makes_no_sense_is_no_build(answer):
 def test_files_that_lie_outside_are_refused():
     parent_end, child_end = socket.socketpair()
     with child_end:
-        Wire(child_end).send(files={"../a": b""}, programs=[], said="", problem="")
+        Wire(child_end).send(files={"../a": b""}, programs=[], output="", problem="")
         made = request_build(parent_end, {}, lambda: "")
     assert made.problem.startswith("What was installed can't be taken. `install/../a`: a name may have")
 

@@ -88,4 +88,4 @@ def test_what_a_setup_writes_is_gone_with_its_sandbox(results):
 
 def test_nothing_can_be_built_in_the_students_own_process(results):
     assert results["builds"].points == 16.0
-    assert "NotHere" in text(results["builds"])
+    assert "CannotBuildHere" in text(results["builds"])

@@ -175,8 +175,8 @@ share = os.path.expanduser("~/ws/install/share")
 atexit.register(lambda: [open(f"{share}/f{n}", "w").close() for n in range(600) if os.path.isdir(share)])
 """
 ANSWERS = """
-from grader.workspace import place
-place.told_sources = lambda nodes, package: {"../../.secret": b"", f"{package}/package.xml": b"<a>"}
+from grader.workspace import installation
+installation.serialize_sources = lambda nodes, name: {"../../.secret": b"", f"{name}/package.xml": b"<a>"}
 """
 MORE = "for number in range(3000): open(f'ws/src/greeter/f{number}', 'w').close()"
 RUNS = 'execute_process(COMMAND sh -c "touch ran; kill -9 1")\nfile(WRITE /tmp/ran "18.0")\nproject('

@@ -2,8 +2,8 @@
 
 import pytest
 
-from grader.workspace.description import CMAKE, describe
-from grader.workspace.sources import Refused
+from grader.workspace.package_xml import CMAKE, parse_package_xml
+from grader.workspace.sources import InvalidFiles
 from tests.students.packages import crates
 from tests.students.packages.greeter import RIGHT
 
@@ -12,20 +12,20 @@ PLACE = "ws/src/greeter/package.xml"
 
 
 def described(xml, **other):
-    return describe({"greeter/package.xml": xml, "greeter/setup.py": b"", **other}, "greeter")
+    return parse_package_xml({"greeter/package.xml": xml, "greeter/setup.py": b"", **other}, "greeter")
 
 
 def test_a_package_says_its_name_and_its_needs():
-    told = described(XML.replace("<depend>rclpy</depend>", "<exec_depend>\nrclpy </exec_depend>").encode())
-    assert (told.name, told.needs) == ("greeter", {"rclpy", "std_msgs"})
+    sources_ = described(XML.replace("<depend>rclpy</depend>", "<exec_depend>\nrclpy </exec_depend>").encode())
+    assert (sources_.name, sources_.needs) == ("greeter", {"rclpy", "std_msgs"})
     assert described("\ufeff".encode() + XML.encode()).name == "greeter"
 
 
 def test_a_package_of_interfaces_says_how_it_is_built_and_in_which_group_it_is():
     sources = {path: text.encode() for path, text in crates.RIGHT.items()}
-    told = describe(sources, "crate_interfaces", CMAKE)
-    assert told.needs == {"geometry_msgs", "rosidl_default_runtime"}
-    assert told.tags["member_of_group"] == {"rosidl_interface_packages"}
+    sources_ = parse_package_xml(sources, "crate_interfaces", CMAKE)
+    assert sources_.needs == {"geometry_msgs", "rosidl_default_runtime"}
+    assert sources_.tags["member_of_group"] == {"rosidl_interface_packages"}
 
 
 @pytest.mark.parametrize(
@@ -45,11 +45,11 @@ def test_a_package_of_interfaces_says_how_it_is_built_and_in_which_group_it_is()
     ],
 )
 def test_what_can_not_be_used_is_refused(xml, words):
-    with pytest.raises(Refused) as refused:
+    with pytest.raises(InvalidFiles) as refused:
         described(xml)
     assert str(refused.value) == words
 
 
 def test_nested_without_end_is_read_or_refused():
-    with pytest.raises(Refused, match="can't be read"):
+    with pytest.raises(InvalidFiles, match="can't be read"):
         described(b"<a>" * 80_000)

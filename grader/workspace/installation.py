@@ -1,7 +1,7 @@
-"""Where a built package is installed for the programs of a run, and which program is meant.
+"""Installs a built package for the programs of a run, and prepares its programs and launch files.
 
-In a student's process that is marked nothing can be started, so no shell can source anything: the two paths
-that it would set are set here.
+The confined process of a student can't start a shell to source a setup file, so the two paths that it would
+set are set here.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from pathlib import Path
 from typing import Any
 
 from grader.workspace.building import Built
-from grader.workspace.sources import Refused, read_files
+from grader.workspace.sources import InvalidFiles, read_files
 
 PREFIXES = "AMENT_PREFIX_PATH"
 LAYOUT = ".colcon_install_layout"
 
-_here: list[Path] = []  # where packages are installed now: at most one
+_prefixes: list[Path] = []  # the current install prefix; at most one
 
 
 def install(files: Mapping[str, bytes], programs: Iterable[str]) -> None:
-    """Let this process find what was installed, before all else, and forget what came before."""
-    leave()
+    """Install files for this process, with priority over other packages; replaces a previous installation."""
+    uninstall()
     prefix = Path(tempfile.mkdtemp(prefix="install-"))
-    _here.append(prefix)
+    _prefixes.append(prefix)
     for path, data in files.items():
         file = prefix / path
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -38,10 +38,10 @@ def install(files: Mapping[str, bytes], programs: Iterable[str]) -> None:
     sys.path.insert(0, str(_modules(prefix)))
 
 
-def leave() -> None:
-    """Forget what was installed."""
-    while _here:
-        prefix = _here.pop()
+def uninstall() -> None:
+    """Remove the installed files and modules."""
+    while _prefixes:
+        prefix = _prefixes.pop()
         known = os.environ.get(PREFIXES, "").split(os.pathsep)
         os.environ[PREFIXES] = os.pathsep.join(word for word in known if word != str(prefix))
         sys.path[:] = [word for word in sys.path if not word.startswith(str(prefix))]
@@ -55,15 +55,15 @@ def _modules(prefix: Path) -> Path:
     return prefix / f"lib/python{sys.version_info[0]}.{sys.version_info[1]}/site-packages"
 
 
-def program(_: Any, package: str, name: str, *words: str) -> Any:
-    """In place of the workspace: what `ros2 run package name` starts, with further words."""
+def ros2_run(_: Any, package: str, name: str, *arguments: str) -> Any:
+    """A `prepare` for scenarios: the program that `ros2 run package name` starts, with arguments."""
     from sim import Process, executable
 
-    return Process(_started(lambda: executable(package, name), name), arguments=list(words))
+    return Process(_deferred(lambda: executable(package, name), name), arguments=list(arguments))
 
 
-def _started(find: Callable[[], Callable[[], None]], name: str) -> Callable[[], None]:
-    """A program that is looked for when it starts: that there is none is the program's own error."""
+def _deferred(find: Callable[[], Callable[[], None]], name: str) -> Callable[[], None]:
+    """A program that is looked up when it starts, so that a missing one is an error of the program."""
 
     def main() -> None:
         find()()
@@ -72,35 +72,35 @@ def _started(find: Callable[[], Callable[[], None]], name: str) -> Callable[[], 
     return main
 
 
-def launched(_: Any, package: str, file: str, *words: str) -> str:
-    """In place of the workspace: what `ros2 launch package file` does, with arguments."""
-    return " ".join([package, file, *words])
+def ros2_launch(_: Any, package: str, file: str, *arguments: str) -> str:
+    """A `prepare` for scenarios: the command line of `ros2 launch package file`, with arguments."""
+    return " ".join([package, file, *arguments])
 
 
 def read_sources(workspace: Any, package: str) -> dict[str, bytes]:
-    """The sources of one package of a workspace. Raises Refused."""
+    """The sources of one package of a workspace. Raises InvalidFiles."""
     found = read_files(Path(os.fspath(workspace)) / "src" / package, f"ws/src/{package}")
     return {f"{package}/{path}": data for path, data in found.items()}
 
 
-def told_sources(nodes: Sequence[Any], package: str) -> dict[str, bytes] | str | None:
-    """What the student's process answers: its sources, or why not; None for no workspace."""
+def serialize_sources(nodes: Sequence[Any], package: str) -> dict[str, bytes] | str | None:
+    """The response of the student's process: the sources, or an error text; None without a workspace."""
     try:
         [workspace] = nodes
         if workspace is None:
             return None
         return read_sources(workspace, package)
-    except Refused as reason:
+    except InvalidFiles as reason:
         return str(reason)
     except Exception:
         return "Give the folder of the workspace, in quotes."
 
 
-def installed(_: Sequence[Any], files: dict[str, bytes], programs: list[str]) -> None:
-    """What the student's process is told to install."""
+def install_remotely(_: Sequence[Any], files: dict[str, bytes], programs: list[str]) -> None:
+    """Called in the student's process: install these files."""
     install(files, programs)
 
 
-def told(built: Built) -> tuple[dict[str, bytes], list[str]]:
-    """What `installed` takes."""
+def serialize_installation(built: Built) -> tuple[dict[str, bytes], list[str]]:
+    """The arguments of `install_remotely`."""
     return dict(built.files), sorted(built.programs)

@@ -1,4 +1,4 @@
-"""Why a package can't be built, in a beginner's words, from what colcon said."""
+"""Explains to a beginner why a build failed, from colcon's output."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 from grader.workspace.building import NOT_TAKEN, Built
 
-LINES = 6  # of what colcon said, where the cause isn't known
-LONGEST = 300  # characters of one of them
+LINES = 6  # of colcon's output, for an unknown cause
+MAX_LINE = 300  # characters of a line
 NO_SOURCE = "Look at the lines above, or say colcon build in ws, and read its first error."
 
 RAISED = re.compile(r"^\w*(?:Error|Exception|Interrupt)\b.*$", re.M)
@@ -42,23 +42,23 @@ RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
 )
 
 
-def why(built: Built) -> tuple[str, str]:
-    """What was seen in place of a finished build, and what to do next.
+def explain_build_error(built: Built) -> tuple[str, str]:
+    """The observation instead of a finished build, and a hint.
 
-    No hint where colcon came to its end: then the problem says it all.
+    There is no hint if colcon finished: then the problem is sufficient.
     """
     if built.problem.startswith(NOT_TAKEN):
         return built.problem, ""
-    for pattern, words in RULES:
-        found = re.search(pattern, built.said, re.M)
+    for pattern, explain in RULES:
+        found = re.search(pattern, built.output, re.M)
         if found:
-            return built.problem, words(found)
-    raised = RAISED.search(built.said)
+            return built.problem, explain(found)
+    raised = RAISED.search(built.output)
     if raised:
-        places = IN_SETUP.findall(built.said[: raised.start()])
+        places = IN_SETUP.findall(built.output[: raised.start()])
         where = f"setup.py, line {places[-1]}" if places else "The first error is"
         comma = ". A comma is missing behind the pair above it." if NO_COMMA.search(raised[0]) else ""
-        return built.problem, f"{where}: {raised[0][:LONGEST]}{comma}"
-    lines = [line for line in built.said.splitlines() if line.strip()][-LINES:]
-    said = " / ".join(line.strip()[:LONGEST] for line in lines)
-    return (f"{built.problem} It said last: {said}" if said else built.problem), NO_SOURCE
+        return built.problem, f"{where}: {raised[0][:MAX_LINE]}{comma}"
+    lines = [line for line in built.output.splitlines() if line.strip()][-LINES:]
+    output = " / ".join(line.strip()[:MAX_LINE] for line in lines)
+    return (f"{built.problem} It said last: {output}" if output else built.problem), NO_SOURCE

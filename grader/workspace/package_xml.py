@@ -1,4 +1,4 @@
-"""What package.xml says, read as data: nothing of the package is run for it."""
+"""Parses package.xml, without executing anything of the package."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-from grader.workspace.sources import Refused, Sources
+from grader.workspace.sources import InvalidFiles, Sources
 
 FILE = "package.xml"
-NEEDED = ("depend", "exec_depend", "run_depend")  # what has to be there where it runs
+NEEDED = ("depend", "exec_depend", "run_depend")  # the dependencies at run time
 PYTHON, CMAKE = "ament_python", "ament_cmake"
 BUILT_BY = {PYTHON: "setup.py", CMAKE: "CMakeLists.txt"}
 
 
 @dataclass(frozen=True)
-class Description:
+class PackageXml:
     """A package's name, and the texts of each tag below <package>: tag to texts."""
 
     name: str
@@ -24,48 +24,49 @@ class Description:
 
     @property
     def needs(self) -> frozenset[str]:
-        """The packages that it says it needs where it runs."""
+        """The declared dependencies at run time."""
         return frozenset().union(*(self.tags.get(tag, ()) for tag in NEEDED))
 
 
-def describe(sources: Sources, package: str, build_type: str = PYTHON) -> Description:
-    """What the package in the folder of this name says of itself.
+def parse_package_xml(sources: Sources, package: str, build_type: str = PYTHON) -> PackageXml:
+    """The package.xml of the package in the folder of this name.
 
-    Raises Refused where colcon would not build it, or under another name.
+    Raises InvalidFiles if colcon would not build it, or under another name.
     """
     place = f"ws/src/{package}"
     if not any(path.startswith(f"{package}/") for path in sources):
-        raise Refused(f"There is no {place}. The package lies in a folder of its name, in ws/src.")
+        raise InvalidFiles(f"There is no {place}. The package lies in a folder of its name, in ws/src.")
     data = sources.get(f"{package}/{FILE}")
     if data is None:
-        raise Refused(f"There is no {place}/{FILE}. Without it, colcon takes the folder for no package.")
+        raise InvalidFiles(f"There is no {place}/{FILE}. Without it, colcon takes the folder for no package.")
     root = _parsed(data, place)
     name = (root.findtext("name") or "").strip()
     if name != package:
-        raise Refused(f"{place}/{FILE} says that its name is {name[:60]!r}. Expected is {package}.")
+        raise InvalidFiles(f"{place}/{FILE} says that its name is {name[:60]!r}. Expected is {package}.")
     kind = (root.findtext("export/build_type") or "").strip()
     if kind != build_type:
         saw = f"says {kind[:60]!r} as its build type" if kind else "has no build type"
-        raise Refused(
+        raise InvalidFiles(
             f"{place}/{FILE} {saw}. In <export> it has to say <build_type>{build_type}</build_type>."
         )
     if f"{package}/{BUILT_BY[build_type]}" not in sources:
-        raise Refused(f"There is no {place}/{BUILT_BY[build_type]}. It says what is installed.")
+        raise InvalidFiles(f"There is no {place}/{BUILT_BY[build_type]}. It says what is installed.")
     tags: dict[str, set[str]] = defaultdict(set)
     for item in root:
         tags[item.tag].add((item.text or "").strip())
-    return Description(name, {tag: frozenset(texts) for tag, texts in tags.items()})
+    return PackageXml(name, {tag: frozenset(texts) for tag, texts in tags.items()})
 
 
 def _parsed(data: bytes, place: str) -> ElementTree.Element:
     try:
         text = data.decode("utf-8-sig")
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
-            raise Refused(f"{place}/{FILE} has a <!DOCTYPE> or an <!ENTITY>. It needs none: leave them out.")
+            problem = f"{place}/{FILE} has a <!DOCTYPE> or an <!ENTITY>."
+            raise InvalidFiles(f"{problem} It needs none: leave them out.")
         return ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         line, column = error.position
-        hint = "Each <tag> needs its </tag>."
-        raise Refused(f"{place}/{FILE} can't be read: line {line}, column {column + 1}. {hint}") from None
+        problem = f"{place}/{FILE} can't be read: line {line}, column {column + 1}."
+        raise InvalidFiles(f"{problem} Each <tag> needs its </tag>.") from None
     except ValueError:
-        raise Refused(f"{place}/{FILE} can't be read. Save it as UTF-8.") from None
+        raise InvalidFiles(f"{place}/{FILE} can't be read. Save it as UTF-8.") from None
