@@ -378,13 +378,13 @@ FollowerLink.take_outgoing = lambda self: [["dance"]]
 
 def test_a_run_that_ends_over_there_before_its_time_is_named(marked):
     leaving = f"""
-from sim.ros.remote.serving import Follower
-honest = Follower._rounds
-def _rounds(self, link):
+from sim.ros.remote.serving import FollowerLoop
+honest = FollowerLoop._answer
+def _answer(self, busy):
     raise KeyboardInterrupt("past the node")
-Follower._rounds = _rounds
+FollowerLoop._answer = _answer
 {GREETER}"""
-    honest = f"Follower._rounds = honest\n{RIGHT['temperature']}"
+    honest = f"FollowerLoop._answer = honest\n{RIGHT['temperature']}"
     result = marked(greeting=leaving, temperature=honest, greeting_see="")
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 15.0}
     assert result.flags[-1] == (
