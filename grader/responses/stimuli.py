@@ -83,9 +83,7 @@ class Stimulus:
             expected = f"{text_of(wanted)} on {self.topic} within {self.within:g} s of {self.stamp:.3g} s"
             raise Missed(expected, self.seen(field), hint, about=(self,), **about)
 
-    def expects_nothing(
-        self, expected: str, hint: str = "", *, field: str = "data", saw: str = ""
-    ) -> None:
+    def expects_nothing(self, expected: str, hint: str = "", *, field: str = "data", saw: str = "") -> None:
         """Require that nothing is published in response; raise Missed if something is.
 
         saw: what to show of it; by default the values of the field.

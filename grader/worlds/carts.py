@@ -2,6 +2,7 @@
 
 import itertools
 import random
+from collections.abc import Callable
 from dataclasses import replace
 
 from sim import World
@@ -20,21 +21,6 @@ def long_track(seed: int) -> World:
     pole = draw.uniform(0.14, 0.17)
     model = replace(_drawn(seed), pole_length=pole, pole_friction=0.0002, track_length=LONG)
     return _cart("long_track", seed, model)
-
-
-def weak_cart(seed: int) -> World:
-    """Return a cart on the track of 2 m whose motor is weak."""
-    return _cart("weak_cart", seed, _drawn(seed, max_force=WEAK))
-
-
-def hopeless_cart(seed: int) -> World:
-    """Return a cart whose motor can't hold the pole."""
-    return _cart("hopeless_cart", seed, _drawn(seed, max_force=0.1, track_length=LONG))
-
-
-def work_cart(seed: int) -> World:
-    """Return a cart whose angle is measured poorly: its pole can't be left alone for long."""
-    return _cart("work_cart", seed, _drawn(seed, angle_noise=POOR))
 
 
 def pushed_cart(seed: int) -> World:
@@ -60,14 +46,9 @@ def pushed_cart(seed: int) -> World:
 def _drawn(seed: int, **figures: float) -> CartPoleModel:
     """A cart that is a little lighter or heavier than the lesson's, with a pole that differs more."""
     draw = random.Random(f"cart {seed}")
-    figures = {
-        "cart_mass": draw.uniform(0.45, 0.6),
-        "pole_mass": draw.uniform(0.08, 0.13),
-        "pole_length": draw.uniform(0.27, 0.36),
-        "angle_noise": NOISE,
-        **figures,
-    }
-    return CartPoleModel(**figures)
+    cart, pole, length = draw.uniform(0.45, 0.6), draw.uniform(0.08, 0.13), draw.uniform(0.27, 0.36)
+    drawn = {"cart_mass": cart, "pole_mass": pole, "pole_length": length, "angle_noise": NOISE}
+    return CartPoleModel(**(drawn | figures))
 
 
 def _cart(name: str, seed: int, model: CartPoleModel) -> World:
@@ -83,3 +64,13 @@ def _cart(name: str, seed: int, model: CartPoleModel) -> World:
         walls=tuple(itertools.pairwise(rail)),
         machine=model,
     )
+
+
+def _cart_with(name: str, **figures: float) -> Callable[[int], World]:
+    """A function of the seed that draws a cart with these figures."""
+    return lambda seed: _cart(name, seed, _drawn(seed, **figures))
+
+
+weak_cart = _cart_with("weak_cart", max_force=WEAK)
+hopeless_cart = _cart_with("hopeless_cart", max_force=0.1, track_length=LONG)  # it can't hold the pole
+work_cart = _cart_with("work_cart", angle_noise=POOR)  # its pole can't be left alone for long
