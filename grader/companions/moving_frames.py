@@ -59,7 +59,7 @@ class SlowLocalization(Node):
         self.publisher = self.create_publisher(PointStamped, "/detection", 10)
         self.phase, self.delay = random.uniform(-3.0, 3.0), random.choice((8, 10, 12))
         self.waiting: list[tuple[Time, Pose2D]] = []
-        self.aside = 0.0  # m off the circle: nobody can predict how the robot swerves
+        self.aside = 0.0  # m off the circle: so that it cannot be predicted
         self.ticks = 0
         self.create_timer(0.05, self.tick)
 

@@ -29,7 +29,7 @@ gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, compa
 
 
 @gap.check(2)
-def speaks(run: Recording) -> None:
+def publishes_both(run: Recording) -> None:
     """The node publishes /distance and /speed with each scan."""
     for topic in ("/distance", "/speed"):
         publishes(run, topic, FLOAT, at_least=10)
@@ -37,7 +37,7 @@ def speaks(run: Recording) -> None:
 
 @gap.check(
     4,
-    after=speaks,
+    after=publishes_both,
     hints={
         "That is the scan itself, with all its noise: mix it with what you had before.": (
             lambda run, sent, scans: matches(sent, scans, CLOSE)
@@ -58,7 +58,7 @@ def filters(run: Recording) -> None:
     if not len(scans) - 2 <= len(sent) <= len(scans):
         hint = "Publish in the callback of /scan, each time it is called."
         raise Missed(f"{len(scans)} messages on /distance", f"{len(sent)}", hint)
-    # Too near and too far a ray says inf: what comes of that is not judged.
+    # Too near and too far a ray is inf: what comes of that is not judged.
     seen = list(itertools.takewhile(math.isfinite, scans))
     for number, (saw, expected) in enumerate(zip(sent, _filtered(seen, WEIGHT), strict=False), 1):
         if not same(saw, expected, CLOSE):
@@ -68,7 +68,7 @@ def filters(run: Recording) -> None:
 
 @gap.check(
     4,
-    after=speaks,
+    after=publishes_both,
     hints={
         SIGN: lambda run: run.messages("/speed")[0].message.data < 0,
         WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,

@@ -30,7 +30,7 @@ class Beat(NamedTuple):
 
 
 @jitter.check(2)
-def listens(run: Recording) -> None:
+def subscribes_to_beats(run: Recording) -> None:
     """The node subscribes to /beat."""
     with hinting("The sensor publishes on /beat."):
         subscribes(run, "/beat", "std_msgs/msg/Header")
@@ -38,7 +38,7 @@ def listens(run: Recording) -> None:
 
 @jitter.check(
     4,
-    after=listens,
+    after=subscribes_to_beats,
     hints={
         "Arrival minus stamp, and not the other way round.": lambda run, sent, beats: matches(
             sent, [-beat.latency for beat in beats], EXACT

@@ -30,20 +30,20 @@ marks = Exercise("marks", "To the mark", world=weak_cart, seconds=17, companions
 
 
 @marks.check(2)
-def hears_and_pushes(run: Recording) -> None:
+def subscribes_and_pushes(run: Recording) -> None:
     """The node hears /mark, and publishes efforts on /cart_effort."""
     with hinting("Where the cart has to be comes on /mark."):
         subscribes(run, "/mark", FLOAT)
     publishes(run, EFFORT, FLOAT, at_least=5)
 
 
-@marks.check(5, after=hears_and_pushes)
+@marks.check(5, after=subscribes_and_pushes)
 def keeps_it_up(run: Recording) -> None:
     """The pole stands for 17 s."""
     stands(run)
 
 
-@marks.check(3, after=(hears_and_pushes, keeps_it_up))
+@marks.check(3, after=(subscribes_and_pushes, keeps_it_up))
 def spares_the_motor(run: Recording) -> None:
     """No effort is beyond 3 N, either way."""
     keeps_to_limits(run, WEAK)

@@ -25,7 +25,7 @@ pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures"
 
 
 @worker.check(2)
-def hears_and_speaks(run: Recording) -> None:
+def subscribes_and_publishes(run: Recording) -> None:
     """The node hears /picture, publishes efforts on /cart_effort and places on /brightest."""
     subscribes(run, "/picture", "std_msgs/msg/UInt8MultiArray")
     publishes(run, EFFORT, "std_msgs/msg/Float64", at_least=5)
@@ -34,7 +34,7 @@ def hears_and_speaks(run: Recording) -> None:
 
 @worker.check(
     1,
-    after=hears_and_speaks,
+    after=subscribes_and_publishes,
     hints={
         "Nobody can see so quickly: call look(...) for each picture, and publish what it returns.": (
             lambda run, picture: any(_is_early(picture, row) for row in picture.responses)

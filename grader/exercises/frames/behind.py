@@ -42,7 +42,7 @@ behind = Exercise(
 
 
 @behind.check(2)
-def hears_frames_and_drives(run: Recording) -> None:
+def subscribes_and_drives(run: Recording) -> None:
     """The node hears /tf and /tf_static, and sends Twist messages on /cmd_vel."""
     with hinting(guess="A TransformListener hears both topics. Publish in the timer's callback."):
         subscribes(run, "/tf", TF)
@@ -50,7 +50,7 @@ def hears_frames_and_drives(run: Recording) -> None:
         publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist", at_least=5)
 
 
-@behind.check(11, after=hears_frames_and_drives, only="driving", hints=WHY_OFF)
+@behind.check(11, after=subscribes_and_drives, only="driving", hints=WHY_OFF)
 def keeps_the_gap(run: Recording) -> None:
     """From 9 s on it is 0.7 m to 1.4 m from the leader, for nine tenths of the time."""
     gaps = _gaps(run)
@@ -64,7 +64,7 @@ def keeps_the_gap(run: Recording) -> None:
         raise Missed(expected, saw, about=(gaps,), picture="path")
 
 
-@behind.check(5, after=hears_frames_and_drives, only="parked", hints=WHY_OFF)
+@behind.check(5, after=subscribes_and_drives, only="parked", hints=WHY_OFF)
 def stands_behind_one_who_stands(run: Recording) -> None:
     """Behind a leader that stands, it comes to stand itself, within 0.25 m of that point."""
     robot, leader = run.path[-1], run.tracks["leader"][-1]

@@ -13,7 +13,7 @@ from sim.evidence import Message, Recording, Seconds, since_start
 
 POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON, AT_ONCE = 0.03, 1.2, 0.2  # m, s, s
-OFTEN, ELSEWHERE = 0.4, 0.3  # of the points, where it is said more than once, or of an earlier moment
+OFTEN, ELSEWHERE = 0.4, 0.3  # of the points: published more than once; where it was at another moment
 LATER = (
     "The transform comes half a second after the detection: keep the detection, and look again later. A "
     "callback that waits for it in a loop keeps its own node from hearing. Each is known by its stamp."
@@ -24,14 +24,14 @@ detections = Stimuli("/detection", answered_on="/found", within=SOON, what="dete
 
 
 @delayed.check(2)
-def hears_detections(run: Recording) -> None:
+def subscribes_to_detections(run: Recording) -> None:
     """The node hears /detection (PointStamped) and /tf."""
     with hinting(guess="A TransformListener hears /tf: TransformListener(self.buffer, self)."):
         subscribes(run, "/detection", POINT)
         subscribes(run, "/tf")
 
 
-@delayed.check(10, after=hears_detections)
+@delayed.check(10, after=subscribes_to_detections)
 def places_them(run: Recording) -> None:
     """Each detection comes out on /found (PointStamped), once and within 1.2 s: where it was then, in map."""
     with hinting(LATER):

@@ -21,7 +21,7 @@ refused_sightings = Stimuli("/sighting", answered_on=REFUSED, within=SOON, what=
 
 
 @lookup.check(2)
-def hears_sightings(run: Recording) -> None:
+def subscribes_to_sightings(run: Recording) -> None:
     """The node hears /sighting (PointStamped), /tf and /tf_static."""
     with hinting(guess="A TransformListener hears both topics: TransformListener(self.buffer, self)."):
         subscribes(run, "/sighting", POINT)
@@ -31,7 +31,7 @@ def hears_sightings(run: Recording) -> None:
 
 @lookup.check(
     6,
-    after=hears_sightings,
+    after=subscribes_to_sightings,
     hints={
         "Publish in the callback: what buffer.transform or do_transform_point gives.": (
             lambda run, seen: len(seen.responses) != 1
@@ -68,7 +68,7 @@ def places_them(run: Recording) -> None:
 
 
 @lookup.check(5, after=places_them)
-def tells_why_not(run: Recording) -> None:
+def publishes_refusals(run: Recording) -> None:
     """Where it can't be had, the exception's name comes out on /refused (String), such as LookupException."""
     publishes(run, REFUSED, "std_msgs/msg/String")
     for seen in refused_sightings(run, at_least=len(SIGHTINGS)):
@@ -83,8 +83,8 @@ def tells_why_not(run: Recording) -> None:
             )
 
 
-@lookup.check(3, after=tells_why_not)
-def goes_on(run: Recording) -> None:
+@lookup.check(3, after=publishes_refusals)
+def carries_on(run: Recording) -> None:
     """Nothing else is said, and the node goes on to the end."""
     reasons, settled = [_reason(run, seen) for seen in _sightings(run)], Window(0.0, run.ended.stamp - SOON)
     for topic, count in ((FOUND, reasons.count("")), (REFUSED, len(reasons) - reasons.count(""))):

@@ -71,7 +71,7 @@ def turns_it(run: Recording, sent: list[Broadcast]) -> None:
 
 
 @mount.check(2, after=puts_it_there)
-def says_it_once(run: Recording) -> None:
+def is_latched_and_sent_once(run: Recording) -> None:
     """It is said once, and kept for all who come later."""
     count = sum(not row.from_course for row in run.messages(STATIC))
     ends = [end for end in run.graph.publishers(STATIC) if not end.from_course]

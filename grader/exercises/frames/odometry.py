@@ -24,7 +24,7 @@ odometry = Exercise(
 
 
 @odometry.check(2)
-def hears_and_sends(run: Recording) -> None:
+def subscribes_and_broadcasts(run: Recording) -> None:
     """The node hears /wheels/odom, and publishes transforms on /tf."""
     with hinting(guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback."):
         subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
@@ -33,7 +33,7 @@ def hears_and_sends(run: Recording) -> None:
 
 @odometry.check(
     5,
-    after=hears_and_sends,
+    after=subscribes_and_broadcasts,
     hints={
         "That is where it was before. Send in the callback of /wheels/odom, and not from a timer.": (
             lambda run, sent, poses: _is_late(sent, poses)

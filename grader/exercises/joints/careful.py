@@ -17,7 +17,7 @@ SOON, REACTION, PEAK = 0.3, 1.2, 0.35  # s
 NEAR = 0.05  # rad
 
 careful = Exercise("careful", "A lift that gets stuck", seconds=23, companions=lift, seeds=(1, 2))
-requests = Stimuli(WANTED, answered_on=COMMANDS, within=SOON, what="good and bad wishes")
+requests = Stimuli(WANTED, answered_on=COMMANDS, within=SOON, what="good and bad requests")
 
 
 class Jam(NamedTuple):
@@ -82,7 +82,7 @@ def refuses(run: Recording) -> None:
 
 
 @careful.check(2, after=refuses, guess="Where you refuse: self.get_logger().warning(...).")
-def says_so(run: Recording) -> None:
+def logs_refusals(run: Recording) -> None:
     """Each refusal is logged as a warning."""
     answers(
         run,

@@ -32,7 +32,7 @@ class Visit(NamedTuple):
 
 
 @limits.check(2)
-def hears_both(run: Recording) -> None:
+def subscribes_to_both(run: Recording) -> None:
     """The node subscribes to /joint_states and to /robot_description."""
     with hinting("All drivers speak on /joint_states; what the arm looks like is on /robot_description."):
         subscribes(run, "/joint_states", "sensor_msgs/msg/JointState")
@@ -41,7 +41,7 @@ def hears_both(run: Recording) -> None:
 
 @limits.check(
     8,
-    after=hears_both,
+    after=subscribes_to_both,
     hints={
         "The description was sent once, before your node was there. Who wants to hear it asks for durability "
         "TRANSIENT_LOCAL.": lambda run: all(

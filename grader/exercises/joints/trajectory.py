@@ -111,7 +111,7 @@ def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
 
 
 @trajectory.check(4, after=by_their_names)
-def tells_how_far_off(run: Recording, lessons: list[Lesson]) -> None:
+def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
     """With each feedback, the larger of the two joints' errors goes out on /worst_error, without a sign."""
     feedback = [row for _, goal in lessons for row in goal.feedback]
     if not feedback:
@@ -143,7 +143,7 @@ def tells_how_far_off(run: Recording, lessons: list[Lesson]) -> None:
         "word; with the result's error_string if it was aborted.": otherwise,
     },
 )
-def tells_how_it_ended(run: Recording, lessons: list[Lesson]) -> None:
+def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
     """Each goal's end goes out on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     published = publishes(run, "/outcome", "std_msgs/msg/String")
     for path, goal in lessons:
