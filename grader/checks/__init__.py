@@ -40,7 +40,7 @@ from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.people import Encounter, nearest_person
 from grader.checks.questions import Question, questions
 from grader.checks.services import calls, responds, serves
-from grader.checks.shift import Job, Program, Shift, shift
+from grader.checks.shift import Job, Shift, ShiftProgram, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
 
 __all__ = [
@@ -49,9 +49,9 @@ __all__ = [
     "Job",
     "LogMatch",
     "Missed",
-    "Program",
     "Question",
     "Shift",
+    "ShiftProgram",
     "Verdict",
     "accepts",
     "answers",

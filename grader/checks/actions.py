@@ -8,7 +8,7 @@ from typing import Any
 
 from grader.checks.check import Missed
 from grader.checks.ends import declared
-from grader.checks.fields import differing, read, told, words
+from grader.checks.fields import differing, message_text, read, words
 from grader.checks.no_data import no_data
 from grader.checks.topics import longest_pause
 from sim.evidence import (
@@ -202,7 +202,7 @@ def _goals(recording: Recording, action: str, where: Picks) -> list[Goal]:
 
 def _named(goal: Goal) -> str:
     asked = "" if goal.requested is None else f" at {goal.requested:.3g} s"
-    return f"the goal {goal.action} ({told(goal.request)}){asked}"
+    return f"the goal {goal.action} ({message_text(goal.request)}){asked}"
 
 
 def state(goal: Goal) -> str:

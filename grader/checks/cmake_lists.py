@@ -24,28 +24,28 @@ _VARIABLE = re.compile(r"\$\{(\w+)\}")
 
 
 @dataclass(frozen=True)
-class Command:
+class CMakeCommand:
     """A command in small letters, and its arguments."""
 
     name: str
     words: tuple[str, ...]
 
 
-def read_commands(data: bytes) -> list[Command]:
+def read_commands(data: bytes) -> list[CMakeCommand]:
     """The commands of a CMakeLists.txt, in order. Raises Missed where it can't be read."""
     if len(data) > MOST:
         raise _unread(f"{len(data)} bytes", f"More than {MOST} bytes are not read: make it shorter.")
     known: dict[str, str] = {}
     read = []
     for name, words in _written(data.decode("utf-8-sig", errors="replace")):
-        command = Command(name, tuple(_put_in(words, known)))
+        command = CMakeCommand(name, tuple(_put_in(words, known)))
         read.append(command)
         match command:
-            case Command("project", (first, *_)):
+            case CMakeCommand("project", (first, *_)):
                 known["PROJECT_NAME"] = first
-            case Command("set", (variable, *values)):
+            case CMakeCommand("set", (variable, *values)):
                 known[variable] = ";".join(values)
-            case Command("list", ("APPEND", variable, *values)):
+            case CMakeCommand("list", ("APPEND", variable, *values)):
                 known[variable] = ";".join([*filter(None, [known.get(variable)]), *values])
     return read
 

@@ -17,7 +17,7 @@ _VALUE = ("", "bool_value", "integer_value", "double_value", "string_value", "by
           "bool_array_value", "integer_array_value", "double_array_value", "string_array_value")  # fmt: skip
 
 
-def told(message: Any) -> str:
+def message_text(message: Any) -> str:
     """A message in words: "a=2, b=3"; cut where it gets long."""
     text = words(plain(message))
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."

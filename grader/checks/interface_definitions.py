@@ -26,7 +26,7 @@ TYPES = "Types are bool, string, float64, uint8 and so on, a message of this pac
 
 
 @dataclass(frozen=True)
-class Part:
+class InterfacePart:
     """One part of a definition, such as a request: its lines in order, as rosidl understands them.
 
     fields: such as "float64 mass"; messages of the same package stand without its name, and defaults are left
@@ -40,7 +40,7 @@ class Part:
         return "\n".join([*self.constants, *self.fields])
 
 
-def read_definition(path: str, data: bytes, package: str) -> Mapping[str, Part]:
+def read_definition(path: str, data: bytes, package: str) -> Mapping[str, InterfacePart]:
     """The parts of a definition by their names, in order.
 
     path: below the package, such as "srv/Find.srv"; the end says of what kind it is, one of `PARTS`.
@@ -81,7 +81,7 @@ def _lines(data: bytes) -> list[str]:
     return [line if line.startswith(END) else line.partition("#")[0].rstrip() for line in lines]
 
 
-def _part(lines: list[str], numbers: range, package: str) -> Part:
+def _part(lines: list[str], numbers: range, package: str) -> InterfacePart:
     read = [_read(lines[number], number + 1, package) for number in numbers if lines[number]]
     names = [item.name for item in read]
     for name in names:
@@ -89,7 +89,7 @@ def _part(lines: list[str], numbers: range, package: str) -> Part:
             hint = "Within a part each name stands once: leave one of them out."
             raise _Unread(f"two lines with the name {name}", hint)
     own = f"{package}/"
-    return Part(
+    return InterfacePart(
         tuple(f"{item.type} {item.name}".replace(own, "") for item in read if isinstance(item, Field)),
         tuple(f"{item.type} {item.name}={item.value}" for item in read if isinstance(item, Constant)),
     )

@@ -134,7 +134,7 @@ def answers(
     *,
     level: str = "",
     within: Seconds = 0.5,
-    where: Callable[[Message], bool] = lambda heard: True,
+    where: Callable[[Message], bool] = lambda received: True,
     what: str = "",
     only: bool = False,
 ) -> None:
@@ -145,13 +145,13 @@ def answers(
     only: and none of the student's lines at this level comes after a message that wants no answer.
     Raises Missed for the first message without an answer, and as `no_data` when there is none to answer.
     """
-    heard = recording.messages(topic)
-    asked = [one for one in heard if where(one)]
+    received = recording.messages(topic)
+    asked = [one for one in received if where(one)]
     if not asked:
-        saw = f"none among the {len(heard)} on {topic}" if heard else "none"
+        saw = f"none among the {len(received)} on {topic}" if received else "none"
         wanted = what or f"messages on {topic} that want a log line"
         raise no_data(recording, wanted, saw, recording.graph.publishers(topic))
-    text = pattern if callable(pattern) else lambda heard: pattern
+    text = pattern if callable(pattern) else lambda received: pattern
     open_ = [one for one in asked if not _lines_after(recording, one.stamp, within, text(one), level)]
     at_level = f" at level {level}" if level else ""
     if open_:
@@ -162,16 +162,16 @@ def answers(
         credit = right if right >= 0.5 else 0.0  # a few may be right by chance
         raise Missed(expected, _instead(recording, open_[0], within), credit=credit)
     if only:
-        _no_others(recording, heard, where, level, f"no other log line{at_level}")
+        _no_others(recording, received, where, level, f"no other log line{at_level}")
 
 
 def _no_others(
-    recording: Recording, heard: list[Message], where: Callable[[Message], bool], level: str, expected: str
+    recording: Recording, received: list[Message], where: Callable[[Message], bool], level: str, expected: str
 ) -> None:
     """The student's lines at this level come after messages that want one; else raises Missed."""
 
     def answers_one(line: LogLine) -> bool:
-        before = [one for one in heard if one.stamp <= line.stamp]
+        before = [one for one in received if one.stamp <= line.stamp]
         return bool(before) and where(before[-1])
 
     lines = [line for line in recording.logs if level in ("", line.level) and not line.from_course]
@@ -191,7 +191,7 @@ def _lines_after(recording: Recording, stamp: Seconds, within: Seconds, pattern:
     )
 
 
-def _instead(recording: Recording, heard: Message, within: Seconds) -> str:
-    near = [line for line in recording.logs if heard.stamp <= line.stamp < heard.stamp + within]
+def _instead(recording: Recording, received: Message, within: Seconds) -> str:
+    near = [line for line in recording.logs if received.stamp <= line.stamp < received.stamp + within]
     said = f"“{near[0].text}” ({near[0].level})" if near else "no line"
-    return f"{said} within {within:g} s of the message at {heard.stamp:.3g} s"
+    return f"{said} within {within:g} s of the message at {received.stamp:.3g} s"

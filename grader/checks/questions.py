@@ -65,7 +65,7 @@ def _near_a_person(recording: Recording) -> Question | None:
     return Question(near.stamp, near.stamp, f"{saw}: what did it know of this person?")
 
 
-class _Pause(NamedTuple):
+class _QuestionPause(NamedTuple):
     """A time in which the robot stood though there was this order: with its load aboard, or not yet."""
 
     begin: Seconds
@@ -74,7 +74,7 @@ class _Pause(NamedTuple):
     aboard: bool
 
 
-def _pauses(recording: Recording, done: Shift) -> Iterator[_Pause]:
+def _pauses(recording: Recording, done: Shift) -> Iterator[_QuestionPause]:
     """All of them, however short. An order waits for a robot that carries nothing and doesn't charge."""
     stands, last = list(_stands(recording.path)), recording.stamp
     busy = [(charge.begin, charge.end) for charge in _charges(done)]
@@ -83,12 +83,12 @@ def _pauses(recording: Recording, done: Shift) -> Iterator[_Pause]:
         if job.picked_up is not None:
             busy.append((job.picked_up, over))
             for begin, end in _inside(stands, job.picked_up, over):
-                yield _Pause(begin, end, job, True)
+                yield _QuestionPause(begin, end, job, True)
     for job in done.jobs:
         fetched = job.picked_up or job.over or last
         for begin, end in _inside(stands, job.requested, fetched):
             if not any(first <= (begin + end) / 2 < then for first, then in busy):
-                yield _Pause(begin, end, job, False)
+                yield _QuestionPause(begin, end, job, False)
 
 
 def _stands(path: list[Pose]) -> Iterator[tuple[Seconds, Seconds]]:
@@ -113,7 +113,7 @@ def _inside(
     return (part for part in parts if part[0] < part[1])
 
 
-def _stood(recording: Recording, pauses: Iterable[_Pause], least: Seconds) -> Question | None:
+def _stood(recording: Recording, pauses: Iterable[_QuestionPause], least: Seconds) -> Question | None:
     """The longest of the pauses, if it took so long; where several orders waited, one that was fetched."""
     longest = max(pauses, key=lambda one: (one.end - one.begin, one.job.picked_up is not None), default=None)
     if longest is None or longest.end - longest.begin < least:

@@ -7,7 +7,7 @@ from typing import Any
 
 from grader.checks.check import Missed, hinting
 from grader.checks.ends import declared
-from grader.checks.fields import differing, plain, read, told, words
+from grader.checks.fields import differing, message_text, plain, read, words
 from grader.checks.no_data import no_data
 from sim.evidence import Call, Endpoint, Recording, Seconds
 
@@ -101,7 +101,7 @@ def _no_answer(call: Call) -> str:
 
 def call_text(call: Call) -> str:
     """Return a call as text: "/arm (data=True) at 1.5 s"."""
-    text = told(call.request)
+    text = message_text(call.request)
     return f"{call.service}{f' ({text})' if text else ''} at {_began(call):.3g} s"
 
 

@@ -32,11 +32,11 @@ class Job(NamedTuple):
     robot: str = ""
 
 
-class Program(NamedTuple):
+class ShiftProgram(NamedTuple):
     """What one of the student's nodes did: the messages it sent by topic, what it hears, and its errors."""
 
     sent: dict[str, int]
-    hears: tuple[str, ...]
+    subscribes: tuple[str, ...]
     errors: int
 
 
@@ -54,7 +54,7 @@ class Shift(NamedTuple):
     met_person: Seconds | None
     battery: tuple[tuple[Seconds, float], ...]
     way: float
-    programs: dict[str, Program]
+    programs: dict[str, ShiftProgram]
 
     @property
     def delivered(self) -> tuple[Job, ...]:
@@ -122,14 +122,14 @@ def _touched(world: World, contact: Contact) -> str:
     return "shelf" if gap < _SHELF else "box"
 
 
-def _programs(recording: Recording) -> dict[str, Program]:
+def _programs(recording: Recording) -> dict[str, ShiftProgram]:
     nodes = [name for name in recording.graph.nodes if not recording.is_course_node(name)]
     sent = Counter((item.sender, item.topic) for item in recording.messages() if not item.from_course)
     errors = Counter(error.node for error in recording.errors)
     return {
-        node: Program(
+        node: ShiftProgram(
             sent={topic: count for (sender, topic), count in sorted(sent.items()) if sender == node},
-            hears=tuple(
+            subscribes=tuple(
                 sorted(
                     {
                         end.name

@@ -46,7 +46,7 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     """
     stamps = [heard.stamp for heard in publishes(recording, topic, at_least=2)]
     expected = f"{hz:.4g} Hz on {topic}, within {tolerance:.0%}"
-    _can_be_heard(recording, topic, expected)
+    _can_be_received(recording, topic, expected)
     measured = mean_rate(stamps)
     if abs(measured - hz) > tolerance * hz:
         saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
@@ -71,7 +71,7 @@ def keeps_pace(recording: Recording, topic: str, hint: str) -> None:
         raise
 
 
-def _can_be_heard(recording: Recording, topic: str, expected: str) -> None:
+def _can_be_received(recording: Recording, topic: str, expected: str) -> None:
     from grader.diagnosis.connections import publisher_for_each_message
 
     lost = publisher_for_each_message(recording, topic)

@@ -12,7 +12,7 @@ _WAITS = re.compile(r"has waited since t = (\S+) s")
 LIVES = "A node lives as long as something keeps it spinning: rclpy.spin(node) returns only at shutdown."
 
 
-class Work(NamedTuple):
+class WorkTime(NamedTuple):
     """The part of a run's time, from 0 to 1, in which the student's programs were at work; why not all."""
 
     share: float
@@ -27,18 +27,18 @@ def worked_until(recording: Recording) -> Seconds:
     return min(moment for moment in moments if moment is not None)
 
 
-def work_of(recording: Recording, *, may_end: bool = False) -> Work:
+def work_of(recording: Recording, *, may_end: bool = False) -> WorkTime:
     """How much of its time a run has for the checks. may_end: a program that has ended may be done."""
     until, ended = worked_until(recording), recording.ended
     whole = ended.stamp if ended.reason in ("goal", "interrupted") else recording.seconds
     if not whole or until >= whole - 1e-6:
-        return Work(1.0)
+        return WorkTime(1.0)
     if ended.reason not in CUT_SHORT and (may_end or recording.all_exited_at is None):
-        return Work(1.0)
+        return WorkTime(1.0)
     if not (recording.errors or ended.reason in CUT_SHORT):
-        return Work(until / whole, f"{_for(until, whole)}: then your program had ended. {LIVES}")
+        return WorkTime(until / whole, f"{_for(until, whole)}: then your program had ended. {LIVES}")
     what = "nothing went on" if ended.reason == "blocked" else "the error above ended it"
-    return Work(until / whole, f"{_for(until, whole)}: then {what}.")
+    return WorkTime(until / whole, f"{_for(until, whole)}: then {what}.")
 
 
 def _for(until: Seconds, whole: Seconds) -> str:

@@ -44,7 +44,7 @@ def cancel_ignored(recording: Recording) -> str:
     return ""
 
 
-def cancel_not_heard(recording: Recording) -> str:
+def cancel_not_handled(recording: Recording) -> str:
     """A server that is too busy with a goal to hear that it should cancel it."""
     for goal in recording.goals:
         asked, heard = goal.at(CANCEL_REQUESTED), goal.at("canceling") or goal.at(CANCEL_REJECTED)

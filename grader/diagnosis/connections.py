@@ -44,7 +44,7 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
     return ""
 
 
-def said_too_early(recording: Recording) -> str:
+def published_too_early(recording: Recording) -> str:
     """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
     early = next((row for row in recording.undelivered if _is_loss(recording, row)), None)
     if early is None:

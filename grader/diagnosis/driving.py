@@ -12,14 +12,14 @@ from sim.evidence import Recording, Seconds
 
 _TWIST = "geometry_msgs/msg/Twist"
 _SOME = 2  # times that something is no accident any more
-_STUCK, _SLIP = 1.5, 0.02  # s and m: no brief touch, and no box that gives way
+_STUCK, _TYPO = 1.5, 0.02  # s and m: no brief touch, and no box that gives way
 STOP = (
     "This robot stops by itself when no command comes; others drive on. "
     "Publish a Twist() with all zeros at the end."
 )
 
 
-class Command(NamedTuple):
+class VelocityCommand(NamedTuple):
     """A velocity command: m/s forwards, rad/s to the left."""
 
     stamp: Seconds
@@ -55,7 +55,7 @@ def drives_against_it(recording: Recording) -> str:
     """Commands to drive on, while the robot touches something and gets no further."""
     for contact in recording.contacts:
         soon = contact.stamp + _STUCK
-        if (contact.end or recording.ended.stamp) < soon or _way(recording, contact.stamp, soon) > _SLIP:
+        if (contact.end or recording.ended.stamp) < soon or _way(recording, contact.stamp, soon) > _TYPO:
             continue
         wanted = -1 if contact.side == "back" else 1
         for topic, commands in _of_robots(recording):
@@ -124,20 +124,20 @@ def left_driving(recording: Recording) -> str:
     """A last command that is no stop, after which only the robot's own time-out stops it."""
     for topic, last in _left(recording):
         if last.sender not in _passing_on(recording, topic):
-            return f"The {_told(topic, last)}. {STOP}"
+            return f"The {_command_text(topic, last)}. {STOP}"
     return ""
 
 
 def last_command_that_moves(recording: Recording) -> str:
     """What is said of a last command that is no stop, once the robot's own time-out has stopped it; or ""."""
-    return next((f"the {_told(*left)}" for left in _left(recording)), "")
+    return next((f"the {_command_text(*left)}" for left in _left(recording)), "")
 
 
-def _told(topic: str, last: Command) -> str:
+def _command_text(topic: str, last: VelocityCommand) -> str:
     return f"last command on {topic}, at {last.stamp:.3g} s, was {last.words}"
 
 
-def _left(recording: Recording) -> Iterator[tuple[str, Command]]:
+def _left(recording: Recording) -> Iterator[tuple[str, VelocityCommand]]:
     """The topics whose last command is no stop, and that command."""
     timeout = _timeout(recording)
     for topic, commands in _of_robots(recording):
@@ -155,13 +155,13 @@ def _passing_on(recording: Recording, topic: str) -> set[str]:
     return {end.node for end in recording.graph.subscriptions() if end.type == _TWIST and end.name != topic}
 
 
-def _of_robots(recording: Recording) -> Iterator[tuple[str, list[Command]]]:
+def _of_robots(recording: Recording) -> Iterator[tuple[str, list[VelocityCommand]]]:
     """The topic of each robot's commands, with those of the student's nodes among them, if there are any."""
     for end in recording.graph.subscriptions():
         if end.type != _TWIST or end.node not in recording.course_nodes or not end.node.endswith("/robot"):
             continue
         commands = [
-            Command(heard.stamp, heard.sender, heard.message.linear.x, heard.message.angular.z)
+            VelocityCommand(heard.stamp, heard.sender, heard.message.linear.x, heard.message.angular.z)
             for heard in recording.messages(end.name)
         ]
         if any(not recording.is_course_node(command.sender) for command in commands):

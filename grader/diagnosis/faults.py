@@ -16,7 +16,7 @@ _THREAD = "thread "
 _UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
 # rclpy's own NotImplementedError, for SetBool() and Spin(), and that of a run for what it can't do: they
 # are no exercise that is not started.
-_NOT_THEIRS = re.compile(
+_NOT_FROM_STUDENT = re.compile(
     r"classes can not be instantiated|can't (run in|change the time in a run|be)\b.* simulated (time|there)"
 )
 _HINTS = {
@@ -51,7 +51,7 @@ def find_fault(recording: Recording) -> Fault | None:
 
 
 def _from_error(error: CallbackError, recording: Recording) -> Fault:
-    if error.type == "NotImplementedError" and not _NOT_THEIRS.search(error.text):
+    if error.type == "NotImplementedError" and not _NOT_FROM_STUDENT.search(error.text):
         text = error.text.strip() or "there is still a `raise NotImplementedError` in the code"
         return Fault(
             expected="your own code instead of `raise NotImplementedError`",

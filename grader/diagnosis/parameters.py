@@ -36,7 +36,7 @@ def unknown_parameter(recording: Recording) -> str:
 
 def misspelt_parameter(recording: Recording) -> str:
     """A parameter of the student's with nearly the name by which a node of ours asks for one."""
-    for call in _asked(recording, _GET, _SET):
+    for call in _looked_up(recording, _GET, _SET):
         node, request = call.service.rpartition("/")[0], call.request
         names = request.names if call.service.endswith(_GET) else [one.name for one in request.parameters]
         declared = {row.name for row in recording.parameters if row.declared and row.node == node}
@@ -53,7 +53,7 @@ def misspelt_parameter(recording: Recording) -> str:
 
 def whole_parameter(recording: Recording) -> str:
     """A parameter of the student's that takes whole numbers only, and is given another by a node of ours."""
-    for call in _asked(recording, _SET):
+    for call in _looked_up(recording, _SET):
         for one, result in zip(call.request.parameters, call.response.results, strict=False):
             if _WHOLE.search(result.reason):
                 node = call.service.removesuffix(_SET)
@@ -65,7 +65,7 @@ def whole_parameter(recording: Recording) -> str:
     return ""
 
 
-def _asked(recording: Recording, *services: str) -> Iterator[Call]:
+def _looked_up(recording: Recording, *services: str) -> Iterator[Call]:
     """The calls of these services of the student's nodes that ours made, and that were answered."""
     for call in recording.calls:
         answered = call.service.endswith(services) and call.response is not None

@@ -7,7 +7,7 @@ from sim.evidence import Recording, is_node_service
 SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 
 
-def nobody_offers(recording: Recording) -> str:
+def not_offered(recording: Recording) -> str:
     """Something that is called in vain: no node offers it, or there is no node of that name."""
     offers = (("client", "service", "service"), ("action client", "action server", "action"))
     asked = {(call.client, call.service) for call in recording.calls}
@@ -30,7 +30,7 @@ def nobody_offers(recording: Recording) -> str:
     return ""
 
 
-def asked_nobody(recording: Recording) -> str:
+def no_server(recording: Recording) -> str:
     """A request or goal that was sent before there was a server to take it, or before it was found."""
     lost = [(call.service, call.client, call.requested, "service") for call in recording.calls if call.lost]
     lost += [(goal.action, goal.client, goal.requested, "server") for goal in recording.goals if goal.lost]
@@ -45,7 +45,7 @@ def asked_nobody(recording: Recording) -> str:
     return ""
 
 
-def answer_not_heard(recording: Recording) -> str:
+def response_not_received(recording: Recording) -> str:
     """A client whose answer came, but whose node didn't spin any more, or never did."""
     if recording.ended.reason == "blocked":
         return ""
@@ -67,7 +67,7 @@ def _decided(events: list[tuple[float, str]]) -> float | None:
     return events[0][0] if events else None
 
 
-def answer_dropped(recording: Recording) -> str:
+def response_dropped(recording: Recording) -> str:
     """An answer that came in, but that no done callback takes, and no callback awaited."""
     took = {run.node for run in recording.callbacks if run.kind == "task" and not _is_rclpys(run.callback)}
     for call in recording.calls:

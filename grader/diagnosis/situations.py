@@ -20,7 +20,7 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         own_module(error, recording)
         or _refusal(error, recording)
         or _too_early(error, recording)
-        or _nothing_heard(error, recording)
+        or _nothing_received(error, recording)
         or _no_future(error, recording)
         or _no_value(error)
         or _called_with_too_little(error)
@@ -71,7 +71,7 @@ def _too_early(error: CallbackError, recording: Recording) -> str:
     return ""
 
 
-def _nothing_heard(error: CallbackError, recording: Recording) -> str:
+def _nothing_received(error: CallbackError, recording: Recording) -> str:
     """A field of a message that has not come yet."""
     found = re.search(r"'NoneType' object has no attribute '(\w+)'", error.text)
     if found is None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.checks import Missed
-from grader.checks.cmake_lists import Command, read_commands
+from grader.checks.cmake_lists import CMakeCommand, read_commands
 from grader.checks.interface_definitions import read_definition
 from grader.exercises import packages
 from tests.students.packages import crates
@@ -90,16 +90,16 @@ def test_what_can_not_be_read_is_told(text, saw, hint, capsys):
 
 def test_brackets_with_signs_a_mark_of_an_editor_and_windows_ends_of_lines_are_read():
     text = '\ufeff#[=[ a\r\n]] ) ]=]\r\nset(a [==[b]=] c]==]\r\n  "d")\r\n#[\r\n# ["\r\n'
-    assert read_commands(text.encode()) == [Command("set", ("a", "b]=] c", "d"))]
+    assert read_commands(text.encode()) == [CMakeCommand("set", ("a", "b]=] c", "d"))]
 
 
 def test_commands_have_their_words_with_variables_put_in():
     text = b'PROJECT(a)\nset(b c "d e")  # f\nlist(APPEND b g)\nh(${PROJECT_NAME} "${b}" (i) [[j k]] ${l})'
     assert read_commands(text) == [
-        Command("project", ("a",)),
-        Command("set", ("b", "c", "d e")),
-        Command("list", ("APPEND", "b", "g")),
-        Command("h", ("a", "c", "d e", "g", "i", "j k")),
+        CMakeCommand("project", ("a",)),
+        CMakeCommand("set", ("b", "c", "d e")),
+        CMakeCommand("list", ("APPEND", "b", "g")),
+        CMakeCommand("h", ("a", "c", "d e", "g", "i", "j k")),
     ]
 
 

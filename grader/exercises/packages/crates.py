@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from grader.checks import Missed
-from grader.checks.cmake_lists import Command, read_commands
-from grader.checks.interface_definitions import PARTS, Part, read_definition
+from grader.checks.cmake_lists import CMakeCommand, read_commands
+from grader.checks.interface_definitions import PARTS, InterfacePart, read_definition
 from grader.checks.packages import package_of
 from grader.exercise import Exercise
 from grader.workspace.package import PackageRun
@@ -32,7 +32,7 @@ crates = Exercise(
     seconds=0,
 )
 
-Read = Mapping[str, Mapping[str, Part]]
+Read = Mapping[str, Mapping[str, InterfacePart]]
 
 
 @crates.check(2)
@@ -112,7 +112,7 @@ def makes_types(run: PackageRun) -> None:
         raise _line("ament_package() at the end", "none there", hint)
 
 
-def _hands_over(command: Command, sources: Sources) -> None:
+def _hands_over(command: CMakeCommand, sources: Sources) -> None:
     """Miss a definition that is left out, one that isn't there, or the package whose message they use."""
     target, words = command.words[:1], command.words[1:]
     if not target or "/" in target[0]:
@@ -140,7 +140,7 @@ def _line(expected: str, saw: str, hint: str) -> Missed:
     return Missed(f"{expected} in CMakeLists.txt", saw, hint)
 
 
-def _has(found: Mapping[str, Part], path: str, **wanted: tuple[str, ...]) -> None:
+def _has(found: Mapping[str, InterfacePart], path: str, **wanted: tuple[str, ...]) -> None:
     """Miss other fields than these, in this order, in a part of a definition."""
     for name, fields in wanted.items():
         there = found[name].fields
@@ -150,7 +150,7 @@ def _has(found: Mapping[str, Part], path: str, **wanted: tuple[str, ...]) -> Non
             raise Missed(f"{', '.join(fields)} in {where}", ", ".join(there) or "nothing", hint)
 
 
-def _misplaced(found: Mapping[str, Part], name: str, wanted: Mapping[str, tuple[str, ...]]) -> str:
+def _misplaced(found: Mapping[str, InterfacePart], name: str, wanted: Mapping[str, tuple[str, ...]]) -> str:
     """What to do about a line of this part that belongs to another one; "" where there is none."""
     for field in found[name].fields:
         places = [other for other, fields in wanted.items() if field in fields]

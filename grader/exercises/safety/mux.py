@@ -18,7 +18,7 @@ FIRST = "Look at the joystick first: while it is young, the navigator has to wai
 mux = Exercise("mux", "Two drivers, one robot", world="yard", seconds=15, companions=[Drivers], seeds=(1, 2))
 
 
-class Sample(NamedTuple):
+class MuxSample(NamedTuple):
     """What each driver wants at a moment, and what the robot is commanded.
 
     A driver is None where its command is old, or has just changed.
@@ -84,7 +84,7 @@ def stands_without_both(run: Recording) -> None:
             require_standing(run, Window(begin + BRAKING, end), why, hint)
 
 
-def _compare(run: Recording, samples: list[Sample], topic: str, hint: str) -> None:
+def _compare(run: Recording, samples: list[MuxSample], topic: str, hint: str) -> None:
     """Raises Missed at the first moment at which the robot is not commanded what this driver wants."""
     if not samples:
         raise no_data(run, f"commands on {topic}", "none at that time", run.graph.publishers(topic))
@@ -95,7 +95,7 @@ def _compare(run: Recording, samples: list[Sample], topic: str, hint: str) -> No
             raise Missed(expected, saw, hint, picture="topics")
 
 
-def _samples(run: Recording) -> list[Sample]:
+def _samples(run: Recording) -> list[MuxSample]:
     """Ten a second, and one for each command: a wrong one among right ones moves the robot."""
     joy, nav, sent = from_course(run, JOY), from_course(run, NAV), publishes(run, OUT, TWIST)
     # Those of a tenth are beside the moments at which timers fire.
@@ -107,7 +107,7 @@ def _samples(run: Recording) -> list[Sample]:
         newest = last_before(joy, now)
         is_old = newest is None or now - newest.stamp > OLD
         command = speeds(out) if out and now - out.stamp < SILENT else None
-        found.append(Sample(now, _steady(joy, now), _steady(nav, now), is_old, command))
+        found.append(MuxSample(now, _steady(joy, now), _steady(nav, now), is_old, command))
     return found
 
 

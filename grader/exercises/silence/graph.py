@@ -45,7 +45,7 @@ graph = Exercise("graph", "Who publishes there?", seconds=8, companions=speakers
 questions = Stimuli(QUESTION, answered_on=ANSWER, within=PAUSE - 2 * EDGE)
 
 
-class Question(NamedTuple):
+class GraphQuestion(NamedTuple):
     """A question, the right answer, and the answers before the next question."""
 
     stamp: Seconds
@@ -89,10 +89,12 @@ def names_nodes_that_joined(run: Recording) -> None:
     _right(run, grown, "topics with new publishers")
 
 
-def _questions(run: Recording) -> list[Question]:
+def _questions(run: Recording) -> list[GraphQuestion]:
     """All questions of the course that had time for an answer."""
     return [
-        Question(one.stamp, one.value.data, _publishers(run, one.value.data, one.stamp), tuple(one.values()))
+        GraphQuestion(
+            one.stamp, one.value.data, _publishers(run, one.value.data, one.stamp), tuple(one.values())
+        )
         for one in questions(run, at_least=0)
     ]
 
@@ -103,7 +105,7 @@ def _publishers(run: Recording, topic: str, stamp: Seconds) -> tuple[str, ...]:
     return tuple(sorted({row.sender for row in lately if row.from_course}))
 
 
-def _right(run: Recording, questions: list[Question], what: str) -> None:
+def _right(run: Recording, questions: list[GraphQuestion], what: str) -> None:
     if not questions:
         raise no_data(run, what, "none", run.graph.publishers(QUESTION))
     all_named = all(len(one.answers) == 1 and set(_names(one)) == set(one.speakers) for one in questions)
@@ -113,7 +115,7 @@ def _right(run: Recording, questions: list[Question], what: str) -> None:
             raise Missed(expected, _text(one.answers), credit=0.5 * all_named, about=(one,))
 
 
-def _names(one: Question) -> list[str]:
+def _names(one: GraphQuestion) -> list[str]:
     """The names in the first answer."""
     return [name for name in one.answers[0].split(", ") if name]
 
@@ -128,7 +130,7 @@ def _bare(names: Iterable[str]) -> set[str]:
     return {name.rpartition("/")[2] for name in names}
 
 
-def _names_subscribers(run: Recording, one: Question) -> bool:
+def _names_subscribers(run: Recording, one: GraphQuestion) -> bool:
     subscribers = {end.node for end in run.graph.subscriptions(one.topic)}
     names = set(_names(one))
     return bool(names) and names <= subscribers and not names <= set(one.speakers)

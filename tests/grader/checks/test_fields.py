@@ -5,7 +5,7 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetPara
 from rcl_interfaces.srv import GetParameters, SetParameters
 from std_srvs.srv import SetBool
 
-from grader.checks.fields import differing, listed, plain, read, stamp_words, told, words
+from grader.checks.fields import differing, listed, message_text, plain, read, stamp_words, words
 from sim.nanoseconds import EPOCH, SECOND
 
 SPEED = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.5)
@@ -13,20 +13,20 @@ SIZES = ParameterValue(type=ParameterType.PARAMETER_INTEGER_ARRAY, integer_array
 
 
 def test_messages_are_told_in_words():
-    assert told(SetBool.Response(success=True, message="on")) == "success=True, message='on'"
-    assert told(Fibonacci.Result(sequence=[0, 1])) == "sequence=[0, 1]"
+    assert message_text(SetBool.Response(success=True, message="on")) == "success=True, message='on'"
+    assert message_text(Fibonacci.Result(sequence=[0, 1])) == "sequence=[0, 1]"
     assert words({"sum": 5, "ok": True}) == "sum=5, ok=True"
 
 
 def test_long_messages_are_cut():
-    assert told(SetBool.Response(message="m" * 200)) == f"success=False, message='{'m' * 96}..."
+    assert message_text(SetBool.Response(message="m" * 200)) == f"success=False, message='{'m' * 96}..."
 
 
 def test_a_message_of_120_characters_is_shown_whole():
     whole = f"success=False, message='{'m' * 95}'"
     assert len(whole) == 120
-    assert told(SetBool.Response(message="m" * 95)) == whole
-    assert told(SetBool.Response(message="m" * 96)) == f"{whole[:-1]}m..."
+    assert message_text(SetBool.Response(message="m" * 95)) == whole
+    assert message_text(SetBool.Response(message="m" * 96)) == f"{whole[:-1]}m..."
 
 
 def at(seconds):
@@ -47,22 +47,22 @@ def test_setting_parameters_is_told_by_their_names():
         parameters=[Parameter(name="speed", value=SPEED), Parameter(name="sizes", value=SIZES)]
     )
     assert plain(asked) == {"speed": 0.5, "sizes": [1, 2]}
-    assert told(asked) == "speed=0.5, sizes=[1, 2]"
+    assert message_text(asked) == "speed=0.5, sizes=[1, 2]"
 
 
 def test_all_parameters_must_be_set():
     yes, no = SetParametersResult(successful=True), SetParametersResult(successful=False, reason="too fast")
-    assert told(SetParameters.Response(results=[yes])) == "successful=True, reason=''"
-    assert told(SetParameters.Response(results=[yes, no])) == "successful=False, reason='too fast'"
+    assert message_text(SetParameters.Response(results=[yes])) == "successful=True, reason=''"
+    assert message_text(SetParameters.Response(results=[yes, no])) == "successful=False, reason='too fast'"
     refused = [no, SetParametersResult(successful=False, reason="too slow")]
     both = "successful=False, reason='too fast; too slow'"
-    assert told(SetParameters.Response(results=refused)) == both
-    assert told(SetParameters.Response()) == "results=[]"
+    assert message_text(SetParameters.Response(results=refused)) == both
+    assert message_text(SetParameters.Response()) == "results=[]"
 
 
 def test_parameters_are_told_by_their_values():
-    assert told(GetParameters.Response(values=[SPEED])) == "value=0.5"
-    assert told(GetParameters.Response(values=[SPEED, ParameterValue()])) == "value=[0.5, None]"
+    assert message_text(GetParameters.Response(values=[SPEED])) == "value=0.5"
+    assert message_text(GetParameters.Response(values=[SPEED, ParameterValue()])) == "value=[0.5, None]"
 
 
 def test_the_first_values_of_a_list_are_told_in_words():

@@ -8,7 +8,7 @@ from rclpy.node import Node
 from warehouse_msgs.msg import Order
 
 from grader.checks.motion import length
-from grader.checks.shift import Job, Program, shift
+from grader.checks.shift import Job, ShiftProgram, shift
 from sim import Process, Recording, World, run
 from sim.world import Box, MovableBox, OtherRobot, Person, WarehouseModel
 from tests.bench.capstone import work
@@ -64,7 +64,7 @@ def test_which_program_did_what(worked):
     assert sorted(programs) == ["/control", "/decision", "/perception"]
     control = programs["/control"]
     assert list(control.sent) == ["/cmd_vel"] and control.errors == 0
-    assert control.hears == ("/goal_pose", "/map", "/obstacles", "/people", "/robot_pose")
+    assert control.subscribes == ("/goal_pose", "/map", "/obstacles", "/people", "/robot_pose")
     assert set(programs["/decision"].sent) == {"/goal_pose", "/state"}
     assert set(programs["/perception"].sent) == {"/obstacles", "/people", "/robot_pose"}
 
@@ -82,7 +82,7 @@ def test_what_a_program_says_of_orders_does_not_count():
     done = shift(run(Rammer, world=HALL, seconds=8, quiet=True))
     assert done.jobs[0] == Job(1, 2.0, 7.0, None, 7.0, "expired")
     assert done.touched == {"shelf": 1}
-    assert done.programs == {"/rammer": Program({"/cmd_vel": 80, "/orders": 80}, (), 0)}
+    assert done.programs == {"/rammer": ShiftProgram({"/cmd_vel": 80, "/orders": 80}, (), 0)}
     assert done.battery == ()
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.checks.work import Work, work_of, worked_until
+from grader.checks.work import WorkTime, work_of, worked_until
 from sim import Recording
 from sim.evidence import CallbackError, Ended
 
@@ -28,7 +28,7 @@ def of(reason, stamp=10.0, detail="", **more):
 )
 def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):
     assert worked_until(recording) == 2.5
-    assert work_of(recording) == Work(0.25, f"Earned for 2.5 of 10 s: then {then}")
+    assert work_of(recording) == WorkTime(0.25, f"Earned for 2.5 of 10 s: then {then}")
 
 
 @pytest.mark.parametrize(
@@ -45,12 +45,12 @@ def test_ended_crashed_hung_or_stuck_it_is_the_same_part(recording, then):
     ],
 )
 def test_who_was_at_work_to_the_end_has_all_of_it(recording):
-    assert work_of(recording) == Work(1.0)
+    assert work_of(recording) == WorkTime(1.0)
 
 
 def test_where_a_program_may_end_what_it_has_done_until_then_counts():
-    assert work_of(of("finished", 3.5, all_exited_at=2.5), may_end=True) == Work(1.0)
-    assert work_of(of("error", all_exited_at=2.5, errors=[ERROR]), may_end=True) == Work(1.0)
+    assert work_of(of("finished", 3.5, all_exited_at=2.5), may_end=True) == WorkTime(1.0)
+    assert work_of(of("error", all_exited_at=2.5, errors=[ERROR]), may_end=True) == WorkTime(1.0)
     assert work_of(of("hang", 2.5), may_end=True).share == 0.25
 
 
@@ -60,4 +60,4 @@ def test_a_program_that_ends_a_millisecond_early_loses_that_millisecond():
 
 def test_of_a_run_that_came_to_its_goal_the_time_until_then_counts():
     work = work_of(of("goal", 4.0, all_exited_at=2.0))
-    assert work == Work(0.5, f"Earned for 2 of 4 s: then your program had ended. {LIVES}")
+    assert work == WorkTime(0.5, f"Earned for 2 of 4 s: then your program had ended. {LIVES}")
