@@ -9,7 +9,7 @@ from typing import Any
 
 from grader import seeds
 from grader.checks.check import Check, Hints, new_check
-from grader.checks.judge import Verdict, broken, faulty, judge, skipped, worst
+from grader.checks.verdicts import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation

@@ -12,7 +12,7 @@ import re
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from grader.checks.judge import Verdict
+from grader.checks.verdicts import Verdict
 
 # Per status: symbol, word, colour. The colours have a contrast of 4 or more on white and on black.
 STATUS_STYLES = {

@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from grader.checks.judge import Verdict
+from grader.checks.verdicts import Verdict
 from sim.evidence import Recording
 from sim.evidence.connections import missing
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from grader import page
-from grader.checks.judge import Verdict, halves
+from grader.checks.verdicts import Verdict, halves
 from grader.stderr_redirect import redirect_stderr
 from sim.evidence import Recording
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from grader.checks.judge import Verdict
+from grader.checks.verdicts import Verdict
 from grader.diagnosis.names import misspelt
 from grader.diagnosis.other_types import conflict
 from grader.diagnosis.parameters import misspelt_parameter, whole_parameter

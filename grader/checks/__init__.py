@@ -22,7 +22,6 @@ from grader.checks.control import (
     still_stands,
 )
 from grader.checks.joints import commands_within, draws, keeps_off, tip_at, tip_path
-from grader.checks.judge import Verdict, judge
 from grader.checks.logs import LogMatch, answers, come_every, logs
 from grader.checks.mistakes import usual_mistake
 from grader.checks.motion import (
@@ -42,6 +41,7 @@ from grader.checks.questions import Question, questions
 from grader.checks.services import calls, responds, serves
 from grader.checks.shift import Job, Shift, ShiftProgram, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
+from grader.checks.verdicts import Verdict, judge
 
 __all__ = [
     "Check",

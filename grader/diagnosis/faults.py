@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from grader.diagnosis.errors import advice
+from grader.diagnosis.error_advice import advice
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.diagnosis.other_types import words_of
 from grader.diagnosis.situations import advice_here

@@ -5,7 +5,7 @@ student's programs publish within its window. Checks compare the two, and raise 
 """
 
 from grader.responses.comparison import listed, matches, same, text_of
-from grader.responses.motion import Speed, closest, require_standing, speeds, top_speed
+from grader.responses.speeds import Speed, closest, require_standing, speeds, top_speed
 from grader.responses.stimuli import Stimuli, Stimulus, from_course, last_before, requests_from_course
 from grader.responses.window import EDGE, Window
 

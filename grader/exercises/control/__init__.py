@@ -9,4 +9,4 @@ from grader.exercises.control.marks import marks
 from grader.exercises.control.push import push
 from grader.exercises.control.worker import worker
 from grader.worlds.carts import hopeless_cart, long_track, pushed_cart, weak_cart, work_cart
-from grader.worlds.fields import ramp
+from grader.worlds.frame_worlds import ramp

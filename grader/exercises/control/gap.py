@@ -7,7 +7,7 @@ from grader.checks import Missed, hinting, keeps_clear, otherwise, publishes, wi
 from grader.companions.slope import MOST, Slope
 from grader.exercise import Exercise
 from grader.responses import EDGE, Window, from_course, last_before, matches, same
-from grader.worlds.fields import ramp
+from grader.worlds.frame_worlds import ramp
 from sim.evidence import Recording, Seconds
 
 FLOAT = "std_msgs/msg/Float64"

@@ -11,4 +11,4 @@ from grader.exercises.frames.lookup import lookup
 from grader.exercises.frames.mount import mount
 from grader.exercises.frames.odometry import odometry
 from grader.exercises.frames.watch import watch
-from grader.worlds.fields import convoy, parked, square
+from grader.worlds.frame_worlds import convoy, parked, square

@@ -8,7 +8,7 @@ from grader.checks.frames import TF
 from grader.companions.transforms import localization
 from grader.exercise import Exercise, Scenario
 from grader.geometry import Pose2D
-from grader.worlds.fields import convoy, parked
+from grader.worlds.frame_worlds import convoy, parked
 from sim.evidence import Recording, Seconds
 
 GAP, BAND = 1.0, 0.25  # m

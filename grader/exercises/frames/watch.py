@@ -6,7 +6,7 @@ from grader.checks import Missed, named, publishes
 from grader.companions.tower_watcher import WAITING
 from grader.companions.transforms import localization
 from grader.exercise import Exercise
-from grader.worlds.fields import square
+from grader.worlds.frame_worlds import square
 from sim.evidence import Endpoint, Recording
 
 OUT, STRANGER = "/tower/cmd_vel", "/cmd_vel"

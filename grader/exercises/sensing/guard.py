@@ -14,7 +14,7 @@ from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
 from grader.companions.radio_link import BadRadio, Radio
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, same, speeds
-from grader.responses.motion import STANDING
+from grader.responses.speeds import STANDING
 from grader.worlds.rooms import free_start, long_hall
 from sim import Process
 from sim.evidence import Message, Recording, Seconds, since_start, stamps

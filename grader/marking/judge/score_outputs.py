@@ -7,7 +7,7 @@ from typing import Any
 
 from IPython.core.formatters import DisplayFormatter
 
-from grader.checks.judge import SPOOFED_TOPICS
+from grader.checks.verdicts import SPOOFED_TOPICS
 from grader.marking.outputs import FOR_INSTRUCTOR, mime_bundle
 from grader.marking.result import CellResult
 from grader.score import Score

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from grader.diagnosis.errors import advice
+from grader.diagnosis.error_advice import advice
 from grader.diagnosis.package_rules import PACKAGE_RULES, own_module
 from sim.evidence import CallbackError, Recording
 from tests.exercises.score_tables import graded_exercises, page

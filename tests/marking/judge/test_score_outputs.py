@@ -1,7 +1,7 @@
 """What of a score goes to the instructor alone."""
 
 from grader import Score
-from grader.checks.judge import SPOOFED_TOPICS, Verdict
+from grader.checks.verdicts import SPOOFED_TOPICS, Verdict
 from grader.marking.judge.score_outputs import spoofed_topics
 
 

@@ -6,7 +6,7 @@ import nbformat
 import pytest
 
 from grader import Missed, check
-from grader.checks.judge import judge
+from grader.checks.verdicts import judge
 from grader.marking.release import run_notebooks, run_solutions
 from grader.marking.release.run_notebooks import ExecutedNotebook, TestCellMark, missed_lines
 from grader.marking.release.run_solutions import junit, main

@@ -5,7 +5,7 @@ import pytest
 from grader import Missed, check
 from grader.checks import judge
 from grader.checks.check import new_check
-from grader.checks.judge import Verdict, halves, worst
+from grader.checks.verdicts import Verdict, halves, worst
 from sim import Recording, run
 from sim.evidence import CallbackError, Ended, Endpoint, Graph, Message
 from tests.students import misfits
