@@ -1,6 +1,6 @@
 """Finds out which small changes of a module its tests don't notice.
 
-python -m tests.mutants grader/checks/verdicts.py                       run by tests/grader/checks/test_judge.py
+python -m tests.mutants grader/checks/verdicts.py                  run by tests/grader/checks/test_verdicts.py
 python -m tests.mutants MODULE --tests tests/exercises -k smooth     run by other tests: arguments of pytest
 python -m tests.mutants MODULE --sample 50 --seed 1                  50 of its mutants
 
