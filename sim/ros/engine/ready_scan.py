@@ -93,6 +93,7 @@ class ReadyScan:
         self._entries, self.timers = [], []
         events: list[Entry] = []
         for node in list(self.executor._nodes):
+            subscriptions = self._subscriptions(node)  # first: a class in place of a node fails here, as in rclpy
             handlers = [w for w in node.waitables if isinstance(w, EventHandler)]
             events += [(ReadyScan._event, w, node) for w in handlers if "_sim" not in w.__dict__]
             self.timers += node.timers
@@ -100,7 +101,7 @@ class ReadyScan:
                 *((ReadyScan._counted_event, w, node) for w in handlers if "_sim" in w.__dict__),
                 *((self._check_of(w), w, node) for w in node.waitables if not isinstance(w, EventHandler)),
                 *((ReadyScan._timer, timer, node) for timer in node.timers),
-                *((ReadyScan._subscription, s, node) for s in self._subscriptions(node)),
+                *((ReadyScan._subscription, s, node) for s in subscriptions),
                 *((ReadyScan._guard_condition, guard, node) for guard in node.guards),
                 *((ReadyScan._client, client, node) for client in node.clients),
                 *((ReadyScan._service, service, node) for service in node.services if _is_called(service)),
