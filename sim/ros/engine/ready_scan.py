@@ -93,7 +93,7 @@ class ReadyScan:
         self._entries, self.timers = [], []
         events: list[Entry] = []
         for node in list(self.executor._nodes):
-            subscriptions = self._subscriptions(node)  # first: a class in place of a node fails here, as in rclpy
+            subscriptions = self._subscriptions(node)  # first: a class in its place fails here
             handlers = [w for w in node.waitables if isinstance(w, EventHandler)]
             events += [(ReadyScan._event, w, node) for w in handlers if "_sim" not in w.__dict__]
             self.timers += node.timers
