@@ -56,7 +56,6 @@ SAME_MEANING = {
 
 # What is still to be renamed: paths, a folder with everything in it.
 STILL: tuple[str, ...] = (
-    *("sim/ros/engine/", "sim/ros/recorder/", "sim/ros/fibers/", "sim/ros/hooks/"),
     "grader/exercises/",
 )
 

@@ -27,16 +27,16 @@ class Listener(Node):
 
     def __init__(self, name, topics):
         super().__init__(name)
-        self.heard = 0
+        self.received = 0
         for topic, kind in topics.items():
             self.create_subscription(kind, topic, self.hear, 10, raw=True)
         self.create_timer(1.0, self.tell)
 
     def hear(self, raw):
-        self.heard = zlib.crc32(raw, self.heard)
+        self.received = zlib.crc32(raw, self.received)
 
     def tell(self):
-        self.get_logger().info(f"{self.heard}")
+        self.get_logger().info(f"{self.received}")
 
 
 class Explorer(Listener):
@@ -67,8 +67,8 @@ class Operator(Listener):
     }
 
     def __init__(self, machine):
-        heard = {"joint_states": JointState, "/tf": TFMessage, "/clock": Clock, "turtle1/pose": Pose}
-        super().__init__("operator", heard)
+        received = {"joint_states": JointState, "/tf": TFMessage, "/clock": Clock, "turtle1/pose": Pose}
+        super().__init__("operator", received)
         topic, self.command = self.kinds[type(machine)]
         self.publisher = self.create_publisher(type(self.command(0.0)), topic, 10)
         self.begin = self.get_clock().now()
@@ -86,7 +86,7 @@ def worlds() -> dict[str, World]:
 
 
 def in_use(world: World, seconds: float = 15.0, seed: int = 1) -> Recording:
-    """A world in which everything there is moves and is heard."""
+    """A world in which everything moves and has a subscriber."""
 
     def program() -> Node:
         if world.machine is not None:

@@ -7,7 +7,7 @@ from typing import Any
 from sim import Recording
 
 
-def said(recording: Recording) -> list[tuple[float, str]]:
+def logged(recording: Recording) -> list[tuple[float, str]]:
     """(stamp, text) of every log line."""
     return [(line.stamp, line.text) for line in recording.logs]
 
@@ -19,7 +19,7 @@ def times(recording: Recording, text: str) -> list[float]:
 
 def values(recording: Recording, topic: str) -> list[tuple[float, Any]]:
     """(stamp, data) of every message on a topic of a std_msgs type."""
-    return [(heard.stamp, heard.message.data) for heard in recording.messages(topic)]
+    return [(received.stamp, received.message.data) for received in recording.messages(topic)]
 
 
 def why(recording: Recording) -> tuple[str, float, str]:

@@ -1,7 +1,7 @@
 """What Fast DDS does between two processes, outside of any run: `python -m tests.sim.ros.middleware`.
 
 Prints what stands below the first line of dashes in middleware_facts.txt. A listener and a speaker, each a
-process of its own, say what they are told and when, in seconds; R is the listener and W the speaker.
+process of its own, print their events and when, in seconds; R is the reader and W the writer.
 """
 
 import json
@@ -70,7 +70,7 @@ def say(*words: object) -> None:
     print(json.dumps([round(now(), 3), " ".join(map(str, words))]), flush=True)
 
 
-def told(word: str):
+def reported(word: str):
     def tell(event: object) -> None:
         found = [name for name in COUNTS if hasattr(event, name)]
         say(word, *(f"{getattr(event, name)} ({getattr(event, name + '_change'):+d})" for name in found))
@@ -87,7 +87,7 @@ def listen(case: str) -> None:
     """The listener of a case."""
     node, count = Node("listener"), [0]
     events = SubscriptionEventCallbacks(
-        deadline=told("requested"), liveliness=told("changed"), message_lost=told("missed")
+        deadline=reported("requested"), liveliness=reported("changed"), message_lost=reported("missed")
     )
 
     def hear(msg: String) -> None:
@@ -104,7 +104,7 @@ def listen(case: str) -> None:
 def speak(case: str) -> None:
     """The speaker of a case."""
     node = Node("speaker")
-    events = PublisherEventCallbacks(deadline=told("offered"), liveliness=told("lost"))
+    events = PublisherEventCallbacks(deadline=reported("offered"), liveliness=reported("lost"))
     publisher = node.create_publisher(String, "facts", CASES[case][1], event_callbacks=events)
     for stamp, what in CASES[case][2]:
         spin(node, stamp)
@@ -161,7 +161,7 @@ DEEDS = {
 
 
 def observe(case: str) -> list[tuple[float, str, str]]:
-    """(seconds, R or W, words) of all that both sides said."""
+    """(seconds, R or W, words) of all that both sides printed."""
     settings = {
         "FACTS_BEGIN": str(time.time() + UNTIL_BEGIN),
         "ROS_DOMAIN_ID": "97",
@@ -173,11 +173,11 @@ def observe(case: str) -> list[tuple[float, str, str]]:
         words = [sys.executable, "-m", "tests.sim.ros.middleware", side, case]
         sides.append(subprocess.Popen(words, env=os.environ | settings, stdout=subprocess.PIPE, text=True))
         settings["FACTS_LISTENER"] = str(sides[0].pid)
-    said = []
+    logged = []
     for who, side in zip("RW", sides, strict=True):
         out, _ = side.communicate(timeout=30)
-        said += [(stamp, who, words) for stamp, words in map(json.loads, out.splitlines())]
-    return sorted(said)
+        logged += [(stamp, who, words) for stamp, words in map(json.loads, out.splitlines())]
+    return sorted(logged)
 
 
 def main(words: list[str]) -> None:
@@ -188,8 +188,8 @@ def main(words: list[str]) -> None:
         return
     for case in words or CASES:
         print(f"== {case}")
-        for stamp, who, said in observe(case):
-            print(f"{stamp:5.1f} {who} {said}")
+        for stamp, who, logged in observe(case):
+            print(f"{stamp:5.1f} {who} {logged}")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ class Clock:
 
 
 class Watcher:
-    """A picture that keeps what it is told."""
+    """A picture that stores its updates."""
 
     def __init__(self):
         self.on_command = None

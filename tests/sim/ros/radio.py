@@ -1,7 +1,7 @@
 """What Fast DDS does on a network that loses packets: `python -m tests.sim.ros.radio 0.2 reliable`.
 
 Two processes, each with a network of its own; this one carries the packets between them, 20 ms late, and
-loses such a share. Needs root and /dev/net/tun. Prints what the listener heard: each number, and how late.
+loses such a share. Needs root and /dev/net/tun. Prints what the listener received: each number, and how late.
 """
 
 import array
@@ -31,14 +31,14 @@ def end(number: int, reliability: str) -> None:
     from std_msgs.msg import Float64MultiArray
 
     rclpy.init()
-    node, begin, said = Node(f"end_{number}"), time.time() + QUIET, []
+    node, begin, logged = Node(f"end_{number}"), time.time() + QUIET, []
     profile = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy[reliability.upper()])
 
     def hear(msg: Float64MultiArray) -> None:
-        said.append(f"{msg.data[0]:.0f}:{time.time() - msg.data[1]:.2f}")
+        logged.append(f"{msg.data[0]:.0f}:{time.time() - msg.data[1]:.2f}")
 
     events = SubscriptionEventCallbacks(
-        message_lost=lambda event: said.append(f"lost:{event.total_count_change}")
+        message_lost=lambda event: logged.append(f"lost:{event.total_count_change}")
     )
     if number == 1:
         publisher, count = node.create_publisher(Float64MultiArray, "facts", profile), 0
@@ -49,7 +49,7 @@ def end(number: int, reliability: str) -> None:
         if number == 1 and begin + count * PERIOD < time.time() < begin + SPOKEN:
             count += 1
             publisher.publish(Float64MultiArray(data=[float(count), time.time()]))
-    print(*said, flush=True)
+    print(*logged, flush=True)
 
 
 def start(number: int, reliability: str) -> tuple[int, int]:

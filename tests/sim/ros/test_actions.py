@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import raised, said
+from tests.sim.ros.evidence import logged, raised
 from tests.students.engine import actions
 
 FEEDBACK = [(1.0, "feedback [0, 1, 1]"), (2.0, "feedback [0, 1, 1, 2]"), (3.0, "feedback [0, 1, 1, 2, 3]")]
@@ -11,13 +11,13 @@ SUCCESS = [(0.0, "accepted True"), *FEEDBACK, (3.0, "SUCCEEDED [0, 1, 1, 2, 3]")
 
 
 def dialogue(*programs):
-    return said(run(*programs, seconds=6, quiet=True))
+    return logged(run(*programs, seconds=6, quiet=True))
 
 
 @pytest.mark.parametrize("server", [actions.Server, actions.parallel_server])
 def test_a_goal_gives_feedback_each_second_and_succeeds(server):
     recording = run(server, actions.Client, seconds=6, quiet=True)
-    assert said(recording) == SUCCESS
+    assert logged(recording) == SUCCESS
     assert (recording.errors, recording.stderr) == ([], "")
 
 
@@ -50,7 +50,7 @@ def test_a_server_that_forgets_to_end_a_goal_is_warned():
 def test_an_exception_in_execute_is_kept_though_rclpy_goes_on():
     recording = run(actions.Raising, actions.Client, seconds=6, quiet=True)
     assert raised(recording) == [(0.0, "/server", "Raising.execute", "ValueError", "no such number")]
-    assert (0.0, "ABORTED []") in said(recording)
+    assert (0.0, "ABORTED []") in logged(recording)
     assert recording.ended.reason == "error"
 
 

@@ -8,7 +8,7 @@ import pytest
 from sim import run
 from sim.ros.engine import guard
 from sim.ros.recorder import base as recorder
-from tests.sim.ros.evidence import raised, said, times, why
+from tests.sim.ros.evidence import logged, raised, times, why
 from tests.students.engine import adversaries, mains
 
 TICKS = [1.0, 2.0, 3.0]
@@ -52,7 +52,7 @@ def test_a_node_may_destroy_itself():
 
 def test_spin_once_in_a_callback_works_in_the_default_group():
     recording = after(adversaries.SpinsOnceInCallback)
-    assert said(recording)[:4] == [(1.0, "tick"), (1.1, "spun"), (2.0, "tick"), (2.1, "spun")]
+    assert logged(recording)[:4] == [(1.0, "tick"), (1.1, "spun"), (2.0, "tick"), (2.1, "spun")]
 
 
 def test_a_rate_in_a_callback_of_a_single_threaded_executor_blocks():
@@ -97,7 +97,7 @@ def test_shutdown_in_a_thread_ends_spin():
 def test_sleeping_refuses_what_pythons_does():
     """sleep(True) takes a second."""
     kinds = ["ValueError", "TypeError", "ValueError", "OverflowError", "TypeError"]
-    assert said(after(adversaries.SleepsOddly)) == [(stamp, kind) for stamp in (2.0, 3.0) for kind in kinds]
+    assert logged(after(adversaries.SleepsOddly)) == [(stamp, kind) for stamp in (2.0, 3.0) for kind in kinds]
 
 
 def test_stdout_is_put_back():

@@ -28,17 +28,17 @@ def test_nothing_goes_wrong_in_a_world(first, name):
     assert tuple(recording.ended) == ("time", 15.0, "All 15 s were run.")
     assert recording.errors == []
     assert {line.level for line in recording.logs} == {"INFO"}
-    told = {line.text for line in recording.logs if not line.from_course}
-    assert len(told) == 15  # something new was heard each second
+    texts = {line.text for line in recording.logs if not line.from_course}
+    assert len(texts) == 15  # something new was received each second
 
 
 @pytest.mark.parametrize("name", WORLDS)
 def test_a_card_names_all_topics_and_no_others(first, name):
     (line,) = [line for line in WORLDS[name].card.splitlines() if line.startswith("Topics:")]
     ends = [end for end in first[name].graph.endpoints if end.node not in OURS]
-    told = {word.rstrip("/") for word in re.findall(r"(?<![\w/])/[a-z][a-z0-9_/]*", line)}
+    texts = {word.rstrip("/") for word in re.findall(r"(?<![\w/])/[a-z][a-z0-9_/]*", line)}
     there = {end.name for end in ends if not is_node_service(end.name)} - {"/parameter_events"}
-    assert told == there | ({"/clock"} if first[name].messages("/clock") else set())
+    assert texts == there | ({"/clock"} if first[name].messages("/clock") else set())
 
 
 def test_the_worlds_are_put_to_use(first):

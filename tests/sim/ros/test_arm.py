@@ -9,7 +9,7 @@ import rclpy
 from sim import World, run
 from sim.evidence import since_start
 from sim.nanoseconds import EPOCH, SECOND
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.machines import arm as students
 from tests.students.machines.arm import following, goal, point
 
@@ -17,16 +17,16 @@ TICKS = [tick / 20 for tick in range(41)]
 TOO_FAST = (point(0.2, (2.0, 0.0)),)  # 10 rad/s; the shoulder can do 1.5 rad/s
 
 
-def heard(recording):
+def received(recording):
     """{stamp: (shoulder, elbow, shoulder's rate, elbow's rate)} of every message on /joint_states."""
-    states = [(heard.stamp, heard.message) for heard in recording.messages("/joint_states")]
+    states = [(received.stamp, received.message) for received in recording.messages("/joint_states")]
     return {stamp: (*joints.position, *joints.velocity) for stamp, joints in states}
 
 
 def dialogue(program, seconds=6):
     recording = run(program, world="arm", seconds=seconds, quiet=True)
     assert (recording.errors, recording.stderr) == ([], "")
-    return said(recording)
+    return logged(recording)
 
 
 def test_it_speaks_twenty_times_a_second_and_is_tracked():
@@ -35,7 +35,7 @@ def test_it_speaks_twenty_times_a_second_and_is_tracked():
     assert (command.node, command.type) == ("/arm", "std_msgs/msg/Float64MultiArray")
     for topic, type_ in (("/joint_states", "sensor_msgs/msg/JointState"), ("/tf", "tf2_msgs/msg/TFMessage")):
         assert recording.topics[topic] == type_
-        assert [heard.stamp for heard in recording.messages(topic)] == TICKS
+        assert [received.stamp for received in recording.messages(topic)] == TICKS
     assert list(recording.messages("/joint_states")[0].message.name) == students.JOINTS
     assert (recording.path, list(recording.tracks)) == ([], ["upper_arm", "forearm"])
     servers = [e for e in recording.graph.endpoints if e.kind == "action server"]
@@ -46,11 +46,11 @@ def test_it_speaks_twenty_times_a_second_and_is_tracked():
 
 def test_what_it_looks_like_is_kept_for_those_who_come_later():
     recording = run(world="arm", seconds=0.1, quiet=True)
-    ((stamp, _, type_, *_, told),) = [
+    ((stamp, _, type_, *_, text),) = [
         (*h[:3], h.message.data) for h in recording.messages("/robot_description")
     ]
     assert (stamp, type_) == (0.0, "std_msgs/msg/String")
-    assert told.startswith('<robot name="arm">') and '<limit lower="-2.4" upper="2.4"' in told
+    assert text.startswith('<robot name="arm">') and '<limit lower="-2.4" upper="2.4"' in text
     (end,) = [end for end in recording.graph.publishers() if end.name == "/robot_description"]
     assert (end.qos["durability"], end.qos["depth"]) == ("transient_local", 1)
 
@@ -68,7 +68,7 @@ def test_joint_states_may_name_the_elbow_first():
 
 def test_positions_are_gone_to_and_the_frames_follow():
     recording = run(students.Commander, world="arm", seconds=3, quiet=True)
-    assert heard(recording)[3.0] == (1.0, -0.5, 0.0, 0.0)
+    assert received(recording)[3.0] == (1.0, -0.5, 0.0, 0.0)
     upper, fore, tip = recording.messages("/tf")[-1].message.transforms
     for transform, frames, x, turn in (
         (upper, ("base_link", "upper_arm"), 0.0, 1.0),
@@ -88,14 +88,14 @@ def test_a_command_of_another_form_is_told_and_ignored(commander):
     recording = run(commander, world="arm", seconds=1, quiet=True)
     words = "A command is one finite number (rad) for each of the 2 joints; "
     words += f"this one was {list(commander.positions)}: check how it was worked out."
-    assert said(recording) == [(0.5, words)]
-    assert heard(recording)[1.0] == (0.0, 0.0, 0.0, 0.0)
+    assert logged(recording) == [(0.5, words)]
+    assert received(recording)[1.0] == (0.0, 0.0, 0.0, 0.0)
 
 
 def test_a_goal_is_followed_and_succeeds_when_its_time_is_over():
     recording = run(students.Follower, world="arm", seconds=4, quiet=True)
-    assert said(recording) == [(0.0, "accepted"), (2.0, "SUCCEEDED 0 The goal was reached.")]
-    joints = heard(recording)
+    assert logged(recording) == [(0.0, "accepted"), (2.0, "SUCCEEDED 0 The goal was reached.")]
+    joints = received(recording)
     assert joints[1.0] == pytest.approx((0.5, -0.5, 0.4, 0.0))
     assert joints[0.5] == pytest.approx((0.5 * 0.5 - 0.4 / 8, -0.25, 0.75 - 0.1, -0.75))
     assert joints[2.0] == joints[4.0] == pytest.approx((1.0, 0.0, 0.0, 0.0))
@@ -103,7 +103,7 @@ def test_a_goal_is_followed_and_succeeds_when_its_time_is_over():
 
 def test_feedback_comes_twenty_times_a_second_with_desired_actual_and_error():
     recording = run(students.Reporter, world="arm", seconds=4, quiet=True)
-    feedback = [(stamp, text) for stamp, text in said(recording) if text.startswith(tuple("0123456789"))]
+    feedback = [(stamp, text) for stamp, text in logged(recording) if text.startswith(tuple("0123456789"))]
     assert [stamp for stamp, _ in feedback] == TICKS[1:]
     assert feedback[19] == (
         1.0, "1 ['shoulder_joint', 'elbow_joint'] "
@@ -113,22 +113,22 @@ def test_feedback_comes_twenty_times_a_second_with_desired_actual_and_error():
 
 def test_a_main_waits_for_the_result_line_by_line():
     recording = run(students.waiting_client, world="arm", seconds=9, quiet=True)
-    assert said(recording) == [(2.0, "The goal was reached.")]
+    assert logged(recording) == [(2.0, "The goal was reached.")]
     assert (recording.ended.reason, recording.stamp) == ("finished", 3.0)
 
 
 def test_joints_may_be_named_in_any_order():
     swapped = goal(point(1.0, (0.3, 0.6)), names=students.JOINTS[::-1])
     recording = run(following((0.0, swapped)), world="arm", seconds=3, quiet=True)
-    assert heard(recording)[3.0][:2] == (0.6, 0.3)
+    assert received(recording)[3.0][:2] == (0.6, 0.3)
 
 
 def test_a_cancelled_goal_stops_the_arm_at_once_and_holds_it():
     recording = run(following((0.0, students.STEADY), cancel_after=0.5), world="arm", seconds=4, quiet=True)
-    assert said(recording) == [
+    assert logged(recording) == [
         (0.0, "accepted"), (0.5, "CANCELED 0 The goal was canceled; the arm stops and stays."),
     ]  # fmt: skip
-    joints = heard(recording)
+    joints = received(recording)
     shoulder, _, speed, _ = joints[0.5]
     assert joints[1.0] == joints[4.0]
     assert joints[4.0][0] == pytest.approx(shoulder + speed**2 / (2 * 4.0), abs=1e-6)
@@ -138,33 +138,33 @@ def test_a_cancelled_goal_stops_the_arm_at_once_and_holds_it():
 def test_a_newer_goal_takes_over_from_where_the_arm_is():
     back = goal(point(1.0, (0.0, 0.0), (0.0, 0.0)))
     recording = run(following((0.0, students.STEADY), (0.5, back)), world="arm", seconds=4, quiet=True)
-    assert said(recording) == [
+    assert logged(recording) == [
         (0.0, "accepted"), (0.5, "ABORTED -1 The goal was replaced by a newer one."), (0.5, "accepted"),
         (1.5, "SUCCEEDED 0 The goal was reached."),
     ]  # fmt: skip
-    joints = heard(recording)
+    joints = received(recording)
     assert abs(joints[0.55][0] - joints[0.5][0]) < 1.5 * 0.05
     assert joints[4.0] == pytest.approx((0.0, 0.0, 0.0, 0.0))
 
 
 def test_a_command_on_the_topic_takes_over_too():
     recording = run(students.Follower, students.Commander, world="arm", seconds=4, quiet=True)
-    assert said(recording) == [
+    assert logged(recording) == [
         (0.0, "accepted"), (0.5, "ABORTED -1 The goal was replaced by a command on /joint_commands."),
     ]  # fmt: skip
-    assert heard(recording)[4.0] == (1.0, -0.5, 0.0, 0.0)
+    assert received(recording)[4.0] == (1.0, -0.5, 0.0, 0.0)
 
 
 def test_leaving_the_path_tolerance_aborts_and_stops():
     message = goal(*TOO_FAST, path=[("shoulder_joint", 0.3)])
     recording = run(following((0.0, message)), world="arm", seconds=3, quiet=True)
-    ((_, first), (stamp, end)) = said(recording)
+    ((_, first), (stamp, end)) = logged(recording)
     assert (first, stamp) == ("accepted", 0.05)
     assert end == (
         "ABORTED -4 0.05 s after the beginning shoulder_joint was 0.495 rad off its path; "
         "its tolerance is 0.3 rad."
     )
-    assert heard(recording)[3.0][0] < 0.1
+    assert received(recording)[3.0][0] < 0.1
 
 
 def test_not_being_at_the_goal_in_time_aborts():
@@ -186,11 +186,11 @@ def test_an_arm_that_still_moves_at_the_end_has_not_arrived():
 
 @pytest.mark.parametrize("cancel_after", [1.95, 2.0, 2.05])
 def test_a_cancel_at_the_very_end_is_no_fault(cancel_after):
-    said = dialogue(following((0.0, students.STEADY), cancel_after=cancel_after))
+    logged = dialogue(following((0.0, students.STEADY), cancel_after=cancel_after))
     end = "CANCELED 0 The goal was canceled; the arm stops and stays."
     if cancel_after > 1.95:
         end = "SUCCEEDED 0 The goal was reached."
-    assert said == [(0.0, "accepted"), (min(cancel_after, 2.0), end)]
+    assert logged == [(0.0, "accepted"), (min(cancel_after, 2.0), end)]
 
 
 def test_a_goal_that_was_just_replaced_cannot_be_cancelled():
@@ -211,8 +211,8 @@ def test_a_trajectory_can_be_stamped_for_later():
     message = goal(point(1.0, (0.5, 0.5), (0.0, 0.0)))
     message.trajectory.header.stamp.sec = EPOCH // SECOND + 2
     recording = run(following((0.0, message)), world="arm", seconds=4, quiet=True)
-    assert said(recording) == [(0.0, "accepted"), (3.0, "SUCCEEDED 0 The goal was reached.")]
-    assert heard(recording)[2.0] == (0.0, 0.0, 0.0, 0.0)
+    assert logged(recording) == [(0.0, "accepted"), (3.0, "SUCCEEDED 0 The goal was reached.")]
+    assert received(recording)[2.0] == (0.0, 0.0, 0.0, 0.0)
 
 
 LIMITS = "its limits are -2.4 and 2.4 rad."
@@ -321,4 +321,4 @@ def test_a_client_that_goes_away_leaves_the_arm_to_its_goal():
 
     recording = run(leaves, students.Reporter, world="arm", seconds=6, quiet=True)
     assert recording.errors == []
-    assert heard(recording)[6.0] == pytest.approx((1.0, 0.0, 0.0, 0.0))
+    assert received(recording)[6.0] == pytest.approx((1.0, 0.0, 0.0, 0.0))

@@ -25,9 +25,9 @@ class Both(Node):
     def __init__(self, **more):
         super().__init__("both")
         self.message, self.service, self.action = types()
-        self.more, self.heard = more, []
+        self.more, self.received = more, []
         self.publisher = self.create_publisher(self.message, "level", 10)
-        self.create_subscription(self.message, "level", self.heard.append, 10)
+        self.create_subscription(self.message, "level", self.received.append, 10)
         self.create_service(self.service, "ask", self.ask)
         self.client = self.create_client(self.service, "ask")
         self.server = ActionServer(self, self.action, "act", self.act)

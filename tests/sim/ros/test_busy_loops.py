@@ -1,4 +1,4 @@
-"""Loops without a pause let time move on, are the same in every run, and are told of."""
+"""Loops without a pause let time move on, are the same in every run, and are recorded."""
 
 import functools
 import math
@@ -7,7 +7,7 @@ import pytest
 
 from sim import Recording, run
 from sim.ros.engine import guard
-from tests.sim.ros.evidence import said, values, why
+from tests.sim.ros.evidence import logged, values, why
 from tests.students.engine import busy_loops, mains
 
 TICKS = [round(0.1 * tick, 1) for tick in range(1, 31)]
@@ -30,7 +30,7 @@ def usual(program) -> Recording:
 ])  # fmt: skip
 def test_a_loop_in_a_thread_sees_the_flag_when_it_is_set(program):
     recording = usual(program)
-    assert said(recording) == [(1.5, "seen")]
+    assert logged(recording) == [(1.5, "seen")]
     assert [stamp for stamp, data in values(recording, "/data") if data == 0] == TICKS
     assert why(recording) == ("time", 3.0, "All 3 s were run.")
     (loop,) = recording.busy_loops
@@ -41,19 +41,19 @@ def test_a_loop_in_a_thread_sees_the_flag_when_it_is_set(program):
 @pytest.mark.parametrize("program", [busy_loops.looks_in_main, busy_loops.spins_without_waiting])
 def test_a_loop_in_main_sees_it_too(program):
     recording = run(program, seconds=3, quiet=True)
-    assert said(recording) == [(1.5, "seen")]
+    assert logged(recording) == [(1.5, "seen")]
     assert why(recording) == ("finished", 2.5, "Every program had ended by t = 1.5 s.")
     (loop,) = recording.busy_loops
     assert loop.place.startswith(f"{program.__name__}(), at line ")
 
 
 def test_two_loops_do_not_wait_for_each_other():
-    assert said(run(busy_loops.two_that_look, seconds=3, quiet=True)) == [(1.5, "seen")] * 2
+    assert logged(run(busy_loops.two_that_look, seconds=3, quiet=True)) == [(1.5, "seen")] * 2
 
 
 def test_the_answer_is_there_when_a_reentrant_callback_looks_for_it():
     recording = usual(busy_loops.asks_for_answers)
-    assert said(recording) == [(1.0, "3"), (2.0, "3"), (3.0, "3")]
+    assert logged(recording) == [(1.0, "3"), (2.0, "3"), (3.0, "3")]
     (loop,) = recording.busy_loops
     assert (loop.stamp, loop.node, loop.place[:13]) == (1.0, "/busy", "ask, at line ")
 
@@ -78,13 +78,13 @@ def test_a_loop_that_publishes_sends_a_thousand_and_then_one_each_millisecond(pr
 @pytest.mark.parametrize("program, lines", [
     (busy_loops.Prints, lambda run: "".join(text for _, text in run.prints).split()),
     (busy_loops.Complains, lambda run: run.stderr.split()),
-    (busy_loops.Logs, lambda run: [text for _, text in said(run)[:-1]]),
+    (busy_loops.Logs, lambda run: [text for _, text in logged(run)[:-1]]),
 ], ids=["prints", "complains", "logs"])  # fmt: skip
 def test_a_loop_that_talks_takes_time_from_the_five_thousandth_line_on(program, lines, monkeypatch):
     monkeypatch.setattr(guard, "COMPUTING_LIMIT", math.inf)  # or that sees it sooner, on a slow machine
     recording = run(program, seconds=3, quiet=True)
     assert lines(recording) == ["waiting"] * 6_500
-    assert said(recording)[-1][1] == "seen"
+    assert logged(recording)[-1][1] == "seen"
 
 
 @pytest.mark.parametrize("program", [

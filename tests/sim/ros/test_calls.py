@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import raised, said, why
+from tests.sim.ros.evidence import logged, raised, why
 from tests.students.engine import callers, services
 
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -40,12 +40,12 @@ def test_a_request_before_two_programs_have_found_each_other_is_lost(programs):
     assert [(call.request.a, call.requested, call.received, call.lost) for call in recording.calls] == [
         (5, 0.0, None, True), (6, 1.0, None, True), (7, 1.0, 1.0, False), (8, 1.5, 1.5, False),
     ]  # fmt: skip
-    assert said(recording) == [(1.0, "sum 7")]
+    assert logged(recording) == [(1.0, "sum 7")]
 
 
 def test_a_program_that_has_the_server_needs_no_time_to_find_it():
     recording = recorded(callers.asks_itself_at_once, seconds=1)
-    assert said(recording) == [(0.0, "sum 5"), (1.0, "sum 6"), (1.0, "sum 7")]
+    assert logged(recording) == [(0.0, "sum 5"), (1.0, "sum 6"), (1.0, "sum 7")]
 
 
 def test_each_reader_gets_a_copy():
@@ -80,7 +80,7 @@ def test_a_client_that_is_not_spun_receives_nothing():
 
 def test_a_call_from_a_thread_is_received():
     recording = recorded(services.Adder, callers.calls_from_a_thread)
-    assert said(recording) == [(1.0, "sum 5")]
+    assert logged(recording) == [(1.0, "sum 5")]
     assert ways(recording.calls) == [("/customer", "/adder", 1.0, 1.0, 1.0, 1.0)]
 
 
@@ -95,7 +95,7 @@ def test_two_servers_make_two_calls_of_one_request_and_the_first_answer_is_recei
     recording = recorded(callers.two_servers, services.done_callback)
     assert ways(recording.calls) == [AT_ONCE, ("/customer", "/other", 0.0, 0.0, 0.0, None)]
     assert sums(recording.calls) == [(2, 3, 5), (2, 3, 6)]
-    assert said(recording) == [(0.0, "sum 5")]
+    assert logged(recording) == [(0.0, "sum 5")]
 
 
 @pytest.mark.parametrize("server, kept", [(services.Adder, 10), (callers.ShortMemory, 2)])
@@ -114,7 +114,7 @@ def test_a_client_that_went_away_receives_nothing():
 
 def test_an_answer_after_the_timeout_is_not_received():
     recording = recorded(services.SlowAdder, callers.gives_up)
-    assert said(recording) == [(0.2, "None")]
+    assert logged(recording) == [(0.2, "None")]
     assert ways(recording.calls) == [("/customer", "/adder", 0.0, 0.0, 0.5, None)]
 
 
@@ -139,7 +139,7 @@ def test_a_callback_can_not_change_what_was_asked():
 def test_what_is_no_request_is_refused_in_words():
     recording = recorded(services.Adder, callers.asks_with_text)
     words = "Expected <class 'example_interfaces.srv._add_two_ints.AddTwoInts_Request'>, got <class 'str'>"
-    assert said(recording) == [(0.0, words)]
+    assert logged(recording) == [(0.0, words)]
     assert raised(recording) == [(0.0, "/customer", "asks_with_text", "TypeError", words)]
     assert recording.calls == []
 

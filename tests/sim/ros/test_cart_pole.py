@@ -7,18 +7,18 @@ import pytest
 from sim import run
 from sim.evidence import since_start
 from sim.world import World, simulate
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.machines import cart_pole as students
 
 
-def heard(recording):
+def received(recording):
     """(x, angle, v, w) of every message on /joint_states."""
-    messages = [heard.message for heard in recording.messages("/joint_states")]
+    messages = [received.message for received in recording.messages("/joint_states")]
     return [(*joints.position, *joints.velocity) for joints in messages]
 
 
 def greatest(recording, index):
-    return max(abs(state[index]) for state in heard(recording))
+    return max(abs(state[index]) for state in received(recording))
 
 
 @pytest.mark.parametrize("controller", [students.Balancer, students.Steadier, students.Timed])
@@ -28,7 +28,7 @@ def test_a_good_controller_balances_for_twenty_seconds(controller, seed):
     assert (recording.ended.reason, recording.errors) == ("time", [])
     assert greatest(recording, 1) < 0.2
     assert greatest(recording, 0) < 0.5
-    assert abs(heard(recording)[-1][1]) < 0.01
+    assert abs(received(recording)[-1][1]) < 0.01
 
 
 @pytest.mark.parametrize("controller", [students.TooSlow, students.WrongSign, students.AngleOnly])
@@ -40,7 +40,7 @@ def test_a_poor_controller_drops_the_pole(controller, seed):
 
 def test_without_a_controller_the_pole_falls_and_hangs_at_last():
     recording = run(world="cart_pole", seconds=60, quiet=True)
-    angle = heard(recording)[-1][1]
+    angle = received(recording)[-1][1]
     assert abs(angle) == pytest.approx(math.pi, abs=0.6)
     assert greatest(recording, 1) < 2 * math.pi
 
@@ -50,12 +50,12 @@ def test_it_speaks_a_hundred_times_a_second_and_is_tracked_at_twenty():
     assert recording.topics["/joint_states"] == "sensor_msgs/msg/JointState"
     (command,) = recording.graph.subscriptions("/cart_effort")
     assert (command.node, command.type) == ("/cart_pole", "std_msgs/msg/Float64")
-    assert [heard.stamp for heard in recording.messages("/joint_states")] == [t / 100 for t in range(201)]
-    assert [heard.stamp for heard in recording.messages("/clock")] == [t / 20 for t in range(41)]
+    assert [m.stamp for m in recording.messages("/joint_states")] == [t / 100 for t in range(201)]
+    assert [m.stamp for m in recording.messages("/clock")] == [t / 20 for t in range(41)]
     joints = recording.messages("/joint_states")[-1].message
     assert (list(joints.name), since_start(joints.header.stamp)) == (["slider_joint", "pole_joint"], 2)
     assert (recording.path, list(recording.tracks)) == ([], ["cart", "pole"])
-    x, angle, _, _ = heard(recording)[-1]
+    x, angle, _, _ = received(recording)[-1]
     assert recording.tracks["cart"][-1] == (2.0, x, 0.0, 0.0)
     turned = math.remainder(angle + math.pi / 2, math.tau)
     assert recording.tracks["pole"][-1] == (2.0, x, 0.0, pytest.approx(turned))
@@ -65,7 +65,7 @@ def test_what_is_heard_is_the_simulation_under_the_same_pushes():
     """One push at 0.1 s, which lasts for the timeout of 0.2 s."""
     recording = run(students.PushesOnce, world="cart_pole", seconds=1, seed=3, quiet=True)
     scene = simulate(World.load("cart_pole"), 3)
-    for tick, state in enumerate(heard(recording)):
+    for tick, state in enumerate(received(recording)):
         scene.advance(tick / 100)
         assert state == tuple(scene.state)
         if tick == 10:
@@ -75,9 +75,9 @@ def test_what_is_heard_is_the_simulation_under_the_same_pushes():
 def test_an_effort_that_is_no_number_is_told_once_a_second_and_ignored():
     recording = run(students.PushesNoNumber, world="cart_pole", seconds=2.5, quiet=True)
     words = "Efforts are finite numbers (N); this one was nan: check how it was worked out."
-    assert said(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
+    assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "cart_pole")}
-    assert heard(recording) == heard(run(world="cart_pole", seconds=2.5, quiet=True))
+    assert received(recording) == received(run(world="cart_pole", seconds=2.5, quiet=True))
 
 
 def test_ten_thousand_efforts_a_second_are_all_heard_and_told_once_a_second():
@@ -86,4 +86,4 @@ def test_ten_thousand_efforts_a_second_are_all_heard_and_told_once_a_second():
     assert len(recording.messages("/cart_effort")) == 10_010
     words = "More than 1000 commands came in a second; 100 are enough: "
     words += "check the period of the timer that sends them."
-    assert said(recording) == [(0.05, words)]
+    assert logged(recording) == [(0.05, words)]

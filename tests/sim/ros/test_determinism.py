@@ -47,10 +47,10 @@ def test_a_busy_machine_changes_nothing(here):
         command, cwd=determinism.REPOSITORY, capture_output=True, text=True, timeout=600, check=False
     )
     begins = [digest[:4] for digest in here.split()]
-    *_, idle, busy, said = done.stdout.splitlines()
+    *_, idle, busy, logged = done.stdout.splitlines()
     assert idle.split() == ["idle", sys.executable, *begins, "1"]
     assert busy.split() == ["busy", sys.executable, *begins, "1"]
-    assert said == "1 distinct recording in 2 fresh processes"
+    assert logged == "1 distinct recording in 2 fresh processes"
 
 
 def test_another_seed_is_another_run():
@@ -74,7 +74,7 @@ def test_the_digest_sees_every_kind_of_evidence():
 class RawListener(Node):
     """Keeps the bytes of what it hears; those of a Bool end in the middle of a word."""
 
-    heard = []  # noqa: RUF012
+    received = []  # noqa: RUF012
 
     def __init__(self):
         super().__init__("raw_listener")
@@ -83,20 +83,20 @@ class RawListener(Node):
             self.create_subscription(kind, topic, hear, 10, raw=True)
 
     def hear(self, topic, raw):
-        self.heard.append((topic, raw))
+        self.received.append((topic, raw))
 
 
 def test_a_raw_subscription_hears_the_bytes_that_were_sent_and_nothing_behind_them():
-    RawListener.heard.clear()
+    RawListener.received.clear()
     recording = run(RawListener, world="yard", seconds=1, quiet=True)
     for topic in ("/bumper", "/scan"):
-        sent = [h.raw for h in recording.messages(topic)][1:]  # the first one came too early to be heard
-        assert [raw for name, raw in RawListener.heard if name == topic] == sent
+        sent = [h.raw for h in recording.messages(topic)][1:]  # the first one was sent before discovery
+        assert [raw for name, raw in RawListener.received if name == topic] == sent
 
 
 @pytest.mark.soak
 def test_two_processes_at_once_dont_hear_each_other(here):
-    """The same topics, at the same time; were they heard, there would be more messages and callbacks."""
+    """The same topics, at the same time; with subscribers there would be more messages and callbacks."""
     command = [sys.executable, "-m", "tests.sim.ros.programs"]
     pair = [
         subprocess.Popen(command, cwd=determinism.REPOSITORY, stdout=subprocess.PIPE, text=True)

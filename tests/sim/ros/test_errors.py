@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import raised, said, why
+from tests.sim.ros.evidence import logged, raised, why
 from tests.students.engine import errors
 
 pytestmark = pytest.mark.pythons
@@ -129,17 +129,17 @@ def test_a_traceback_shows_the_authors_lines_and_no_others():
 
 def test_an_exception_that_its_program_catches_is_kept_too():
     recording = run(errors.caught, seconds=3, quiet=True)
-    assert said(recording) == [(1.0, "caught: division by zero"), (2.0, "caught: division by zero")]
+    assert logged(recording) == [(1.0, "caught: division by zero"), (2.0, "caught: division by zero")]
     assert raised(recording) == [(stamp, "/timer", "InTimer.tick", *DIVISION) for stamp in (1.0, 2.0)]
 
 
 def test_an_exception_in_a_thread_leaves_its_program_alive():
     recording = run(errors.in_thread, seconds=3, quiet=True)
-    assert [stamp for stamp, _ in said(recording)] == [1.0, 2.0, 3.0]
+    assert [stamp for stamp, _ in logged(recording)] == [1.0, 2.0, 3.0]
 
 
 def test_an_exception_in_a_transition_leaves_its_program_alive():
-    assert said(run(errors.in_transition, seconds=3, quiet=True)) == [(0.5, "ERROR")]
+    assert logged(run(errors.in_transition, seconds=3, quiet=True)) == [(0.5, "ERROR")]
 
 
 def test_a_program_that_fails_leaves_the_others_alive():

@@ -5,7 +5,7 @@ import asyncio
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import said, times, why
+from tests.sim.ros.evidence import logged, times, why
 from tests.students.engine import actions, event_loops
 
 pytestmark = pytest.mark.pythons
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.pythons
 ], ids=lambda value: getattr(value, "__name__", ""))  # fmt: skip
 def test_an_event_loop_waits_in_simulated_time(program, expected):
     recording = run(program, seconds=2, quiet=True)
-    assert said(recording) == expected
+    assert logged(recording) == expected
     assert (recording.errors, recording.stderr) == ([], "")
     assert why(recording) == ("time", 2.0, "All 2 s were run.")
 
@@ -31,7 +31,7 @@ def test_an_event_loop_waits_in_simulated_time(program, expected):
 def test_a_coroutine_can_await_an_actions_futures():
     recording = run(actions.parallel_server, event_loops.awaits_an_action, seconds=5, quiet=True)
     assert recording.errors == []
-    assert said(recording) == [(3.104, "result [0, 1, 1, 2, 3]")]
+    assert logged(recording) == [(3.104, "result [0, 1, 1, 2, 3]")]
 
 
 def test_two_programs_have_their_own_event_loops():

@@ -1,7 +1,7 @@
 """Executors of the student's own wait in simulated time, and their callbacks are in the recording."""
 
 from sim import run
-from tests.sim.ros.evidence import raised, said, why
+from tests.sim.ros.evidence import logged, raised, why
 from tests.students.engine import executors
 
 
@@ -11,7 +11,7 @@ def lines(recording):
 
 def test_an_executor_that_runs_each_callback_itself_spins_as_rclpys_do():
     recording = run(executors.one_by_one, seconds=1.2, quiet=True)
-    assert said(recording) == [(0.5, "tick"), (0.5, "heard"), (1.0, "tick"), (1.0, "heard")]
+    assert logged(recording) == [(0.5, "tick"), (0.5, "heard"), (1.0, "tick"), (1.0, "heard")]
     assert [(ran.callback, ran.kind) for ran in recording.callbacks] == [
         ("Ticking.tick", "timer"), ("Ticking.hear", "subscription"),
     ] * 2  # fmt: skip
@@ -19,8 +19,8 @@ def test_an_executor_that_runs_each_callback_itself_spins_as_rclpys_do():
 
 def test_an_executor_may_hand_callbacks_to_pools_of_its_own():
     recording = run(executors.priorities, seconds=1.3, quiet=True)
-    heard = [line for line in lines(recording) if line[2] == "tick"]
-    assert heard == [(0.5, "urgent", "tick"), (1.0, "urgent", "tick"), (1.2, "patient", "tick")]
+    received = [line for line in lines(recording) if line[2] == "tick"]
+    assert received == [(0.5, "urgent", "tick"), (1.0, "urgent", "tick"), (1.2, "patient", "tick")]
     assert why(recording) == ("time", 1.3, "All 1.3 s were run.")
 
 
@@ -30,7 +30,7 @@ def test_what_a_callback_raises_leaves_spin():
 
 
 def test_waiting_for_callbacks_ends_as_rclpys_does():
-    assert said(run(executors.all_ends, seconds=3, quiet=True)) == [
+    assert logged(run(executors.all_ends, seconds=3, quiet=True)) == [
         (0.25, "TimeoutException"), (0.25, "TimeoutException"), (1.0, "TimeoutException"),
         (1.0, "ConditionReachedException"), (1.0, "ShutdownException"), (1.0, "ExternalShutdownException"),
     ]  # fmt: skip

@@ -4,7 +4,7 @@ import pytest
 
 from sim import run
 from sim.evidence import rate, stamps
-from tests.sim.ros.evidence import raised, said
+from tests.sim.ros.evidence import logged, raised
 from tests.students.engine import actions, goals
 
 STARTED = [(0.0, "accepted"), (0.0, "executing")]
@@ -179,7 +179,7 @@ def test_a_second_ending_is_refused_and_not_recorded():
 def test_what_is_no_goal_is_refused_in_words():
     recording = recorded(actions.Server, goals.sends_text)
     words = "Expected <class 'example_interfaces.action._fibonacci.Fibonacci_Goal'>, got <class 'str'>"
-    assert said(recording) == [(0.0, words)]
+    assert logged(recording) == [(0.0, words)]
     assert raised(recording) == [(0.0, "/client", "sends_text", "TypeError", words)]
     assert recording.goals == []
 

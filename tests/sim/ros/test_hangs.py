@@ -161,4 +161,4 @@ def test_endless_recursion_is_an_error(usual):
 
 def test_the_others_are_recorded_to_the_end_of_that_moment(usual):
     recording = run(hangs.Loop, mains.Counter, seconds=3, quiet=True)
-    assert [heard.stamp for heard in recording.messages("/count")] == [0.5, 1.0]
+    assert [received.stamp for received in recording.messages("/count")] == [0.5, 1.0]

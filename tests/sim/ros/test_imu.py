@@ -21,7 +21,7 @@ def imu_of(model, driver=drivers.Watcher, seconds=2, topic="/imu/data", seed=0, 
     world = dataclasses.replace(World.load("yard"), imu=model, **more)
     recording = run(driver, world=world, seconds=seconds, seed=seed, quiet=True)
     assert recording.errors == []
-    return [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+    return [(received.stamp, received.message) for received in recording.messages(topic)]
 
 
 def test_a_world_without_an_imu_has_no_topic():
@@ -81,8 +81,8 @@ def test_variances_are_as_large_as_the_errors():
 
 def test_the_bytes_are_those_of_the_message():
     world = dataclasses.replace(World.load("yard"), imu=ROUGH)
-    for heard in run(drivers.Circler, world=world, seconds=1, quiet=True).messages("/imu/data"):
-        assert heard.raw == canonical(heard.type, encode(heard.message))
+    for received in run(drivers.Circler, world=world, seconds=1, quiet=True).messages("/imu/data"):
+        assert received.raw == canonical(received.type, encode(received.message))
 
 
 def test_every_robot_has_its_own():

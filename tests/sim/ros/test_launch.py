@@ -18,13 +18,13 @@ def package(tmp_path_factory):
     """The package, installed and sourced; its prefix."""
     prefix = install(tmp_path_factory.mktemp("workspace"))
     with pytest.MonkeyPatch.context() as patch:
-        told = sourced(prefix)
-        patch.setenv("AMENT_PREFIX_PATH", told["AMENT_PREFIX_PATH"])
-        patch.syspath_prepend(told["PYTHONPATH"])
+        variables = sourced(prefix)
+        patch.setenv("AMENT_PREFIX_PATH", variables["AMENT_PREFIX_PATH"])
+        patch.syspath_prepend(variables["PYTHONPATH"])
         yield prefix
 
 
-def said(recording):
+def logged(recording):
     """The log lines of launch: level, stamp, name and text."""
     names = ("launch", "launch.user", "driver", "once", "last", "python3", "ros2", "talker")
     lines = (line for line in recording.logs if line.node.split("-")[0] in names)
@@ -32,10 +32,10 @@ def said(recording):
 
 
 def driven(recording):
-    heard = [each for each in recording.published if each.type == "geometry_msgs/msg/Twist"]
+    received = [each for each in recording.published if each.type == "geometry_msgs/msg/Twist"]
     return {
-        name: [(each.topic, each.stamp, each.message.linear.x) for each in heard if each.sender == name]
-        for name in sorted({each.sender for each in heard})
+        name: [(each.topic, each.stamp, each.message.linear.x) for each in received if each.sender == name]
+        for name in sorted({each.sender for each in received})
     }
 
 
@@ -51,7 +51,7 @@ def test_two_robots_drive_each_in_its_namespace_from_its_time_on(two_robots):
 
 
 def test_launch_logs_what_it_starts(two_robots):
-    assert said(two_robots) == [
+    assert logged(two_robots) == [
         "[INFO] [0.000] [driver-1]: process started with pid [1]",
         "[INFO] [1.250] [driver-2]: process started with pid [2]",
     ]
@@ -99,7 +99,7 @@ def test_a_program_that_dies_is_respawned_and_handlers_are_called(package):
     recording = run(f"{NAME} respawn.launch.py", seconds=20, quiet=True)
     path = package / "lib" / NAME / "once"
     died = f"[pid {{}}, exit code 3, cmd '{path} 3 --ros-args']."
-    assert said(recording) == [
+    assert logged(recording) == [
         "[INFO] [0.000] [once-1]: process started with pid [1]",
         "[INFO] [0.000] [driver-2]: process started with pid [2]",
         "[ERROR] [1.000] [once-1]: process has died " + died.format(1),
@@ -163,7 +163,7 @@ def test_a_file_is_a_program_and_one_that_ignores_sigint_is_killed(tmp_path):
         description(tmp_path, talker, "TimerAction(period=1.0, actions=[Shutdown()])"), seconds=30, quiet=True
     )
     path = tmp_path / "talker.py"
-    assert said(recording) == [
+    assert logged(recording) == [
         "[WARN] [0.000] [launch]: All programs of a run share one environment: WORD is not set.",
         "[INFO] [0.000] [python3-1]: process started with pid [1]",
         "[INFO] [0.000] [talker]: hello ['x']",
@@ -269,7 +269,7 @@ def test_a_launch_description_can_be_run(tmp_path):
     from launch import LaunchDescription
     from launch.actions import LogInfo
 
-    assert said(run(LaunchDescription([LogInfo(msg="hello")]), seconds=2, quiet=True)) == [
+    assert logged(run(LaunchDescription([LogInfo(msg="hello")]), seconds=2, quiet=True)) == [
         "[INFO] [0.000] [launch.user]: hello"
     ]
 

@@ -183,7 +183,7 @@ def test_the_users_node_and_a_run_dont_hear_each_other(users_node):
     rclpy.spin_once(users_node, timeout_sec=0.2)
     assert got == []
     assert recording.graph.nodes == ["/counter"]
-    assert {heard.sender for heard in recording.messages("/count")} == {"/counter"}
+    assert {received.sender for received in recording.messages("/count")} == {"/counter"}
 
 
 def test_the_users_executor_spins_in_a_thread_during_a_run(users_node):

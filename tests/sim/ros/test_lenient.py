@@ -22,7 +22,7 @@ class Sloppy(Node):
 def test_a_lenient_program_may_use_whole_numbers():
     lenient = run(Process(Sloppy, lenient=True), seconds=2, quiet=True)
     assert lenient.errors == []
-    assert [heard.message.data for heard in lenient.messages("/number")] == [3.0] * 4
+    assert [received.message.data for received in lenient.messages("/number")] == [3.0] * 4
     (error,) = run(Sloppy, seconds=2, quiet=True).errors
     assert (error.type, error.text) == ("AssertionError", "The 'data' field must be of type 'float'")
 
@@ -86,7 +86,7 @@ class Wants(Node):
 def test_a_lenient_program_may_use_the_other_float():
     lenient = run(Process(Single, lenient=True), companions=[Wants], world="joint", seconds=4, quiet=True)
     assert lenient.errors == []
-    assert [heard.type for heard in lenient.messages("/joint_commands")] == ["std_msgs/msg/Float64"] * 4
+    assert [received.type for received in lenient.messages("/joint_commands")] == ["std_msgs/msg/Float64"] * 4
     assert lenient.messages("/joint_states")[-1].message.position[0] == pytest.approx(0.5, abs=0.01)
     for target in (Single, Process(Text, lenient=True)):
         (error,) = run(target, companions=[Wants], world="joint", seconds=4, quiet=True).errors

@@ -9,7 +9,7 @@ from rclpy.impl.rcutils_logger import CallerId
 from rclpy.node import Node
 
 from sim import Process, run
-from tests.sim.ros.evidence import raised, said, values, why
+from tests.sim.ros.evidence import logged, raised, values, why
 from tests.students.engine import names
 
 SETTINGS = {
@@ -19,11 +19,11 @@ SETTINGS = {
 
 
 def sent(target, seconds=1):
-    """(topic, sender, word) of what was said in the last moment."""
+    """(topic, sender, word) of what was published in the last moment."""
     recording = run(target, seconds=seconds, quiet=True)
     assert recording.errors == []
-    heard = recording.messages()[-1]
-    return heard.topic, heard.sender, heard.message.data
+    received = recording.messages()[-1]
+    return received.topic, received.sender, received.message.data
 
 
 @pytest.mark.parametrize("target", [names.Talker, names.arguments_from_the_command_line])
@@ -87,12 +87,12 @@ def test_two_of_a_kind_are_told_apart_by_namespace():
     assert recording.topics == {
         "/robot1/chatter": "std_msgs/msg/String", "/robot2/chatter": "std_msgs/msg/String",
     }  # fmt: skip
-    assert [heard.sender for heard in recording.messages()] == ["/robot1/talker", "/robot2/talker"]
+    assert [received.sender for received in recording.messages()] == ["/robot1/talker", "/robot2/talker"]
 
 
 def test_a_late_joiner_gets_the_last_latched_messages():
     recording = run(names.LatchedTalker, names.late_listener, seconds=3, quiet=True)
-    assert said(recording) == [(2.0, "1"), (2.0, "2"), (2.0, "3")]
+    assert logged(recording) == [(2.0, "1"), (2.0, "2"), (2.0, "3")]
     (publisher,) = recording.graph.publishers("/map")
     assert publisher.qos == {
         "reliability": "reliable", "durability": "transient_local", "history": "keep_last", "depth": 3,
@@ -101,14 +101,14 @@ def test_a_late_joiner_gets_the_last_latched_messages():
 
 
 def test_the_depth_of_a_queue_drops_the_oldest():
-    texts = [text for _, text in said(run(names.Bursts, seconds=1, quiet=True))]
+    texts = [text for _, text in logged(run(names.Bursts, seconds=1, quiet=True))]
     assert [text for text in texts if text.startswith("2:")] == ["2: 3", "2: 4"]
     assert [text for text in texts if text.startswith("10:")] == [f"10: {number}" for number in range(5)]
 
 
 def test_qos_that_does_not_match_is_warned_of_and_delivers_nothing():
     recording = run(names.Mismatch, seconds=2, quiet=True)
-    assert said(recording) == [
+    assert logged(recording) == [
         (0.0, "New subscription discovered on topic 'data', requesting incompatible QoS. "
               "No messages will be sent to it. Last incompatible policy: RELIABILITY"),
         (0.0, "New publisher discovered on topic 'data', offering incompatible QoS. "
@@ -119,29 +119,29 @@ def test_qos_that_does_not_match_is_warned_of_and_delivers_nothing():
 
 def test_wait_for_message_takes_one_or_gives_up():
     recording = run(names.waits_for_message, names.Talker, seconds=3, quiet=True)
-    assert said(recording) == [(1.0, "True hello"), (1.5, "False None")]
+    assert logged(recording) == [(1.0, "True hello"), (1.5, "False None")]
 
 
 def test_a_lifecycle_node_publishes_while_it_is_active():
     recording = run(names.lifecycle, seconds=4, quiet=True)
-    assert said(recording) == [(0.75, "configured"), (3.0, "cleaned up")]
+    assert logged(recording) == [(0.75, "configured"), (3.0, "cleaned up")]
     assert [stamp for stamp, _ in values(recording, "/count")] == [1.75]
     assert raised(recording) == []
 
 
 def test_entities_may_come_and_go():
     recording = run(names.Restless, seconds=4, quiet=True)
-    assert said(recording) == [(1.4, "heard"), (1.8, "heard"), (3.4, "heard"), (3.8, "heard")]
+    assert logged(recording) == [(1.4, "heard"), (1.8, "heard"), (3.4, "heard"), (3.8, "heard")]
     assert why(recording) == ("time", 4.0, "All 4 s were run.")
 
 
 def test_a_node_sees_the_others_in_the_graph():
-    assert said(run(names.Introspective, names.Talker, seconds=1, quiet=True)) == [
+    assert logged(run(names.Introspective, names.Talker, seconds=1, quiet=True)) == [
         (1.0, "['asker', 'talker'] ['/chatter']"), (1.0, "1 0"),
     ]  # fmt: skip
 
 
-def logged(*programs):
+def lines_of(*programs):
     return [(line.node, line.text) for line in run(*programs, seconds=1, quiet=True).logs]
 
 
@@ -149,17 +149,17 @@ def test_log_levels_are_those_of_a_program_or_of_a_logger():
     usual = [("logs", "info"), ("logs", "warning")]
     loud = Process(names.Logs, name="loud", arguments=["--ros-args", "--log-level", "debug"])
     still = Process(names.Logs, name="still", arguments=["--ros-args", "--log-level", "still:=WARN"])
-    assert logged(loud, names.Logs, still) == [
+    assert lines_of(loud, names.Logs, still) == [
         ("loud", "debug"), ("loud", "info"), ("loud", "warning"), *usual, ("still", "warning"),
     ]  # fmt: skip
-    assert logged(names.Logs) == usual
+    assert lines_of(names.Logs) == usual
 
 
 def test_a_program_may_keep_its_log_lines_from_rosout():
     silent = Process(names.Logs, name="silent", arguments=["--ros-args", "--disable-rosout-logs"])
     recording = run(names.HearsLogs, silent, names.Logs, seconds=1, quiet=True)
-    heard = [(stamp, text) for stamp, text in recording.prints if text.strip()]
-    assert heard == [(1.0, "logs: info"), (1.0, "logs: warning")]
+    received = [(stamp, text) for stamp, text in recording.prints if text.strip()]
+    assert received == [(1.0, "logs: info"), (1.0, "logs: warning")]
 
 
 def test_the_place_of_a_log_line_is_known_without_reading_sources(monkeypatch):

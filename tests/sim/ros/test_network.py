@@ -4,7 +4,7 @@ import pytest
 
 from sim import Network, Process, Recording, play, run
 from tests.bench import avoider
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.engine import actions, network, services
 
 FAR = Network(delay=0.25)
@@ -15,8 +15,8 @@ def through(between, talker, *hearers, seconds=10, **more):
     return run(Process(talker, host="robot"), *hearers, seconds=seconds, network=between, quiet=True, **more)
 
 
-def heard(recording):
-    return [(round(stamp, 6), int(text)) for stamp, text in said(recording)]
+def received(recording):
+    return [(round(stamp, 6), int(text)) for stamp, text in logged(recording)]
 
 
 def crossing(recording):
@@ -31,7 +31,7 @@ def best_effort():
 
 def test_a_delay_makes_messages_late():
     recording = through(FAR, network.Counter, network.Hearer, seconds=0.6)
-    assert heard(recording) == [(0.35, 1), (0.45, 2), (0.55, 3)]
+    assert received(recording) == [(0.35, 1), (0.45, 2), (0.55, 3)]
     assert [row.stamp for row in recording.messages("/count")] == pytest.approx(
         [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
     )
@@ -40,24 +40,24 @@ def test_a_delay_makes_messages_late():
 
 def test_programs_of_one_host_need_no_network():
     recording = run(network.Counter, network.Hearer, seconds=0.3, network=FAR, quiet=True)
-    assert heard(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
+    assert received(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
     assert recording.crossings == []
 
 
 def test_a_run_without_a_network_has_none_of_it():
     recording = through(None, network.Counter, network.Hearer, seconds=0.3)
-    assert heard(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
+    assert received(recording) == [(0.1, 1), (0.2, 2), (0.3, 3)]
     assert (recording.network, recording.hosts, recording.crossings) == (None, {}, [])
 
 
 def test_best_effort_loses_the_share_that_the_network_loses_and_what_is_overtaken(best_effort):
     row = crossing(best_effort)
-    numbers = [number for _, number in heard(best_effort)]
+    numbers = [number for _, number in received(best_effort)]
     assert row.sent == 600
     assert row.lost == pytest.approx(0.2 * 600, abs=25)  # five times sqrt(600 * 0.2 * 0.8) is 49
     assert len(numbers) == row.sent - row.lost - 1  # the last one is under way
     assert numbers == sorted(numbers)
-    ways = [stamp - number / 10 for stamp, number in heard(best_effort)]
+    ways = [stamp - number / 10 for stamp, number in received(best_effort)]
     assert 0.03 <= min(ways) < 0.032 and 0.068 < max(ways) <= 0.07
     assert row.late == pytest.approx(max(ways), abs=1e-6)
 
@@ -90,20 +90,20 @@ def test_a_play_loses_the_same(best_effort):
 def test_links_have_networks_of_their_own():
     links = {("robot", "laptop"): Network(delay=0.5), ("laptop", "robot"): Network(delay=0.125)}
     hearer = Process(network.Hearer, host="robot")
-    assert heard(through(Network(links=links), network.Counter, network.Hearer, seconds=0.7)) == [
+    assert received(through(Network(links=links), network.Counter, network.Hearer, seconds=0.7)) == [
         (0.6, 1), (0.7, 2),
     ]  # fmt: skip
     back = run(network.Counter, hearer, seconds=0.4, network=Network(links=links), quiet=True)
-    assert heard(back) == [(0.225, 1), (0.325, 2)]
+    assert received(back) == [(0.225, 1), (0.325, 2)]
     both_ways = Network(links={("robot", "base"): Network(delay=0.5)})
     talker = Process(network.Counter, host="base")
-    assert heard(run(talker, hearer, seconds=0.7, network=both_ways, quiet=True)) == [(0.6, 1), (0.7, 2)]
+    assert received(run(talker, hearer, seconds=0.7, network=both_ways, quiet=True)) == [(0.6, 1), (0.7, 2)]
 
 
 def test_bandwidth_is_shared_and_what_is_too_much_is_lost():
     narrow = Network(bandwidth=40)  # a number takes 8 bytes, so five a second; ten are sent
     recording = through(narrow, network.SloppyCounter, network.SloppyHearer, seconds=4)
-    assert heard(recording)[:3] == [(0.3, 1), (0.5, 2), (0.7, 3)]
+    assert received(recording)[:3] == [(0.3, 1), (0.5, 2), (0.7, 3)]
     assert crossing(recording).late == pytest.approx(1.2)
     assert crossing(recording).lost == 15
 
@@ -112,10 +112,10 @@ def test_reliable_messages_come_in_order_when_a_heartbeat_has_asked_for_the_lost
     recording = through(
         Network(loss=0.1, delay=0.02), network.DeepCounter, network.Hearer, seconds=20, seed=1
     )
-    numbers, row = [number for _, number in heard(recording)], crossing(recording)
+    numbers, row = [number for _, number in received(recording)], crossing(recording)
     assert numbers == list(range(1, len(numbers) + 1))
     assert (row.lost, row.resent) == (0, 18)
-    first_late = next((stamp, number) for stamp, number in heard(recording) if stamp > number / 10 + 0.021)
+    first_late = next((stamp, number) for stamp, number in received(recording) if stamp > number / 10 + 0.021)
     # 3 s after the first message; and the way there, back and there again, with 5 ms for each answer
     assert first_late == (pytest.approx(0.1 + 3 + 0.02 + 0.005 + 0.02 + 0.005 + 0.02), 14)
     assert row.late == pytest.approx(4.47)  # fifty messages fill the history, and then each asks
@@ -123,7 +123,7 @@ def test_reliable_messages_come_in_order_when_a_heartbeat_has_asked_for_the_lost
 
 def test_a_full_history_asks_at_once_and_forgets():
     recording = through(Network(loss=0.3, delay=0.02), network.ShallowCounter, network.Hearer, seconds=20)
-    row, numbers = crossing(recording), [number for _, number in heard(recording)]
+    row, numbers = crossing(recording), [number for _, number in received(recording)]
     assert numbers == sorted(numbers)
     assert (row.lost, row.resent, row.late) == (39, 28, pytest.approx(0.22))
     assert len(numbers) == row.sent - row.lost - 2  # the last ones are under way
@@ -131,7 +131,7 @@ def test_a_full_history_asks_at_once_and_forgets():
 
 def test_one_message_comes_at_last():
     seed = next(s for s in range(20) if crossing(lone(s)).resent)
-    ((stamp, number),) = heard(lone(seed))
+    ((stamp, number),) = received(lone(seed))
     assert number == 1 and stamp > 3.1
 
 
@@ -141,32 +141,32 @@ def lone(seed):
 
 def test_lifespans_end_on_the_way():
     recording = through(Network(delay=0.5), network.BriefCounter, network.Hearer, seconds=3)
-    assert said(recording) == []
+    assert logged(recording) == []
     assert crossing(recording).expired == 25
 
 
 def test_late_joiners_get_what_is_latched_through_the_network():
     recording = through(FAR, network.LatchingCounter, network.LateHearer, seconds=3)
-    assert heard(recording) == [(2.25, 3), (2.25, 4), (2.25, 5)]
+    assert received(recording) == [(2.25, 3), (2.25, 4), (2.25, 5)]
     lossy = through(Network(loss=0.5, delay=0.25), network.LatchingCounter, network.LateHearer, seconds=30)
-    assert [number for _, number in heard(lossy)] == [3, 4, 5]
+    assert [number for _, number in received(lossy)] == [3, 4, 5]
     assert crossing(lossy).resent > 0
 
 
 def test_what_is_under_way_arrives_though_its_publisher_has_gone():
     recording = through(FAR, network.speaks_and_leaves, network.Hearer, seconds=5)
-    assert heard(recording) == [(0.35, 1)]
+    assert received(recording) == [(0.35, 1)]
     assert (recording.ended.reason, crossing(recording).resent) == ("time", 0)
 
 
 def test_what_is_lost_stays_lost_when_its_publisher_has_gone():
     recording = through(Network(loss=1.0), network.speaks_and_leaves, network.Hearer, seconds=5)
-    assert (said(recording), crossing(recording).resent) == ([], 0)
+    assert (logged(recording), crossing(recording).resent) == ([], 0)
 
 
 def test_what_is_under_way_to_one_that_has_gone_reaches_nobody():
     recording = through(FAR, network.Counter, network.listens_for_a_moment, seconds=5)
-    assert (said(recording), recording.errors) == ([], [])
+    assert (logged(recording), recording.errors) == ([], [])
     assert crossing(recording).sent == 1
 
 
@@ -179,7 +179,7 @@ def test_a_robot_drives_over_the_radio():
 
 def test_a_publisher_that_keeps_all_is_stopped_by_a_full_history():
     recording = through(Network(loss=1.0), network.KeepsAll, network.HearsAll)
-    ((stamp, words),) = said(recording)
+    ((stamp, words),) = logged(recording)
     assert words == "5001: RCLError Failed to publish: cannot publish data"
     assert stamp == pytest.approx(1 + 4.0 + 0.1)  # from the 1001st on a message takes a millisecond
 

@@ -44,14 +44,14 @@ def test_each_robot_is_a_node_in_its_namespace(three):
     assert three.graph.nodes == ["/robot", "/leader/robot", "/carrier/robot", "/leader/driver", "/driver"]
     for name in ("leader", "carrier"):
         for sensor in SENSORS:
-            stamps = [heard.stamp for heard in three.messages(f"/{name}/{sensor}", f"/{name}/robot")]
-            assert stamps == [heard.stamp for heard in three.messages(f"/{sensor}", "/robot")]
+            stamps = [received.stamp for received in three.messages(f"/{name}/{sensor}", f"/{name}/robot")]
+            assert stamps == [received.stamp for received in three.messages(f"/{sensor}", "/robot")]
         (command,) = three.graph.subscriptions(f"/{name}/cmd_vel")
         assert command.node == f"/{name}/robot"
 
 
 def test_the_clock_is_the_first_robots_alone(three):
-    assert {heard.sender for heard in three.messages("/clock")} == {"/robot"}
+    assert {received.sender for received in three.messages("/clock")} == {"/robot"}
     assert len(three.messages("/clock")) == 601
 
 
@@ -61,9 +61,9 @@ def test_frames_begin_with_the_robots_name(three):
     assert scan.header.frame_id == "leader/base_scan"
     assert (odom.header.frame_id, odom.child_frame_id) == ("leader/odom", "leader/base_link")
     transforms = {
-        (heard.sender, transform.header.frame_id, transform.child_frame_id)
-        for heard in three.messages("/tf")
-        for transform in heard.message.transforms
+        (received.sender, transform.header.frame_id, transform.child_frame_id)
+        for received in three.messages("/tf")
+        for transform in received.message.transforms
     }
     assert transforms == {
         ("/robot", "odom", "base_link"),
@@ -98,13 +98,13 @@ def test_a_driver_commands_as_its_robot_takes_it():
     usual, recording = (run(world=world, seconds=4, quiet=True) for world in (convoy, stamped))
     assert recording.topics["/leader/cmd_vel"] == "geometry_msgs/msg/TwistStamped"
     assert recording.tracks == usual.tracks
-    heard = recording.messages("/leader/cmd_vel")[-1]
-    assert heard.message.header.frame_id == "base_link"
-    assert since_start(heard.message.header.stamp) == heard.stamp
+    received = recording.messages("/leader/cmd_vel")[-1]
+    assert received.message.header.frame_id == "base_link"
+    assert since_start(received.message.header.stamp) == received.stamp
 
 
 def test_a_driver_speaks_as_often_as_it_hears_and_smoothly(three):
-    commands = [heard.message for heard in three.messages("/leader/cmd_vel", "/leader/driver")]
+    commands = [received.message for received in three.messages("/leader/cmd_vel", "/leader/driver")]
     assert len(commands) == 600
     assert all(0 <= command.linear.x <= 0.3 for command in commands)
     turns = [command.angular.z for command in commands]
@@ -139,7 +139,7 @@ def test_a_driver_waits_while_something_stands_on_its_route(thing):
     track = recording.tracks["leader"]
     assert track[-1] == track[100]._replace(stamp=15.0)  # it has waited since 5 s or before
     assert 1.1 < track[-1].x < 1.6
-    commands = [heard.message.linear.x for heard in recording.messages("/leader/cmd_vel")]
+    commands = [received.message.linear.x for received in recording.messages("/leader/cmd_vel")]
     assert len(commands) == 300 and commands[-1] == 0.0
     assert recording.contacts == []
 

@@ -1,4 +1,4 @@
-"""The time of a run is the engine's alone: who would set it is told so."""
+"""Only the engine sets the time of a run: a program that tries gets an error."""
 
 import pytest
 

@@ -20,18 +20,18 @@ def workspace(tmp_path_factory):
         yield folder
 
 
-def said(target, **more):
+def logged(target, **more):
     recording = run(target, seconds=1.2, quiet=True, **more)
     assert recording.errors == []
-    return [heard.message.data for heard in recording.messages("/chatter")]
+    return [received.message.data for received in recording.messages("/chatter")]
 
 
 def test_an_entry_point_is_a_program_and_reads_its_files_again_each_time(workspace):
     talker = executable("my_pkg", "talker")
     assert talker.__name__ == "talker"
-    assert said(talker) == ["hello", "hello"]
+    assert logged(talker) == ["hello", "hello"]
     (workspace / "src/my_pkg/my_pkg/words.py").write_text("HELLO = 'good evening'\n")
-    assert said(talker) == ["good evening", "good evening"]
+    assert logged(talker) == ["good evening", "good evening"]
 
 
 def test_it_takes_the_settings_of_a_process(workspace):

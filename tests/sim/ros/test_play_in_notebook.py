@@ -43,9 +43,9 @@ class Kernel:
 
     def begin(self, source):
         """Begin a cell, and wait until it prints something: before that, an interrupt may get lost."""
-        cell, said = self.client.execute(source), {}
-        while (said.get("msg_type"), said.get("parent_header", {}).get("msg_id")) != ("stream", cell):
-            said = self.client.get_iopub_msg(timeout=PATIENCE)
+        cell, reply = self.client.execute(source), {}
+        while (reply.get("msg_type"), reply.get("parent_header", {}).get("msg_id")) != ("stream", cell):
+            reply = self.client.get_iopub_msg(timeout=PATIENCE)
 
     def eventually(self, expression):
         """Ask until it is true; between the questions the kernel is idle."""

@@ -44,7 +44,7 @@ def frames(made, count):
 
 def sent(made, topic="/cmd_vel"):
     """Forward and turning speed of each command."""
-    twists = [heard.message for heard in made.recording.messages(topic)]
+    twists = [received.message for received in made.recording.messages(topic)]
     return [(twist.linear.x, twist.angular.z) for twist in twists]
 
 
@@ -261,15 +261,15 @@ def in_another_thread(act):
 
     def attempt():
         try:
-            told.append(act())
+            reported.append(act())
         except RuntimeError as error:
-            told.append(str(error))
+            reported.append(str(error))
 
-    told = []
+    reported = []
     thread = threading.Thread(target=attempt)
     thread.start()
     thread.join(PATIENCE)
-    return told[0]
+    return reported[0]
 
 
 def test_another_thread_can_stop_it_but_not_move_it(robot):
@@ -408,7 +408,7 @@ def test_who_drives_by_hand_sends_what_the_robot_takes(clock):
         drive(made, 1.0, 0.5)
         made.play_frame()
     made.stop()
-    commands = [heard.message.twist for heard in made.recording.messages("/cmd_vel")]
+    commands = [received.message.twist for received in made.recording.messages("/cmd_vel")]
     assert {(command.linear.x, command.angular.z) for command in commands} == {(0.4, 0.5)}
 
 
@@ -469,11 +469,11 @@ def test_a_teleop_in_real_time_says_nothing():
     import rclpy
 
     rclpy.init()
-    node, heard, ticks = Teleop(), [], []
-    node.create_subscription(Twist, "cmd_vel", heard.append, 10)
+    node, received, ticks = Teleop(), [], []
+    node.create_subscription(Twist, "cmd_vel", received.append, 10)
     node.create_timer(1 / RATE, lambda: ticks.append(1))  # as often as it would send
     while len(ticks) < 10:
         rclpy.spin_once(node)
     node.destroy_node()
     rclpy.shutdown()
-    assert heard == []
+    assert received == []

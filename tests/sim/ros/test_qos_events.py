@@ -1,11 +1,11 @@
-"""Nodes are told who comes and goes, of deadlines, signs of life and lost messages; and messages expire."""
+"""QoS events: matched endpoints, deadlines, liveliness and lost messages; and messages expire."""
 
 import pytest
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 
 from sim import Network, Process, run
-from tests.sim.ros.evidence import raised, said
+from tests.sim.ros.evidence import logged, raised
 from tests.students.engine import network, qos_events
 
 COMING_AND_GOING = [
@@ -14,20 +14,20 @@ COMING_AND_GOING = [
 ]  # fmt: skip
 
 
-def heard(*programs):
+def received(*programs):
     recording = run(*programs, seconds=4, quiet=True)
     assert (raised(recording), recording.stderr) == ([], "")
-    return said(recording)
+    return logged(recording)
 
 
 @pytest.mark.parametrize("guest", [qos_events.Guest, qos_events.leaves])
 def test_a_node_is_told_who_comes_and_goes(guest):
-    assert heard(qos_events.Watcher, guest) == COMING_AND_GOING
-    assert heard(guest, qos_events.Watcher) == COMING_AND_GOING
+    assert received(qos_events.Watcher, guest) == COMING_AND_GOING
+    assert received(guest, qos_events.Watcher) == COMING_AND_GOING
 
 
-def told(*programs, **more):
-    """Who was told what, and when; of messages that count for nothing."""
+def events_of(*programs, **more):
+    """The events of each node, with their times."""
     recording = run(*programs, quiet=True, **more)
     assert (raised(recording), recording.stderr) == ([], "")
     return [(line.stamp, line.node, line.text) for line in recording.logs]
@@ -40,7 +40,7 @@ def both(stamp, count):
 def test_a_deadline_counts_from_the_first_message_and_again_and_again():
     missed = [1.6, 1.8, 2.0, 2.35, 2.55, 2.75, 2.95]
     expected = [row for count, stamp in enumerate(missed, 1) for row in both(stamp, count)]
-    assert told(qos_events.Punctual, qos_events.Waits, seconds=3) == expected
+    assert events_of(qos_events.Punctual, qos_events.Waits, seconds=3) == expected
 
 
 def test_a_deadline_passes_when_nothing_else_happens_and_stops_the_robot():
@@ -52,7 +52,7 @@ def test_a_deadline_passes_when_nothing_else_happens_and_stops_the_robot():
 
 
 def test_signs_of_life_are_missed_and_come_again():
-    assert told(qos_events.Manual, qos_events.Cares, seconds=4.2) == [
+    assert events_of(qos_events.Manual, qos_events.Cares, seconds=4.2) == [
         (1.5, "listens", "changed [1, 0] [1, 0]"),
         (2.3, "speaks", "lost [1] [1]"), (2.3, "listens", "changed [0, 1] [-1, 1]"),
         (3.0, "listens", "changed [1, 0] [1, -1]"),
@@ -62,7 +62,7 @@ def test_signs_of_life_are_missed_and_come_again():
 
 
 def test_on_best_effort_only_messages_are_signs_of_life():
-    assert told(qos_events.SloppyManual, qos_events.CaresLittle, seconds=3) == [
+    assert events_of(qos_events.SloppyManual, qos_events.CaresLittle, seconds=3) == [
         (1.5, "listens", "changed [1, 0] [1, 0]"),
         (2.0, "listens", "changed [0, 1] [-1, 1]"),
         (2.3, "speaks", "lost [1] [1]"),
@@ -70,14 +70,14 @@ def test_on_best_effort_only_messages_are_signs_of_life():
 
 
 def test_the_lease_of_a_subscription_may_be_longer():
-    assert told(qos_events.Manual, qos_events.CaresLonger, seconds=3) == [
+    assert events_of(qos_events.Manual, qos_events.CaresLonger, seconds=3) == [
         (1.5, "listens", "changed [1, 0] [1, 0]"), (2.3, "speaks", "lost [1] [1]"),
         (2.8, "listens", "changed [0, 1] [-1, 1]"), (3.0, "listens", "changed [1, 0] [1, -1]"),
     ]  # fmt: skip
 
 
 def test_who_is_there_is_alive_by_itself():
-    assert told(qos_events.steady_for_a_while, qos_events.CaresLonger, seconds=4) == [
+    assert events_of(qos_events.steady_for_a_while, qos_events.CaresLonger, seconds=4) == [
         (0.0, "listens", "changed [1, 0] [1, 0]"), (1.5, "listens", "changed [0, 0] [-1, 0]"),
     ]  # fmt: skip
 
@@ -85,20 +85,20 @@ def test_who_is_there_is_alive_by_itself():
 def test_lost_messages_are_told_with_the_next_one_that_comes():
     radio = Network(loss=0.2, delay=0.05)
     sloppy = Process(network.SloppyCounter, host="robot")
-    assert told(sloppy, qos_events.ListensOnBestEffort, seconds=3, network=radio) == [
+    assert events_of(sloppy, qos_events.ListensOnBestEffort, seconds=3, network=radio) == [
         (0.95, "listens", "missed [1] [1]"), (1.25, "listens", "missed [2] [1]"),
         (2.15, "listens", "missed [4] [2]"), (2.55, "listens", "missed [7] [3]"),
     ]  # fmt: skip
 
 
 def test_messages_that_wait_expire_in_simulated_time():
-    assert heard(qos_events.Talker, qos_events.Sleeper) == [
+    assert received(qos_events.Talker, qos_events.Sleeper) == [
         (0.5, "heard 0"), (2.25, "heard 2"), (4.0, "heard 6"),
     ]  # fmt: skip
 
 
 def test_latched_messages_expire_too():
-    assert heard(qos_events.latched_talker, qos_events.late) == [
+    assert received(qos_events.latched_talker, qos_events.late) == [
         (2.25, "heard 2"), (2.25, "heard 3"), (2.5, "heard 4"), (3.0, "heard 5"), (3.5, "heard 6"),
         (4.0, "heard 7"),
     ]  # fmt: skip

@@ -8,7 +8,7 @@ import pytest
 from sim import Process, World, run
 from sim.evidence import since_start
 from sim.world import DT, RobotModel
-from tests.sim.ros.evidence import said, values
+from tests.sim.ros.evidence import logged, values
 from tests.students.engine import drivers
 
 MODEL = RobotModel()
@@ -35,9 +35,9 @@ def still():
     return run(drivers.Watcher, world="room", seconds=2, quiet=True)
 
 
-def heard(recording, topic):
+def received(recording, topic):
     """(stamp, message) of every message."""
-    return [(heard.stamp, heard.message) for heard in recording.messages(topic)]
+    return [(received.stamp, received.message) for received in recording.messages(topic)]
 
 
 def yaw_of(orientation):
@@ -69,20 +69,20 @@ def test_stamps_in_messages_are_the_times_they_were_sent(straight):
     headers = {"/odom": lambda m: m.header, "/scan": lambda m: m.header, "/joint_states": lambda m: m.header,
                "/tf": lambda m: m.transforms[0].header}  # fmt: skip
     for topic, header in headers.items():
-        inside = [since_start(header(m).stamp) for _, m in heard(straight, topic)]
+        inside = [since_start(header(m).stamp) for _, m in received(straight, topic)]
         assert inside == TICKS
-    assert [since_start(m.clock) for _, m in heard(straight, "/clock")] == TICKS
+    assert [since_start(m.clock) for _, m in received(straight, "/clock")] == TICKS
 
 
 def test_messages_reach_reliable_and_best_effort_listeners_at_once(still):
-    assert said(still)[:4] == [
+    assert logged(still)[:4] == [
         (0.05, "odom 1735689600050000000 0"), (0.05, "scan 1735689600050000000 0"),
         (0.1, "odom 1735689600100000000 0"), (0.1, "scan 1735689600100000000 0"),
     ]  # fmt: skip
 
 
 def test_frames_are_those_of_rep_105(straight):
-    (_, odom), (_, scan), (_, tf) = (heard(straight, topic)[-1] for topic in ("/odom", "/scan", "/tf"))
+    (_, odom), (_, scan), (_, tf) = (received(straight, topic)[-1] for topic in ("/odom", "/scan", "/tf"))
     assert (odom.header.frame_id, odom.child_frame_id) == ("odom", "base_link")
     assert scan.header.frame_id == "base_scan"
     (transform,) = tf.transforms
@@ -95,7 +95,7 @@ def test_where_the_lidar_sits_is_said_once_and_kept():
     recording = run(world=turned, seconds=1, quiet=True)
     (end,) = recording.graph.publishers("/tf_static")
     assert (end.node, end.qos["durability"]) == ("/robot", "transient_local")
-    ((stamp, message),) = heard(recording, "/tf_static")
+    ((stamp, message),) = received(recording, "/tf_static")
     (transform,) = message.transforms
     assert (stamp, transform.header.frame_id, transform.child_frame_id) == (0.0, "base_link", "base_scan")
     place = transform.transform.translation
@@ -104,7 +104,7 @@ def test_where_the_lidar_sits_is_said_once_and_kept():
 
 def test_odometry_follows_the_ramp_and_its_sum(straight):
     """Speed rises 2 m/s^2 from the first command at 0.1 s; the way is the sum of the speeds before."""
-    for stamp, odom in heard(straight, "/odom"):
+    for stamp, odom in received(straight, "/odom"):
         steps = max(round((stamp - 0.1) / DT), 0)
         way = sum(speed_after(step) * DT for step in range(steps))
         assert odom.twist.twist.linear.x == pytest.approx(speed_after(steps), abs=1e-12)
@@ -113,7 +113,7 @@ def test_odometry_follows_the_ramp_and_its_sum(straight):
 
 
 def test_odometry_and_transform_say_the_same(straight):
-    for (_, odom), (_, tf) in zip(heard(straight, "/odom"), heard(straight, "/tf"), strict=True):
+    for (_, odom), (_, tf) in zip(received(straight, "/odom"), received(straight, "/tf"), strict=True):
         pose, move = odom.pose.pose, tf.transforms[0].transform
         assert (pose.position.x, pose.position.y) == (move.translation.x, move.translation.y)
         assert pose.orientation == move.rotation
@@ -121,7 +121,7 @@ def test_odometry_and_transform_say_the_same(straight):
 
 def test_turning_is_counter_clockwise_in_radians():
     recording = run(drivers.Turner, world="yard", seconds=2, quiet=True)
-    (_, before), (_, after) = heard(recording, "/odom")[20], heard(recording, "/odom")[40]
+    (_, before), (_, after) = received(recording, "/odom")[20], received(recording, "/odom")[40]
     assert yaw_of(after.pose.pose.orientation) - yaw_of(before.pose.pose.orientation) == pytest.approx(1.0)
     assert after.twist.twist.angular.z == 1.0
     assert math.hypot(after.pose.pose.position.x, after.pose.pose.position.y) == 0.0
@@ -130,7 +130,7 @@ def test_turning_is_counter_clockwise_in_radians():
 def test_a_circle_has_radius_v_by_w():
     recording = run(drivers.Circler, world="yard", seconds=6, quiet=True)
     centres = []
-    for stamp, odom in heard(recording, "/odom"):
+    for stamp, odom in received(recording, "/odom"):
         position, yaw = odom.pose.pose.position, yaw_of(odom.pose.pose.orientation)
         if stamp > 0.5:
             centres.append((position.x - 0.5 * math.sin(yaw), position.y + 0.5 * math.cos(yaw)))
@@ -138,7 +138,7 @@ def test_a_circle_has_radius_v_by_w():
 
 
 def test_wheels_roll_as_far_as_the_robot_drives(straight):
-    joints, odom = heard(straight, "/joint_states"), heard(straight, "/odom")
+    joints, odom = received(straight, "/joint_states"), received(straight, "/odom")
     for (_, joint), (_, pose) in zip(joints, odom, strict=True):
         assert joint.name == ["wheel_left_joint", "wheel_right_joint"]
         way, speed = pose.pose.pose.position.x, pose.twist.twist.linear.x
@@ -158,7 +158,7 @@ def test_where_its_world_says_so_the_robot_takes_stamped_commands(straight):
 def test_without_commands_the_robot_stops_after_half_a_second():
     recording = run(drivers.CommandsOnce, world="yard", seconds=2, quiet=True)
     assert [h.stamp for h in recording.messages("/cmd_vel")] == [0.1]
-    speeds = {stamp: odom.twist.twist.linear.x for stamp, odom in heard(recording, "/odom")}
+    speeds = {stamp: odom.twist.twist.linear.x for stamp, odom in received(recording, "/odom")}
     assert speeds[0.6] == 0.5
     assert speeds[0.65] == pytest.approx(0.4)
     assert all(speed == 0.0 for stamp, speed in speeds.items() if stamp >= 0.85)
@@ -170,7 +170,7 @@ def test_without_commands_the_robot_stops_after_half_a_second():
 def test_a_command_that_is_no_number_is_told_once_a_second_and_ignored(driver, command):
     recording = run(driver, world="yard", seconds=2.5, quiet=True)
     words = f"Velocity commands are finite numbers; this one was {command}: check how it was worked out."
-    assert said(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
+    assert logged(recording) == [(stamp, words) for stamp in (0.1, 1.1, 2.1)]
     assert {(line.level, line.node) for line in recording.logs} == {("ERROR", "robot")}
     assert recording.path[-1] == (2.5, 0.0, 0.0, 0.0)
     assert recording.errors == []
@@ -180,10 +180,10 @@ def test_a_flood_of_commands_is_told_once_a_second_and_obeyed():
     recording = run(drivers.Flood, world="yard", seconds=2.5, quiet=True)
     assert tuple(recording.ended) == ("time", 2.5, "All 2.5 s were run.")
     assert len(recording.messages("/cmd_vel")) == 25_000
-    assert said(recording) == [(stamp, FLOOD) for stamp in (0.05, 1.05, 2.05)]
+    assert logged(recording) == [(stamp, FLOOD) for stamp in (0.05, 1.05, 2.05)]
     assert {(line.level, line.node) for line in recording.logs} == {("WARN", "robot")}
-    assert [stamp for stamp, _ in heard(recording, "/scan")] == [tick / 20 for tick in range(51)]
-    assert heard(recording, "/odom")[-1][1].twist.twist.linear.x == 0.5
+    assert [stamp for stamp, _ in received(recording, "/scan")] == [tick / 20 for tick in range(51)]
+    assert received(recording, "/odom")[-1][1].twist.twist.linear.x == 0.5
 
 
 @pytest.mark.parametrize("first, second, end", [
@@ -192,13 +192,13 @@ def test_a_flood_of_commands_is_told_once_a_second_and_obeyed():
 def test_of_two_that_command_at_once_the_later_is_obeyed(first, second, end):
     recording = run(first, Process(second, name="other"), world="yard", seconds=2, quiet=True)
     assert {h.sender for h in recording.messages("/cmd_vel")} == {"/driver", "/other"}
-    twist = heard(recording, "/odom")[-1][1].twist.twist
+    twist = received(recording, "/odom")[-1][1].twist.twist
     assert (twist.linear.x, twist.angular.z) == end
     assert recording.logs == []
 
 
 def test_a_scan_begins_ahead_and_goes_round_to_the_left(still):
-    (_, scan) = heard(still, "/scan")[0]
+    (_, scan) = received(still, "/scan")[0]
     assert len(scan.ranges) == 360
     step = math.tau / 360
     assert (scan.angle_min, scan.angle_increment) == (0.0, pytest.approx(step))
@@ -210,7 +210,7 @@ def test_a_scan_begins_ahead_and_goes_round_to_the_left(still):
 
 def test_a_scan_shows_the_room(still):
     """From the middle of the room: walls 3 m ahead, left and behind, a box 1.5 m to the right."""
-    for _, scan in heard(still, "/scan"):
+    for _, scan in received(still, "/scan"):
         assert [scan.ranges[angle] for angle in (0, 90, 180, 270)] == pytest.approx([3, 3, 3, 1.5], abs=0.06)
         assert scan.ranges[315] == math.inf  # the corner is 4.2 m away
 
@@ -225,7 +225,7 @@ def test_the_noise_of_a_scan_depends_on_the_seed_alone():
 
 
 def test_in_an_empty_yard_the_lidar_sees_nothing(straight):
-    (_, scan) = heard(straight, "/scan")[-1]
+    (_, scan) = received(straight, "/scan")[-1]
     assert set(scan.ranges) == {math.inf}
 
 
@@ -237,7 +237,7 @@ def test_a_wall_stops_the_robot_and_presses_the_bumper():
     assert pressed[0] == pytest.approx(contact.stamp, abs=0.05) and pressed[0] >= contact.stamp
     assert (contact.side, contact.what, contact.end) == ("front", "wall", None)
     assert recording.path[-1].x == pytest.approx(2.9, abs=0.005)
-    assert heard(recording, "/odom")[-1][1].pose.pose.position.x > 3.5
+    assert received(recording, "/odom")[-1][1].pose.pose.position.x > 3.5
 
 
 def test_the_path_is_the_truth_in_the_map_frame():
@@ -245,6 +245,6 @@ def test_the_path_is_the_truth_in_the_map_frame():
     recording = run(drivers.Driver, world="maze", seconds=1, quiet=True)
     assert recording.path[0] == (0.0, 0.5, 0.5, pytest.approx(math.pi / 2))
     assert [pose.stamp for pose in recording.path] == TICKS[:21]
-    ahead = heard(recording, "/odom")[-1][1].pose.pose.position.x
+    ahead = received(recording, "/odom")[-1][1].pose.pose.position.x
     assert recording.path[-1].y - 0.5 == pytest.approx(ahead, abs=1e-3)
     assert recording.path[-1].x == pytest.approx(0.5, abs=1e-6)

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import said, why
+from tests.sim.ros.evidence import logged, why
 from tests.students.engine import services
 
 BLOCKED = (
@@ -34,36 +34,36 @@ def spin_line_in_a_callback():
 )
 def test_an_answer_comes_at_once(adder, customer):
     recording = run(adder, customer, seconds=2, quiet=True)
-    assert said(recording) == [(0.0, "sum 5")]
+    assert logged(recording) == [(0.0, "sum 5")]
     assert (recording.errors, recording.stderr) == ([], "")
 
 
 def test_a_client_waits_for_a_late_server():
     """rclpy looks for the server every 0.25 s."""
     recording = run(services.until_future_complete, services.late_adder, seconds=4, quiet=True)
-    assert said(recording) == [(1.0, "waiting"), (2.0, "waiting"), (2.5, "sum 5")]
+    assert logged(recording) == [(1.0, "waiting"), (2.0, "waiting"), (2.5, "sum 5")]
 
 
 def test_a_slow_service_takes_its_time():
     recording = run(services.SlowAdder, services.until_future_complete_with_timeout, seconds=4, quiet=True)
-    assert said(recording) == [(0.2, "done False"), (0.4, "done False"), (0.5, "done True")]
+    assert logged(recording) == [(0.2, "done False"), (0.4, "done False"), (0.5, "done True")]
 
 
 def test_answers_come_in_the_order_of_the_requests():
     recording = run(services.SlowAdder, services.many_calls, seconds=4, quiet=True)
-    assert said(recording) == [(0.5 * n, f"sum {n}") for n in range(1, 6)]
+    assert logged(recording) == [(0.5 * n, f"sum {n}") for n in range(1, 6)]
 
 
 def test_without_a_server_nothing_comes():
     recording = run(services.nobody_answers, seconds=9, quiet=True)
-    assert said(recording) == [(1.5, "there False"), (2.5, "done False")]
+    assert logged(recording) == [(1.5, "there False"), (2.5, "done False")]
     assert why(recording) == ("finished", 3.5, "Every program had ended by t = 2.5 s.")
 
 
 @pytest.mark.parametrize("program", [services.multi_reentrant, services.await_reentrant])
 def test_a_reentrant_group_lets_a_callback_wait_for_an_answer(program):
     recording = run(services.Adder, program, seconds=3, quiet=True)
-    assert said(recording) == [(1.0, "sum 5"), (2.0, "sum 5"), (3.0, "sum 5")]
+    assert logged(recording) == [(1.0, "sum 5"), (2.0, "sum 5"), (3.0, "sum 5")]
     assert why(recording) == ("time", 3.0, "All 3 s were run.")
 
 
@@ -75,7 +75,7 @@ def test_a_reentrant_group_lets_a_callback_wait_for_an_answer(program):
 def test_a_call_that_blocks_its_own_answer_is_named(program, reason):
     recording = run(services.Adder, program, seconds=3, quiet=True)
     assert why(recording) == ("blocked", 3.0, BLOCKED.format(line_of(CALL), CALL, reason))
-    assert said(recording) == []
+    assert logged(recording) == []
 
 
 def test_spinning_in_a_callback_blocks_in_the_default_group():
@@ -103,16 +103,16 @@ def test_the_graph_names_service_and_client():
 
 
 def test_parameters_are_declared_set_and_refused():
-    assert said(run(services.WheelThatSetsItself, seconds=1, quiet=True)) == [
+    assert logged(run(services.WheelThatSetsItself, seconds=1, quiet=True)) == [
         (0.0, "0.1 left"), (1.0, "0.2: True"), (1.0, "-1.0: False a radius is positive"), (1.0, "0.2 left"),
     ]  # fmt: skip
 
 
 def test_parameters_are_reached_over_services():
     recording = run(services.Wheel, services.parameter_services, seconds=2, quiet=True)
-    assert said(recording) == [(0.0, "0.1 left"), (0.0, "radius 0.1"), (0.0, "set True")]
+    assert logged(recording) == [(0.0, "0.1 left"), (0.0, "radius 0.1"), (0.0, "set True")]
 
 
 def test_a_call_that_is_watched_is_told_in_four_events():
     recording = run(services.WatchesItself, seconds=2, quiet=True)
-    assert (recording.errors, sorted(said(recording))) == ([], [(1.0, str(kind)) for kind in range(4)])
+    assert (recording.errors, sorted(logged(recording))) == ([], [(1.0, str(kind)) for kind in range(4)])

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.engine import tasks
 
 pytestmark = pytest.mark.pythons
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.pythons
 def test_the_newest_task_runs_first():
     recording = run(tasks.in_which_order, seconds=3, quiet=True)
     order = ("third", "second", "first")
-    assert said(recording) == [
+    assert logged(recording) == [
         *((0.0, f"{name} begins") for name in order),
         *((0.5, f"{name} goes on") for name in order),
     ]

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import said, times
+from tests.sim.ros.evidence import logged, times
 from tests.students.engine import threads
 
 pytestmark = pytest.mark.pythons
@@ -41,41 +41,41 @@ CASES = {
 @pytest.mark.parametrize("program", CASES, ids=[f"{program.__name__}-{n}" for n, program in enumerate(CASES)])
 def test_what_a_program_with_threads_does_until_two_seconds(program):
     recording = run(program, seconds=2, quiet=True)
-    assert said(recording) == CASES[program]
+    assert logged(recording) == CASES[program]
     assert (recording.errors, recording.stderr) == ([], "")
 
 
 def test_locks_of_every_kind_take_simulated_time():
-    assert said(run(threads.all_primitives, seconds=5, quiet=True))[5:] == [
+    assert logged(run(threads.all_primitives, seconds=5, quiet=True))[5:] == [
         (2.1, "rlock at once False"), (2.5, "rlock"), (3.0, "timer"),
     ]  # fmt: skip
 
 
 def test_a_multi_threaded_executor_runs_no_more_than_its_threads():
-    assert said(run(threads.more_work_than_threads, seconds=3.5, quiet=True)) == [
+    assert logged(run(threads.more_work_than_threads, seconds=3.5, quiet=True)) == [
         (2.5, "a"), (2.5, "b"), (3.0, "c"),
     ]  # fmt: skip
 
 
 def test_timeouts_of_queues_and_semaphores_are_simulated():
-    assert said(run(threads.queue_timeout, seconds=4, quiet=True)) == [(1.5, "empty")]
-    assert said(run(threads.semaphore_timeout, seconds=4, quiet=True)) == [(1.5, "False"), (3.0, "False")]
+    assert logged(run(threads.queue_timeout, seconds=4, quiet=True)) == [(1.5, "empty")]
+    assert logged(run(threads.semaphore_timeout, seconds=4, quiet=True)) == [(1.5, "False"), (3.0, "False")]
 
 
 @pytest.mark.xfail(strict=True, reason="all fibers are one thread to threading.local")
 def test_threads_have_their_own_local_storage():
-    assert said(run(threads.thread_local_storage, seconds=4, quiet=True)) == [
+    assert logged(run(threads.thread_local_storage, seconds=4, quiet=True)) == [
         (0.0, "other has nothing"), (0.25, "main has main"), (0.5, "other has other"),
     ]  # fmt: skip
 
 
 def test_threads_have_their_own_names():
-    assert said(run(threads.thread_names, seconds=1, quiet=True)) == [(0.0, "worker")]
+    assert logged(run(threads.thread_names, seconds=1, quiet=True)) == [(0.0, "worker")]
 
 
 def test_threads_without_names_have_those_of_a_fresh_program():
     for _ in range(2):
-        assert said(run(threads.names_that_python_gives, seconds=2, quiet=True)) == [
+        assert logged(run(threads.names_that_python_gives, seconds=2, quiet=True)) == [
             (0.0, "Thread-1 (work)"), (0.0, "Thread-2 (work)"), (0.0, "ThreadPoolExecutor-0_0"),
             (1.0, "ThreadPoolExecutor-1_0"), (1.25, "ThreadPoolExecutor-1_1"),
             (2.0, "ThreadPoolExecutor-1_0"),

@@ -3,7 +3,7 @@
 import pytest
 
 from sim import run
-from tests.sim.ros.evidence import said, times
+from tests.sim.ros.evidence import logged, times
 from tests.students.engine import timing
 
 pytestmark = pytest.mark.pythons
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.pythons
 def stamps(program, seconds=4):
     recording = run(program, seconds=seconds, quiet=True)
     assert (recording.errors, recording.stderr) == ([], "")
-    return said(recording)
+    return logged(recording)
 
 
 def test_timers_on_every_kind_of_clock_tick_together():

@@ -12,7 +12,7 @@ from tests.students.engine import topics
 PROGRAMS = [
     *([found(module, name)] for module, names in ALONE.items() for name in names),
     *([found(*one), found(*other)] for one, other in TOGETHER),
-    # The middleware has one program here, and carries what is said before two would have found each other.
+    # The middleware has one program here, and carries what two would publish before discovery.
     *([getattr(observers, one), getattr(observers, other)] for one, other in LOOKING if one != "Gossip"),
     [topics.EveryProfile],
     [topics.ForgetsEnds],
@@ -20,7 +20,7 @@ PROGRAMS = [
 ]
 
 
-def said(recording: Recording) -> list[str]:
+def logged(recording: Recording) -> list[str]:
     return [line.text for line in recording.logs]
 
 
@@ -50,14 +50,14 @@ def test_a_robot_is_the_same_with_the_middleware_in_between(monkeypatch):
 
 
 def test_late_listeners_get_what_is_latched_and_nobody_else_does():
-    lines = said(run(topics.EveryProfile, seconds=2, quiet=True))
+    lines = logged(run(topics.EveryProfile, seconds=2, quiet=True))
     assert late(lines, "chat_0") == ["word 2", "last word"]  # both latch, and two fit into the queue
     assert late(lines, "chat_1") == ["last word"]
     assert late(lines, "chat_8") == []  # they don't suit each other
 
 
 def test_what_a_publisher_has_latched_goes_with_it():
-    assert said(run(topics.ForgetsEnds, seconds=3, quiet=True)) == [
+    assert logged(run(topics.ForgetsEnds, seconds=3, quiet=True)) == [
         "of the one that goes",
         "of the one that stays",
         "of the one that stays",
@@ -67,7 +67,7 @@ def test_what_a_publisher_has_latched_goes_with_it():
 
 def test_bytes_that_are_no_message_reach_nobody():
     recording = run(topics.Garbage, seconds=2.5, quiet=True)
-    assert said(recording) == ["a message", "a message"]
+    assert logged(recording) == ["a message", "a message"]
     assert not recording.errors
 
 
@@ -79,7 +79,7 @@ def test_a_destroyed_publisher_refuses_to_publish():
 
 @pytest.mark.parametrize("programs", [
     [topics.Hears, topics.SaysItAtOnce], [topics.SaysItAtOnce, topics.Hears],
-], ids=["heard before", "heard after"])  # fmt: skip
+], ids=["matched before", "matched after"])  # fmt: skip
 def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs):
     recording = run(*programs, seconds=3, quiet=True)
     assert [(line.stamp, line.text) for line in recording.logs] == [
@@ -90,20 +90,20 @@ def test_what_is_said_before_two_programs_have_found_each_other_is_lost(programs
         lost if programs[0] is topics.Hears else lost[1:]
     )
     assert len(recording.messages("/more_words")) == 3
-    early = [(heard.stamp, heard.topic) for heard in recording.messages() if heard.early]
+    early = [(received.stamp, received.topic) for received in recording.messages() if received.early]
     assert early == [(0.0, "/words"), *((stamp, "/more_words") for stamp in (1.0, 2.0, 3.0))]
 
 
 def test_what_is_latched_is_not_lost():
     recording = run(topics.HearsWhatIsLatched, topics.SaysItAtOnceAndLatches, seconds=1, quiet=True)
-    assert said(recording) == ["in __init__", "from a timer", "in a new one"]
+    assert logged(recording) == ["in __init__", "from a timer", "in a new one"]
     assert recording.undelivered == []
-    assert not any(heard.early for heard in recording.messages())
+    assert not any(received.early for received in recording.messages())
 
 
 def test_nodes_of_one_program_know_each_other_at_once():
     recording = run(topics.both_in_one_program, seconds=1, quiet=True)
-    assert said(recording) == ["in __init__", "from a timer", "in a new one"]
+    assert logged(recording) == ["in __init__", "from a timer", "in a new one"]
     assert recording.undelivered == []
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from sim import Process, executable, run
 from sim.ros.launching import files
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.engine import turtles
 
 BEGIN = """\
@@ -113,9 +113,9 @@ def test_two_ponds_in_namespaces_and_a_turtle_that_moves_as_the_other_does(mimic
     one, other = (mimicked.messages(f"/turtlesim{number}/turtle1/pose") for number in (1, 2))
     assert len(one) == len(other) == 500
     centre = mimicked.path[0].x, mimicked.path[0].y + 2
-    for heard in (*one[100:], *other[100:]):
-        assert math.dist((heard.message.x, heard.message.y), centre) == pytest.approx(2.0, abs=0.05)
-        assert heard.message.angular_velocity == 1.0
+    for received in (*one[100:], *other[100:]):
+        assert math.dist((received.message.x, received.message.y), centre) == pytest.approx(2.0, abs=0.05)
+        assert received.message.angular_velocity == 1.0
     assert {each.sender for each in mimicked.messages("/turtlesim2/turtle1/cmd_vel")} == {"/mimic"}
 
 
@@ -127,8 +127,8 @@ def test_the_picture_shows_the_first_pond_and_the_other_has_its_own(mimicked):
         mimicked.messages(f"/turtlesim{number}/turtle1/color_sensor")[0].message.r for number in (1, 2)
     ]
     assert colours == [69, 200]
-    told = [line.text for line in mimicked.logs if line.node == "launch"]
-    assert told == [TAKEN, ONE_MORE]
+    texts = [line.text for line in mimicked.logs if line.node == "launch"]
+    assert texts == [TAKEN, ONE_MORE]
 
 
 def test_without_a_world_a_pond_is_there_and_no_picture(tmp_path):
@@ -146,7 +146,7 @@ def test_a_follower_swims_to_the_target_argument(tmp_path):
     assert recording.tracks["turtle2"][-1][1:3] == pytest.approx((5.544, 7.544), abs=0.01)
     assert "- Translation: [0.000, 2.000, 0.000]\n" in "".join(text for _, text in recording.prints)
     assert "Spawning turtle [turtle2] at x=[4.000000], y=[2.000000], theta=[0.000000]" in [
-        text for _, text in said(recording)
+        text for _, text in logged(recording)
     ]
 
 
@@ -166,9 +166,9 @@ def test_the_event_handler_tutorial_gets_output_and_exits_of_programs(tmp_path):
     path = file(tmp_path, "events.launch.py", EVENTS, WORDS)
     recording = run(path, world="turtlesim", seconds=8, quiet=True)
     assert (recording.errors, recording.ended.stamp) == ([], 3.0)
-    told = [(line.stamp, line.text) for line in recording.logs if line.node == "launch.user"]
+    texts = [(line.stamp, line.text) for line in recording.logs if line.node == "launch.user"]
     request = "turtlesim.srv.Spawn_Request(x=2.0, y=2.0, theta=0.2, name='')"
-    assert told == [
+    assert texts == [
         (0.0, "It begins"),
         (0.0, f"It says requester: making request: {request}"),
         (0.0, "It says "),
@@ -189,7 +189,7 @@ def test_the_event_handler_tutorial_gets_output_and_exits_of_programs(tmp_path):
 def test_the_bundled_launch_file_of_turtlesim_starts_two_ponds():
     recording = run("turtlesim multisim.launch.py", world="turtlesim", seconds=0.2, quiet=True)
     assert recording.errors == []
-    ponds = {heard.sender for heard in recording.published if heard.type == "turtlesim/msg/Pose"}
+    ponds = {received.sender for received in recording.published if received.type == "turtlesim/msg/Pose"}
     assert ponds == {"/turtlesim1/turtlesim", "/turtlesim2/turtlesim"}
 
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from sim import Process, run
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.engine import turtles
 
 MIDDLE = 5.544444561004639
@@ -37,7 +37,7 @@ def test_a_follower_comes_to_the_turtle():
     recording = in_pond(turtles.Follower)
     assert last(recording, "turtle2") == pytest.approx((5.543863130784561, 5.542526930140358), abs=1e-6)
     assert "Spawning turtle [turtle2] at x=[4.000000], y=[2.000000], theta=[0.000000]" in [
-        text for _, text in said(recording)
+        text for _, text in logged(recording)
     ]
 
 
@@ -58,8 +58,8 @@ def test_a_follower_runs_after_a_carrot_that_moves():
 def test_a_follower_with_a_delay_of_5_s_goes_to_where_the_turtle_was(follower, starts):
     recording = in_pond(turtles.Nudge, follower, seconds=22)
     begins = [
-        heard.stamp
-        for heard in recording.messages("/turtle2/cmd_vel")
-        if heard.stamp > 14.5 and heard.message.linear.x > 0.1
+        received.stamp
+        for received in recording.messages("/turtle2/cmd_vel")
+        if received.stamp > 14.5 and received.message.linear.x > 0.1
     ]
     assert begins[0] == pytest.approx(starts)

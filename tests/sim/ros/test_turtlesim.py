@@ -6,7 +6,7 @@ import pytest
 
 from sim import Recording, World, run
 from sim.world import PenDrawing
-from tests.sim.ros.evidence import said
+from tests.sim.ros.evidence import logged
 from tests.students.engine.pond import script
 
 MIDDLE, SIDE = 5.544444561004639, 11.088889122009277
@@ -21,17 +21,17 @@ def in_pond(*steps, seconds=4.0):
 
 
 def news(recording, levels=("INFO", "WARN", "ERROR")):
-    """What was said after the beginning: (stamp, text)."""
+    """What was logged after the beginning: (stamp, text)."""
     return [(line.stamp, line.text) for line in recording.logs[2:] if line.level in levels]
 
 
 def colours(recording):
     """What turtle1 saw beneath itself: (stamp, colour) whenever that changed."""
     seen = []
-    for heard in recording.messages("/turtle1/color_sensor"):
-        colour = heard.message.r, heard.message.g, heard.message.b
+    for received in recording.messages("/turtle1/color_sensor"):
+        colour = received.message.r, received.message.g, received.message.b
         if not seen or seen[-1][1] != colour:
-            seen.append((heard.stamp, colour))
+            seen.append((received.stamp, colour))
     return seen
 
 
@@ -62,27 +62,27 @@ def test_names_and_types_are_upstreams(ahead):
         ("service", "/turtle1/teleport_relative"): "turtlesim/srv/TeleportRelative",
         ("action server", "/turtle1/rotate_absolute"): "turtlesim/action/RotateAbsolute",
     }
-    assert said(ahead) == [(0.0, "Starting turtlesim with node name /turtlesim"), (0.0, TURTLE1)]
+    assert logged(ahead) == [(0.0, "Starting turtlesim with node name /turtlesim"), (0.0, TURTLE1)]
 
 
 def test_a_turtle_waits_in_the_middle_and_tells_so_every_16_ms(ahead):
-    heard = ahead.messages("/turtle1/pose")
-    assert [item.stamp for item in heard] == [pytest.approx(0.016 * tick) for tick in range(1, 251)]
-    first = heard[0].message
+    received = ahead.messages("/turtle1/pose")
+    assert [item.stamp for item in received] == [pytest.approx(0.016 * tick) for tick in range(1, 251)]
+    first = received[0].message
     assert (first.x, first.y, first.theta) == (MIDDLE, MIDDLE, 0.0)
     assert ahead.path[0] == (0.0, MIDDLE, MIDDLE, 0.0)
 
 
 def test_a_command_holds_for_a_second(ahead):
-    heard = ahead.messages("/turtle1/pose")
-    moving = [item.stamp for item in heard if item.message.linear_velocity == 1.0]
+    received = ahead.messages("/turtle1/pose")
+    moving = [item.stamp for item in received if item.message.linear_velocity == 1.0]
     assert (moving[0], moving[-1], len(moving)) == (1.008, 2.0, 63)
     assert ahead.path[-1][1:] == pytest.approx((MIDDLE + 63 * 0.016, MIDDLE, 0.0))
 
 
 def test_a_circle_wraps_around_and_theta_stays_within_pi():
     recording = in_pond(*((0.5 * n, "swim", "turtle1", 2.0, 0.0, 1.8) for n in range(1, 8)))
-    angles = [heard.message.theta for heard in recording.messages("/turtle1/pose")]
+    angles = [received.message.theta for received in recording.messages("/turtle1/pose")]
     assert -math.pi <= min(angles) < -3.1 and 3.1 < max(angles) <= math.pi
 
 
@@ -131,7 +131,7 @@ def test_turtles_come_and_go():
 def test_a_rotation_goes_at_1_rad_per_s_and_tells_what_remains():
     recording = in_pond((0.5, "rotate", "turtle1", 1.0), seconds=2)
     (goal,) = recording.goals
-    remaining = [heard.message.remaining for heard in goal.feedback]
+    remaining = [received.message.remaining for received in goal.feedback]
     assert remaining == pytest.approx([1.0 - 0.016 * step for step in range(63)])
     assert ended(recording) == [("succeeded", 1.504, -0.992)]
     assert news(recording) == [(1.504, "Rotation goal completed successfully")]

@@ -4,7 +4,7 @@ import pytest
 
 from sim import Recording, run
 from sim.ros.messages.type_definitions import definition
-from tests.sim.ros.evidence import raised, said
+from tests.sim.ros.evidence import logged, raised
 from tests.students.engine import waitables
 
 DIALOGUE = [
@@ -14,24 +14,24 @@ DIALOGUE = [
 RULE = "=" * 80
 
 
-def heard(*programs):
+def received(*programs):
     recording = run(*programs, seconds=2, quiet=True)
     assert raised(recording) == []
-    return said(recording)
+    return logged(recording)
 
 
 def test_a_guard_condition_in_a_waitable_rings():
-    assert heard(waitables.Ringer) == [(0.5, "ding"), (1.0, "ding"), (1.5, "ding"), (2.0, "ding")]
+    assert received(waitables.Ringer) == [(0.5, "ding"), (1.0, "ding"), (1.5, "ding"), (2.0, "ding")]
 
 
 def test_a_service_in_a_waitable_answers():
-    assert heard(waitables.Counting, waitables.Asker) == [
+    assert received(waitables.Counting, waitables.Asker) == [
         (0.5, "asked 1 times"), (1.0, "asked 2 times"), (1.5, "asked 3 times"), (2.0, "asked 4 times"),
     ]  # fmt: skip
 
 
 def test_a_client_in_a_waitable_gets_its_answers():
-    assert heard(waitables.Calling) == [(0.5, "asked"), (1.0, "asked"), (1.5, "asked"), (2.0, "asked")]
+    assert received(waitables.Calling) == [(0.5, "asked"), (1.0, "asked"), (1.5, "asked"), (2.0, "asked")]
 
 
 def test_a_timer_in_a_waitable_is_refused():
@@ -55,7 +55,7 @@ def test_a_timer_in_a_waitable_is_refused():
     ids=["server first", "client first", "one program"],
 )
 def test_plain_services_offer_an_action(programs):
-    assert heard(*programs) == DIALOGUE
+    assert received(*programs) == DIALOGUE
 
 
 def test_feedback_that_was_published_by_hand_is_kept(tmp_path):

@@ -98,9 +98,9 @@ def test_one_load_at_a_time_and_the_oldest_first(served):
 
 
 def test_who_comes_later_hears_of_all_orders(served):
-    told = [line.text for line in served.logs if line.node == "late"]
+    texts = [line.text for line in served.logs if line.node == "late"]
     before = [f"{item.message.id} {item.message.status}" for item in served.messages("/orders")]
-    assert told == before
+    assert texts == before
     assert served.errors == []
 
 

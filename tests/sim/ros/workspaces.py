@@ -76,9 +76,9 @@ def create(folder: Path, line: str) -> None:
 def build(workspace: Path, *options: str) -> str:
     """Say `colcon build ...` in a workspace; what it says."""
     outside = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    said = subprocess.PIPE, subprocess.STDOUT
+    output = subprocess.PIPE, subprocess.STDOUT
     done = subprocess.run(
-        [COLCON, "build", *options], cwd=workspace, env=outside, text=True, stdout=said[0], stderr=said[1]
+        [COLCON, "build", *options], cwd=workspace, env=outside, text=True, stdout=output[0], stderr=output[1]
     )
     assert done.returncode == 0, done.stdout
     return done.stdout
