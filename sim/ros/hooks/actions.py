@@ -18,7 +18,7 @@ from rclpy.task import Future
 from sim.ros.fibers.scheduler import active, engine
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
-from sim.ros.recorder.goals import key
+from sim.ros.recorder.action_goals import key
 
 
 def _action_end(owner: type, kind: str) -> None:

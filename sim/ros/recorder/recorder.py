@@ -30,9 +30,9 @@ from sim.ros.fibers.exceptions import Hang, Livelock, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.messages.codec import type_name
+from sim.ros.recorder.action_goals import Goals
 from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import Calls
-from sim.ros.recorder.goals import Goals
 from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.recorder.running import RunningCallback, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
