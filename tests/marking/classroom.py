@@ -67,10 +67,10 @@ def submit(course: Course, *students: str, line: str = "Line = 2", time: str = "
 def gradebook(course: Course) -> dict[str, dict[str, Any]]:
     """All that the gradebook says of each student's submission, without the names of its rows."""
     with Gradebook(course.database, course.name) as book:
-        return {found.student.id: _said(found) for found in book.assignment_submissions(ASSIGNMENT)}
+        return {found.student.id: _summary(found) for found in book.assignment_submissions(ASSIGNMENT)}
 
 
-def _said(submission: Any) -> dict[str, Any]:
+def _summary(submission: Any) -> dict[str, Any]:
     grades = [grade.to_dict() for note in submission.notebooks for grade in note.grades]
     comments = [comment.to_dict() for note in submission.notebooks for comment in note.comments]
     rows = [{**row, "id": ""} for row in (*grades, *comments)]
@@ -98,8 +98,8 @@ def result(course: Course, task: MarkingTask, **changes: Any) -> Result:
             exercise, most = cell.id.removeprefix("test_"), POINTS[cell.id]
             share = hashlib.sha256(f"{task.key} {cell.id}".encode()).digest()[0] % 5 / 4
             cells.append(CellResult(cell.id, exercise, most * share, most, [verdict(exercise, most, share)]))
-            said = f"{exercise}: {most * share:g} of {most:g}"
-            cell.outputs = [nbformat.v4.new_output("stream", text=said)]
+            message = f"{exercise}: {most * share:g} of {most:g}"
+            cell.outputs = [nbformat.v4.new_output("stream", text=message)]
     note = NotebookResult(NOTEBOOK, copy.deepcopy(notebook), cells)
     values = {"verdict": "marked", "notebooks": [note], "timings": {"total": 0.5, "nodes/test_line": 0.25}}
     return Result(task.student, task.assignment, task.key, **{**values, **changes})
@@ -109,7 +109,8 @@ def verdict(exercise: str, points: float, credit: float, **changes: Any) -> dict
     """One check's verdict, as in a result."""
     status = "passed" if credit == 1 else "failed"
     words = ("a line each second", f"{credit * 8:g} lines in 8 s", "Look at the timer.")
-    said = dict(zip(("expected", "saw", "hint"), words if status == "failed" else ("", "", ""), strict=True))
+    words = words if status == "failed" else ("", "", "")
+    texts = dict(zip(("expected", "saw", "hint"), words, strict=True))
     base = {"name": f"{exercise}_time", "sentence": "It keeps time.", "points": points, "credit": credit}
     rest = {"picture": "", "alarm": "", "run": 0, "earned": points * credit}
-    return {**base, "status": status, **said, **rest, **changes}
+    return {**base, "status": status, **texts, **rest, **changes}

@@ -18,7 +18,7 @@ def journal(course):
     return Journal(course.journal(ASSIGNMENT))
 
 
-def test_a_result_that_is_kept_is_found(course, journal, task):
+def test_a_result_that_is_stored_is_found(course, journal, task):
     kept = journal.save(result(course, task))
     assert journal.find("anna", task.key) == kept
     assert [path.name for path in journal.folder.iterdir()] == ["anna.json"]

@@ -31,7 +31,7 @@ def test_the_timings_are_no_part_of_the_grade():
     assert other.grade_json() == WHOLE.grade_json()
 
 
-def said(text):
+def message(text):
     with pytest.raises(ResultError) as refused:
         Result.from_json(text)
     return str(refused.value)
@@ -42,7 +42,7 @@ NONSENSE = ["", "[]", "3", "null", "{}", '{"notebooks": 3}', "[" * 100_000, b"\x
 
 @pytest.mark.parametrize("text", NONSENSE)
 def test_what_is_no_result_is_refused(text):
-    assert said(text).startswith("this is not a result of marking: ")
+    assert message(text).startswith("this is not a result of marking: ")
 
 
 def changed(*path_and_value):
@@ -83,20 +83,20 @@ WRONG = [
 
 @pytest.mark.parametrize(("change", "words"), WRONG)
 def test_a_wrong_value_is_named(change, words):
-    assert said(changed(*change)) == f"this is not a result of marking: {words}"
+    assert message(changed(*change)) == f"this is not a result of marking: {words}"
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
 def test_what_is_no_number_is_refused(number):
     text = WHOLE.to_json().replace('"points": 1.5', f'"points": {number}')
-    assert said(text) == f"this is not a result of marking: {number} is not a number"
+    assert message(text) == f"this is not a result of marking: {number} is not a number"
 
 
 def test_a_number_beyond_all_is_refused():
     text = WHOLE.to_json().replace('"max": 4.0', '"max": 1e999')
-    assert said(text) == "this is not a result of marking: the points of test_a are finite numbers"
+    assert message(text) == "this is not a result of marking: the points of test_a are finite numbers"
 
 
 def test_too_much_is_refused_before_it_is_read(monkeypatch):
     monkeypatch.setattr(results, "MAX_BYTES", 2_000_000)
-    assert said(" " * 3_000_000) == "a result has at most 2 MB, this one has 3 MB"
+    assert message(" " * 3_000_000) == "a result has at most 2 MB, this one has 3 MB"

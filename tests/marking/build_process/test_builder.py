@@ -108,7 +108,7 @@ def test_links_and_floods_in_what_is_installed_are_refused(builders):
     ],
     ids=["forks", "memory", "large", "kills"],
 )
-def test_what_uses_too_much_fails_and_nobody_else_does(builders, setup):
+def test_what_uses_too_much_fails_and_no_other_process_does(builders, setup):
     found = with_setup(builders, setup).problem
     assert re.fullmatch(FAILED, found)
     assert built(builders).problem == ""
@@ -131,7 +131,7 @@ def test_files_that_lie_outside_are_refused():
     assert made.problem.startswith("What was installed can't be taken. `install/../a`: a name may have")
 
 
-def test_a_process_that_is_gone_is_told_with_its_end():
+def test_a_process_that_is_gone_is_reported_with_its_end():
     parent_end, child_end = socket.socketpair()
     child_end.close()
     problem = request_build(parent_end, {}, lambda: "It was killed.").problem

@@ -69,7 +69,7 @@ def test_what_a_cell_writes_goes_before_what_was_handed_in(results):
     assert "1 Hz (6 messages in 6 s)" in text(results["cell"])
 
 
-def test_a_link_costs_the_files_and_is_told(results):
+def test_a_link_costs_the_files_and_is_reported(results):
     assert (results["link"].points, results["link"].verdict) == (0.0, "repaired")
     assert results["link"].repairs == [
         "No file of your workspace was taken. `ws/src/greeter/more` is a link. "
@@ -77,7 +77,7 @@ def test_a_link_costs_the_files_and_is_told(results):
     ]
 
 
-def test_without_a_package_it_is_said(results):
+def test_without_a_package_it_is_reported(results):
     assert results["none"].points == 0.0
     assert "There is no ws/src/greeter" in text(results["none"])
 

@@ -37,16 +37,16 @@ class Killer:
 
 def run(root: Path, moment: float) -> int:
     """Mark the class in a child that ends without cleaning up. Its calls, or 0 if it was killed."""
-    count, told = os.pipe()
+    count, reported = os.pipe()
     child = os.fork()
     if child == 0:
         killer = Killer(moment)
         sys.setprofile(killer)
         mark_class(Course(root), ASSIGNMENT, Settings(), opening(Course(root)))
         sys.setprofile(None)
-        os.write(told, str(killer.calls).encode())
+        os.write(reported, str(killer.calls).encode())
         os._exit(0)
-    os.close(told)
+    os.close(reported)
     _, status = os.waitpid(child, 0)
     with os.fdopen(count) as counted:
         return 0 if os.WIFSIGNALED(status) else int(counted.read())

@@ -14,7 +14,7 @@ REMAKE = "run `make exercises`, which makes exercises/ from solutions/ and enter
 KNOWN = {("nodes", cell): points for cell, points in {**POINTS, WRITTEN: 5.0}.items()}
 
 
-def said(call, *arguments):
+def problem(call, *arguments):
     with pytest.raises(CourseError) as failed:
         call(*arguments)
     return str(failed.value)
@@ -56,17 +56,17 @@ def test_the_key_changes_with_submission_release_and_secret_and_with_nothing_els
 def test_an_assignment_that_is_not_there_is_named_with_the_nearest(course):
     folder = course.root / "exercises"
     near = f"{folder} has no assignment 01_clas: did you mean {ASSIGNMENT}?"
-    assert said(find_submissions, course, "01_clas") == near
-    assert said(find_submissions, course, "x") == f"{folder} has no assignment x: there are {ASSIGNMENT}"
+    assert problem(find_submissions, course, "01_clas") == near
+    assert problem(find_submissions, course, "x") == f"{folder} has no assignment x: there are {ASSIGNMENT}"
     shutil.rmtree(folder)
-    assert said(find_submissions, course, "x") == f"{folder} has no assignment x: {REMAKE}"
+    assert problem(find_submissions, course, "x") == f"{folder} has no assignment x: {REMAKE}"
 
 
-def test_where_nobody_has_handed_in_it_says_where_notebooks_go(course):
+def test_where_there_are_no_submissions_it_says_where_notebooks_go(course):
     shutil.rmtree(course.root / "class" / "submitted")
     place = course.root / "class" / "submitted" / "STUDENT" / ASSIGNMENT
     message = f"there are no submissions of {ASSIGNMENT}: put the notebooks into {place}"
-    assert said(find_submissions, course, ASSIGNMENT) == message
+    assert problem(find_submissions, course, ASSIGNMENT) == message
 
 
 def test_a_student_who_has_not_handed_in_is_named_with_the_nearest(course):
@@ -74,8 +74,9 @@ def test_a_student_who_has_not_handed_in_is_named_with_the_nearest(course):
         folder = course.root / "class" / "submitted" / student / ASSIGNMENT
         return f"{student} has not handed in {ASSIGNMENT}, {folder} is missing: "
 
-    assert said(find_submissions, course, ASSIGNMENT, ["ana"]) == missing("ana") + "did you mean anna?"
-    assert said(find_submissions, course, ASSIGNMENT, ["x"]) == missing("x") + "3 students have handed it in"
+    assert problem(find_submissions, course, ASSIGNMENT, ["ana"]) == missing("ana") + "did you mean anna?"
+    three = missing("x") + "3 students have handed it in"
+    assert problem(find_submissions, course, ASSIGNMENT, ["x"]) == three
 
 
 def test_a_release_that_agrees_with_source_and_gradebook_is_fine(course):
@@ -88,13 +89,13 @@ def test_a_release_that_agrees_with_source_and_gradebook_is_fine(course):
 
 def test_an_assignment_that_the_gradebook_does_not_know_says_what_to_run(course):
     message = f"the gradebook doesn't know {ASSIGNMENT}: {REMAKE}"
-    assert said(check_release, course, ASSIGNMENT, None) == message
+    assert problem(check_release, course, ASSIGNMENT, None) == message
 
 
 def test_a_release_that_is_not_what_its_source_gives_is_named(course):
     edit(course.source(ASSIGNMENT) / "nodes.ipynb", test_line="nodes.line.grade(Line, Counter)")
     file = f"exercises/{ASSIGNMENT}/nodes.ipynb is not what solutions/ gives now"
-    assert said(check_release, course, ASSIGNMENT, KNOWN) == f"{file}: {REMAKE}, or take solutions/ back"
+    assert problem(check_release, course, ASSIGNMENT, KNOWN) == f"{file}: {REMAKE}, or take solutions/ back"
     release(course.root)
     check_release(course, ASSIGNMENT, KNOWN)
 
@@ -108,18 +109,18 @@ def test_another_answer_in_the_source_is_no_other_release(course):
 def test_a_gradebook_with_other_cells_or_points_says_which(course):
     less = {key: points for key, points in KNOWN.items() if key[1] != "test_line"}
     message = "the test cell test_line of nodes.ipynb is only in exercises/"
-    assert said(check_release, course, ASSIGNMENT, less) == f"{message}: {REMAKE}"
+    assert problem(check_release, course, ASSIGNMENT, less) == f"{message}: {REMAKE}"
     more = {**KNOWN, ("nodes", "z"): 1.0}
     message = "the test cell z of nodes.ipynb is only in the gradebook"
-    assert said(check_release, course, ASSIGNMENT, more) == f"{message}: {REMAKE}"
+    assert problem(check_release, course, ASSIGNMENT, more) == f"{message}: {REMAKE}"
     other = {**KNOWN, ("nodes", "test_line"): 7.0}
     message = "the test cell test_line of nodes.ipynb gives 6 points, and 7 in the gradebook"
-    assert said(check_release, course, ASSIGNMENT, other) == f"{message}: {REMAKE}"
+    assert problem(check_release, course, ASSIGNMENT, other) == f"{message}: {REMAKE}"
 
 
 def test_a_test_cell_that_grades_no_exercise_is_refused_before_anything_is_marked(course):
     for folder in (course.source(ASSIGNMENT), course.release(ASSIGNMENT)):
         edit(folder / "nodes.ipynb", test_line="assert Line == 2")
-    assert said(check_release, course, ASSIGNMENT, KNOWN).startswith(
+    assert problem(check_release, course, ASSIGNMENT, KNOWN).startswith(
         "The test cell `test_line` can't be marked here: expected "
     )

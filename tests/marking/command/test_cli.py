@@ -30,16 +30,16 @@ def command(pool):
 
 def test_a_class_is_marked_and_summed_up(course, command, capsys):
     assert command("--csv", "points/all.csv", "--html", "all.html") == 0
-    said = capsys.readouterr()
-    assert said.out.startswith("student  counter  line  essay  total  verdict  flags\n")
-    assert "\n3 marked now, 3 of 3 in all, in " in said.out
-    assert said.err.count(" of 3  ") == 3
+    output = capsys.readouterr()
+    assert output.out.startswith("student  counter  line  essay  total  verdict  flags\n")
+    assert "\n3 marked now, 3 of 3 in all, in " in output.out
+    assert output.err.count(" of 3  ") == 3
     assert (course.root / "points" / "all.csv").read_text().startswith("student,assignment,")
     assert (course.root / "all.html").read_text().startswith("<!DOCTYPE html>")
     assert command("--no-feedback") == 0
-    said = capsys.readouterr()
-    assert "\n0 marked now, 3 of 3 in all, in " in said.out
-    assert said.err == ""
+    output = capsys.readouterr()
+    assert "\n0 marked now, 3 of 3 in all, in " in output.out
+    assert output.err == ""
 
 
 def test_options_reach_the_run(command, pool):
@@ -72,9 +72,9 @@ def test_resume_goes_on_with_the_options_of_the_last_run(course, command, pool, 
 
 def refused(command, capsys, *options):
     assert command(*options) == 1
-    said = capsys.readouterr()
-    assert said.out == ""
-    return said.err
+    output = capsys.readouterr()
+    assert output.out == ""
+    return output.err
 
 
 def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
@@ -85,10 +85,10 @@ def test_resume_without_a_run_and_with_options_is_refused(command, capsys):
     assert refused(command, capsys, "--resume", "--force") == beside
 
 
-def test_what_cannot_be_marked_is_said_in_one_line(command, capsys):
-    said = refused(command, capsys, "--student", "ana")
-    assert said.startswith(f"Not marked: ana has not handed in {ASSIGNMENT}, ")
-    assert said.endswith(": did you mean anna?\n")
+def test_what_cannot_be_marked_is_reported_in_one_line(command, capsys):
+    output = refused(command, capsys, "--student", "ana")
+    assert output.startswith(f"Not marked: ana has not handed in {ASSIGNMENT}, ")
+    assert output.endswith(": did you mean anna?\n")
 
 
 def test_without_a_sandbox_it_says_what_to_install(course, capsys):
@@ -101,7 +101,7 @@ def test_without_a_sandbox_it_says_what_to_install(course, capsys):
     assert capsys.readouterr().err == f"Not marked: {words}\n"
 
 
-def test_a_problem_is_told_and_gives_an_exit_status(command, pool, course, capsys):
+def test_a_problem_is_reported_and_gives_an_exit_status(command, pool, course, capsys):
     pool.mark = lambda tasks: (result(course, next(tasks)) for _ in range(2))
     assert command() == 1
     assert capsys.readouterr().err.endswith(

@@ -30,7 +30,7 @@ def notebook(course, student):
 def test_a_class_is_marked_and_everything_is_where_nbgrader_looks_for_it(course, pool):
     outcome = run(course, pool, Settings())
     assert (outcome.fresh, sorted(outcome.results), outcome.total, outcome.problems) == (ALL, ALL, 3, [])
-    assert {who: said["score"] for who, said in gradebook(course).items()} == {
+    assert {who: row["score"] for who, row in gradebook(course).items()} == {
         who: found.points for who, found in outcome.results.items()
     }
     for student in ALL:
@@ -89,8 +89,8 @@ def test_force_marks_again_and_asks_for_another_look_at_what_was_set_by_hand(cou
     assert not gradebook(course)["anna"]["test_line"]["needs_manual_grade"]
     pool.again()
     assert run(course, pool, replace(MARKED, force=True, students=["anna"])).fresh == ["anna"]
-    said = gradebook(course)["anna"]["test_line"]
-    assert (said["manual_score"], said["needs_manual_grade"]) == (5, True)
+    row = gradebook(course)["anna"]["test_line"]
+    assert (row["manual_score"], row["needs_manual_grade"]) == (5, True)
 
 
 def test_a_changed_time_alone_is_entered_without_marking_again(course, pool):
@@ -185,7 +185,7 @@ def test_after_ctrl_c_the_outcome_still_has_all_results(course, pool):
     assert (outcome.fresh, list(outcome.results)) == ([], ["bob", "eve"])
 
 
-def test_what_is_handed_in_anew_while_others_are_marked_is_kept_as_what_was_marked(course, pool):
+def test_what_is_handed_in_anew_while_others_are_marked_is_stored_as_what_was_marked(course, pool):
     def change(here, task):
         if task.student == "anna":
             submit(course, "eve", line="Line = 3")
@@ -203,7 +203,7 @@ def test_a_submission_without_a_result_is_named(course, pool):
 
 
 @pytest.mark.parametrize("changes", [{"student": "mallory"}, {"key": "00"}, {"assignment": "02"}])
-def test_a_result_that_nobody_waits_for_is_refused(course, pool, changes):
+def test_a_result_that_was_not_requested_is_refused(course, pool, changes):
     pool.change = lambda here, task: replace(result(here, task), **changes)
     with pytest.raises(RuntimeError, match="that was not requested"):
         run(course, pool)

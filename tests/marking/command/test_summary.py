@@ -149,7 +149,7 @@ def test_a_terminal_obeys_nothing_of_the_table():
     assert [row[name] for name in ("student", "reason", "flags")] == [" [2Jann", "' =1 ]0;x ", "a 2J"]
 
 
-def test_nobody_marked_is_a_summary_without_times():
+def test_no_marks_give_a_summary_without_times():
     nothing = summarise("01_class", WORTH, {})
     assert nothing.times is None
     assert as_text(nothing).splitlines()[0].split() == [

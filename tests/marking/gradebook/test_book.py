@@ -40,9 +40,9 @@ def test_the_points_of_a_class_are_exported_into_its_folder(course, task):
         book.update_or_create_student("bob", first_name="Bob", last_name="Hill")
     nbgrader(course.root, "export")
     rows = (course.root / "class" / "grades.csv").read_text().splitlines()
-    told = [[row.split(",")[index] for index in (0, 3, 4, 9)] for row in rows[1:]]
+    reported = [[row.split(",")[index] for index in (0, 3, 4, 9)] for row in rows[1:]]
     score = str(gradebook(course)["anna"]["score"])
-    assert told == [["01_class", "bob", "Hill", "0.0"], ["01_class", "anna", "anna", score]]
+    assert reported == [["01_class", "bob", "Hill", "0.0"], ["01_class", "anna", "anna", score]]
     assert not (course.root / "grades.csv").exists()
 
 
@@ -144,9 +144,9 @@ def test_written_twice_it_says_the_same(course, task):
 
 def test_a_refused_submission_has_a_row_with_nothing_and_the_reason_as_comment(course, task):
     write(course, task, verdict="refused", reason="It is empty.", notebooks=[])
-    said = gradebook(course)["anna"]
-    assert {asks(said[cell]) for cell in ("test_counter", "test_line", "essay")} == {(0, False)}
-    assert said["counter comment"]["auto_comment"] == "It is empty."
+    row = gradebook(course)["anna"]
+    assert {asks(row[cell]) for cell in ("test_counter", "test_line", "essay")} == {(0, False)}
+    assert row["counter comment"]["auto_comment"] == "It is empty."
     write(course, task)
     assert gradebook(course)["anna"]["counter comment"]["auto_comment"] is None
 
@@ -155,9 +155,9 @@ def test_what_an_instructor_has_to_look_at_asks_for_it(course, task):
     broken = CellResult("test_counter", "counter", 0.0, 4.0, needs_look=True)
     more_than_it_is_worth = CellResult("test_line", "line", 8.0, 10.0)
     write(course, task, **cells(result(course, task), broken, more_than_it_is_worth))
-    said = gradebook(course)["anna"]
-    assert asks(said["test_counter"]) == (0, True)
-    assert asks(said["test_line"]) == (6, True)
+    row = gradebook(course)["anna"]
+    assert asks(row["test_counter"]) == (0, True)
+    assert asks(row["test_line"]) == (6, True)
     write(course, task, **cells(result(course, task), broken))
     assert gradebook(course)["anna"]["test_line"]["needs_manual_grade"]
 
@@ -165,9 +165,9 @@ def test_what_an_instructor_has_to_look_at_asks_for_it(course, task):
 def test_a_written_answer_that_is_as_given_out_has_no_points(course):
     shutil.copy(course.release(ASSIGNMENT) / "nodes.ipynb", course.submitted("anna", ASSIGNMENT))
     write(course, tasks(course)[0])
-    said = gradebook(course)["anna"]
-    assert asks(said["essay"]) == (0, False)
-    assert said["essay comment"]["auto_comment"] == "No response."
+    row = gradebook(course)["anna"]
+    assert asks(row["essay"]) == (0, False)
+    assert row["essay comment"]["auto_comment"] == "No response."
 
 
 def test_a_task_that_a_person_marks_stays_as_it_is(course, task):
@@ -206,14 +206,14 @@ def test_a_gradebook_that_another_program_holds_is_left_alone(course, task, file
     assert list(gradebook(course)) == ["anna"]
 
 
-def test_a_gradebook_that_is_read_only_says_so(course, task, file):
+def test_a_gradebook_that_is_read_only_is_reported(course, task, file):
     course.directory.db_url = f"sqlite:///file:{file}?mode=ro&uri=true"
     assert refused(course, task).endswith(
         "can't be used (attempt to write a readonly database): it is read-only: mark as the user who owns it"
     )
 
 
-def test_a_gradebook_on_a_full_disk_says_so(course, task):
+def test_a_gradebook_on_a_full_disk_is_reported(course, task):
     with Book(course) as book:
         engine = book._gradebook.engine
         engine.dispose()
@@ -236,7 +236,7 @@ def test_a_gradebook_of_another_nbgrader_says_what_to_run(course, task, file):
     )
 
 
-def test_a_file_that_is_no_gradebook_says_so(course, task, file):
+def test_a_file_that_is_no_gradebook_is_reported(course, task, file):
     file.write_text("this is no database, however long one looks at it" * 100)
     expected = "can't be used (file is not a database): repair it, then mark again"
     assert refused(course, task).endswith(expected)

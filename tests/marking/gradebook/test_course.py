@@ -51,7 +51,7 @@ def test_another_folder_structure_is_understood(course):
         (b"ann\nbob", "ann\nbob", "two lines"),
     ],
 )
-def test_a_name_that_no_file_can_be_called_after_is_told_before_anything_is_marked(course, name, shown, saw):
+def test_a_name_that_no_file_can_have_is_reported_before_anything_is_marked(course, name, shown, saw):
     place = course.submitted(os.fsdecode(name), ASSIGNMENT)
     place.mkdir(parents=True)
     with pytest.raises(CourseError) as failed:
@@ -87,7 +87,7 @@ def test_a_timestamp_that_is_no_time_is_none(tmp_path, content):
     assert timestamp(tmp_path)[0] is None
 
 
-def test_a_timestamp_that_is_no_ordinary_file_is_none_and_nobody_waits_for_it(tmp_path):
+def test_a_timestamp_that_is_no_ordinary_file_is_none_and_does_not_block(tmp_path):
     assert timestamp(tmp_path) == (None, "")
     (tmp_path / "real").write_text("2026-03-01")
     (tmp_path / "timestamp.txt").symlink_to("real")

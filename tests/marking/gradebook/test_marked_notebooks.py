@@ -40,7 +40,7 @@ def task(course):
 
 
 @pytest.mark.parametrize(("changes", "words"), NOTICES)
-def test_a_student_is_told_what_was_done_to_the_submission_and_no_flags(course, task, changes, words):
+def test_the_notice_reports_what_was_done_to_the_submission_and_no_flags(course, task, changes, words):
     heading = "**How this was marked**\n\n" if words else ""
     assert notice(result(course, task, **changes)) == heading + words
 

@@ -73,7 +73,7 @@ def _write(sources: Path, files: Mapping[str, str]) -> None:
         (sources / path).write_text(text)
 
 
-def told(result: Result) -> str:
+def reported(result: Result) -> str:
     """What the page says of one submission, with what was seen where something was missed."""
     cells = [cell for notebook in result.notebooks for cell in notebook.cells]
     missed = [(cell, it) for cell in cells for it in cell.verdicts if it["status"] == "failed"]
@@ -226,7 +226,7 @@ def write_page() -> None:
     """Mark everybody, and write down what each gets."""
     with tempfile.TemporaryDirectory() as folder:
         results = mark(Path(folder), TRICKS)
-    PAGE.write_text("\n\n".join(told(results[name]) for name in TRICKS) + "\n", encoding="utf-8")
+    PAGE.write_text("\n\n".join(reported(results[name]) for name in TRICKS) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

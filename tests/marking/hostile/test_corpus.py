@@ -75,11 +75,11 @@ def test_on_a_busy_machine_marks_and_digests_are_the_same(tmp_path, honest):
     assert all(cell.digests for result in busy.values() for cell in result.notebooks[0].cells)
 
 
-def test_nothing_that_comes_back_tells_the_secret(marked):
+def test_nothing_that_comes_back_contains_the_secret(marked):
     assert [name for name, result in marked.items() if SECRET in result.to_json()] == []
 
 
-def test_nobody_earns_by_a_trick_what_an_honest_half_does_not(marked):
+def test_no_one_earns_by_a_trick_what_an_honest_half_does_not(marked):
     # teleported_robot sends commands, as two of the points of `square` ask
     allowed = {name: 15.0 for name in EVERYBODY} | {"honest_right": 33.0, "teleported_robot": 17.0}
     assert {name: r.points for name, r in marked.items() if r.points > allowed[name]} == {}

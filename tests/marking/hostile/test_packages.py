@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.marking.hostile.corpus import SECRET
-from tests.marking.hostile.packages import TRICKS, mark, page, told
+from tests.marking.hostile.packages import TRICKS, mark, page, reported
 
 # One for each place where a trick takes hold; their siblings are for the night.
 EVERY_DAY = [
@@ -26,14 +26,15 @@ def marked(request, tmp_path_factory):
 
 
 def test_a_package_gets_its_points_and_words(marked):
-    assert {name: told(result) for name, result in marked.items()} == {name: page()[name] for name in marked}
+    expected = {name: page()[name] for name in marked}
+    assert {name: reported(result) for name, result in marked.items()} == expected
 
 
 def test_the_page_speaks_of_everybody():
     assert list(page()) == list(TRICKS)
 
 
-def test_nothing_that_comes_back_tells_the_secret(marked):
+def test_nothing_that_comes_back_contains_the_secret(marked):
     assert [name for name, result in marked.items() if SECRET in result.to_json()] == []
 
 

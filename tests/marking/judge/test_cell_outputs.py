@@ -143,7 +143,7 @@ def test_lines_of_an_error_and_words_of_a_picture_are_limited_and_counted():
     assert (output["metadata"], outputs.output_size(output)) == ({"image/png": {"alt": "x" * 1_000}}, 1_050)
 
 
-def test_words_of_ours_stand_even_in_a_full_cell():
+def test_lines_of_the_judge_are_even_in_a_full_cell():
     cell = CellOutputs(DisplayRegistry())
     cell.add({"output": stream("x" * 2 * MAX_CELL_CHARS)})
     cell.add_line("It stopped.")
@@ -202,7 +202,7 @@ def test_bytes_of_pictures_become_base64():
     assert mime_bundle(data, None) == {"data": {"image/png": "iVBORw==", "text/plain": "p"}, "metadata": {}}
 
 
-def test_folders_of_the_machine_that_marks_are_not_told():
+def test_folders_of_the_machine_that_marks_are_not_shown():
     library = f"{sysconfig.get_paths()['purelib']}/rclpy/node.py"
     words = f"{library}:12 and {ROOT}/sim/play.py"
     png = base64.b64encode(words.encode()).decode()

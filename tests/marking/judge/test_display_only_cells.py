@@ -81,7 +81,7 @@ def test_the_cells_that_look_are_left_out_of_every_assignment(path):
     assert not any(name in found for name in ("setup", *(f"{cell.id}-given" for cell in cells)))
 
 
-def test_what_a_shift_asks_is_there_for_whoever_reads_the_answers():
+def test_the_questions_of_a_shift_are_shown_beside_the_answers():
     cells = nbformat.read(ROOT / "solutions" / "13_delivery" / "delivery.ipynb", 4).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
     indices = display_only_cells([cell.source for cell in code], set(range(len(code))))

@@ -259,7 +259,7 @@ def test_what_cant_be_read_is_refused(tmp_path, start_student, monkeypatch):
     assert "`two.ipynb`" in result.reason
 
 
-def test_an_assignment_with_other_tests_is_not_ours(tmp_path, start_student, monkeypatch):
+def test_an_assignment_with_other_tests_is_refused(tmp_path, start_student, monkeypatch):
     released = release(tmp_path / "02_two")
     notebook = nbformat.read(released / "two.ipynb", 4)
     notebook.cells[3].source = "assert Greeter"
@@ -276,13 +276,13 @@ def test_what_only_a_trick_needs_is_flagged_where_it_stands(marked):
     assert result.points == 23
 
 
-def test_half_characters_of_a_student_reach_nobody(marked):
+def test_half_characters_of_a_student_reach_no_output(marked):
     result = marked(greeting_see="print(chr(0xd83d))")
     assert text(result, "greeting-see") == "?\n"
     result.to_json().encode()
 
 
-def test_of_very_many_tricks_the_first_are_told(marked):
+def test_of_very_many_tricks_the_first_are_reported(marked):
     result = marked(greeting="".join(f"import grader.a{number}\n" for number in range(30)))
     assert len(result.flags) == 21
     assert result.flags[0].startswith("The cell `greeting` imports `grader.a0`, which")
@@ -353,8 +353,8 @@ def test_what_our_side_can_t_follow_is_one_flag_and_the_notebook_goes_on(marked,
     result = marked()
     assert points(result) == {"greeting-points": 0.0, "temperature-points": 0.0}
     assert [cell.needs_look for cell in result.notebooks[0].cells] == [True, True]
-    said = "could not be judged, by a mistake of the course: RuntimeError: an end that is gone."
-    assert result.flags == [f"The test cell `{name}`: {said}" for name in points(result)]
+    message = "could not be judged, by a mistake of the course: RuntimeError: an end that is gone."
+    assert result.flags == [f"The test cell `{name}`: {message}" for name in points(result)]
     assert result.verdict == "marked"
     assert text(result, "greeting-points") == (
         "This cell could not be judged, by a mistake of the course. Your instructor will look at it.\n"

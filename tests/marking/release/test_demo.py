@@ -63,7 +63,7 @@ def test_marks_are_full_for_right_part_for_half_right_and_none_for_the_starter(m
     }
 
 
-def test_each_step_is_told(marked_course):
+def test_each_step_is_reported(marked_course):
     assert STEPS == [
         "1 of 1: exercises/01_tiny",
         "Running the notebooks of right, half_right, wrong ...",

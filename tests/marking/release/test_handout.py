@@ -113,25 +113,25 @@ def test_a_node_gets_the_same_score_there(folder, tmp_path):
 
 
 def test_of_the_commands_students_have_the_league(folder):
-    def said(*words: str) -> subprocess.CompletedProcess:
+    def output(*words: str) -> subprocess.CompletedProcess:
         command = [sys.executable, "-m", "grader", *words]
         environment = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'ros_packages/python'}"}
         return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
 
     usage = "usage: python -m grader league [NOTEBOOK ...] [--help]\n"
-    assert (said("mark", "01_nodes").returncode, said("mark", "01_nodes").stderr) == (2, usage)
+    assert (output("mark", "01_nodes").returncode, output("mark", "01_nodes").stderr) == (2, usage)
     expected = "there is no notebook robot.ipynb"
-    assert said("league", "robot.ipynb", "--assignment", "01_nodes").stderr == f"Not played: {expected}.\n"
+    assert output("league", "robot.ipynb", "--assignment", "01_nodes").stderr == f"Not played: {expected}.\n"
     expected = "only instructors have what a class handed in: name your notebooks"
-    assert said("league").stderr == f"Not played: {expected}.\n"
+    assert output("league").stderr == f"Not played: {expected}.\n"
 
 
 def test_make_lab_there_is_what_it_is_here(folder):
     def planned(course: Path) -> str:
         command = ["make", "--dry-run", "-o", ".venv/.requirements", "-o", ".venv/.interfaces", "lab"]
         environment = {**os.environ, "MAKEFLAGS": ""}
-        said = subprocess.check_output(command, cwd=course, env=environment, text=True)
-        return said.replace(str(course), "COURSE")
+        output = subprocess.check_output(command, cwd=course, env=environment, text=True)
+        return output.replace(str(course), "COURSE")
 
     assert "JUPYTER_CONFIG_PATH=COURSE/jupyter COURSE/.venv/bin/jupyter-lab" in planned(folder)
     assert planned(folder) == planned(ROOT)
@@ -195,6 +195,6 @@ def test_the_command_says_what_it_made_and_refuses_stale_exercises(tiny_course, 
     shutil.copytree(ROOT / "exercises" / "01_nodes", tiny_course / "exercises" / "01_nodes")
     monkeypatch.setattr("grader.marking.release.handout.differences", lambda course: [])
     assert main(["--to", "out"]) == 0
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     pattern = r"out/ros2-course/ and out/ros2-course\.zip: \d+ files, \d\.\d MB, SHA-256 [0-9a-f]{64}\n"
-    assert re.fullmatch(pattern, said)
+    assert re.fullmatch(pattern, output)

@@ -64,7 +64,7 @@ def test_what_is_right_is_a_line_with_its_points_and_leaves_no_file(folder, caps
     assert sorted(path.name for path in folder.rglob("*.*")) == ["a.ipynb", "goal.py", "lesson.ipynb"]
 
 
-def test_what_was_missed_is_told_and_ends_with_1(folder, capsys):
+def test_what_was_missed_is_reported_and_ends_with_1(folder, capsys):
     write(folder / "solutions" / "a.ipynb", code("1 / 0", "start"), grade("half", 5, HALF))
     assert main(["solutions", "--junit", "found.xml"]) == 1
     missed = capsys.readouterr().out.split("\n\n")[1]

@@ -12,7 +12,7 @@ from typing import Any
 from grader.marking.sandbox import ProcessEnd, Sandbox
 from tests.patience import PATIENCE, until
 
-FEW = ("numpy",)  # what most tests preload: they are about walls, not about ROS
+FEW = ("numpy",)  # what most tests preload: they test isolation, not ROS
 
 
 class Commanded:
@@ -31,8 +31,8 @@ class Commanded:
     def answer(self) -> Any:
         """What the code left in `answer`, or its error as "Name: text"; None if it is gone."""
         line = self._lines.readline()
-        said = json.loads(line) if line else {"answer": None}
-        return f"{said['error']}: {said['text']}" if "error" in said else said["answer"]
+        answer = json.loads(line) if line else {"answer": None}
+        return f"{answer['error']}: {answer['text']}" if "error" in answer else answer["answer"]
 
     def ask(self, code: str) -> Any:
         """Have Python code run inside; see `answer`."""

@@ -10,10 +10,10 @@ def obey(wire: socket.socket) -> None:
         names["answer"] = None
         try:
             exec(code.decode(), names)
-            said = {"answer": names["answer"]}
+            answer = {"answer": names["answer"]}
         except Exception as error:
-            said = {"error": type(error).__name__, "text": str(error)}
-        wire.sendall(json.dumps(said).encode() + b"\n")
+            answer = {"error": type(error).__name__, "text": str(error)}
+        wire.sendall(json.dumps(answer).encode() + b"\n")
 
 
 def greedy(wire: socket.socket) -> None:

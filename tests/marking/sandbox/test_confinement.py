@@ -34,8 +34,8 @@ def test_of_the_course_only_its_packages_are_there(commanded):
 )
 def test_nothing_of_the_instructor_can_be_opened(commanded, place):
     path = str(COURSE / place)
-    said = commanded.ask(f"open({path!r})")
-    assert said == f"FileNotFoundError: [Errno 2] No such file or directory: {path!r}"
+    answer = commanded.ask(f"open({path!r})")
+    assert answer == f"FileNotFoundError: [Errno 2] No such file or directory: {path!r}"
 
 
 def test_the_home_of_the_marker_holds_python_at_most(commanded):
@@ -58,8 +58,8 @@ def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, make
     with sandbox(readable=[data, tmp_path / "release"]) as box:
         commanded = make_commanded(box)
         assert commanded.ask(f"answer = open({str(data)!r}).read()") == "1,2"
-        said = commanded.ask(f"open('{data}', 'w')")
-        assert said == f"OSError: [Errno 30] Read-only file system: '{data}'"
+        answer = commanded.ask(f"open('{data}', 'w')")
+        assert answer == f"OSError: [Errno 30] Read-only file system: '{data}'"
         assert commanded.ask(f"import os; os.rename({str(data)!r}, '/tmp/x')").startswith("OSError: ")
         assert commanded.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
         commanded.leave()
@@ -105,15 +105,15 @@ def test_python_may_be_called_by_links_from_anywhere(tmp_path):
     "folder", [sys.prefix, sys.base_prefix, str(COURSE / "grader"), "/usr/lib", "/", "/etc", "/dev"]
 )
 def test_nothing_but_its_own_places_can_be_written(commanded, folder):
-    said = commanded.ask(f"open({folder!r} + '/mine', 'w')")
-    assert said == f"OSError: [Errno 30] Read-only file system: '{folder}/mine'"
+    answer = commanded.ask(f"open({folder!r} + '/mine', 'w')")
+    assert answer == f"OSError: [Errno 30] Read-only file system: '{folder}/mine'"
 
 
 @pytest.mark.parametrize("path", ["/", "/usr", "/dev", "/dev/full", "/dev/null", "/proc/self", sys.prefix])
 def test_no_mode_outside_its_own_places_can_be_changed(commanded, path):
     before = os.stat(path).st_mode
-    said = commanded.ask(f"import os; os.chmod({path!r}, os.stat({path!r}).st_mode)")  # harmless if it works
-    assert said in (
+    answer = commanded.ask(f"import os; os.chmod({path!r}, os.stat({path!r}).st_mode)")  # no harm
+    assert answer in (
         f"OSError: [Errno 30] Read-only file system: {path!r}",
         f"PermissionError: [Errno 1] Operation not permitted: {path!r}",
     )
@@ -163,7 +163,7 @@ def test_it_sees_no_process_but_itself(usual_sandbox, make_commanded):
 
 
 @pytest.mark.parametrize("target", ["0", "-1", "1", "2", "-2"])
-def test_it_can_kill_nobody_else(usual_sandbox, make_commanded, target):
+def test_it_can_kill_no_other_process(usual_sandbox, make_commanded, target):
     attacker, other = make_commanded(usual_sandbox), make_commanded(usual_sandbox)
     attacker.ask(f"import os, signal; os.kill({target}, signal.SIGKILL)")
     assert other.ask("answer = 'alive'") == "alive"
@@ -230,8 +230,8 @@ def test_ports_of_one_are_free_for_the_next(usual_sandbox, make_commanded):
 
 @pytest.mark.parametrize("file", ["oom_score_adj", "autogroup", "timerslack_ns", "uid_map", "mem"])
 def test_it_can_t_change_how_the_kernel_treats_it(commanded, file):
-    said = commanded.ask(f"open('/proc/self/{file}', 'w')")
-    assert said == f"OSError: [Errno 30] Read-only file system: '/proc/self/{file}'"
+    answer = commanded.ask(f"open('/proc/self/{file}', 'w')")
+    assert answer == f"OSError: [Errno 30] Read-only file system: '/proc/self/{file}'"
 
 
 def test_where_memory_runs_out_it_goes_first(commanded):

@@ -22,7 +22,7 @@ from tests.patience import PATIENCE
         ("raise KeyboardInterrupt", "exited", "The process ended by itself, with exit status 1."),
     ],
 )
-def test_an_end_of_its_own_is_told(commanded, act, kind, detail):
+def test_an_end_of_its_own_is_reported(commanded, act, kind, detail):
     commanded.tell(act)
     ending = commanded.ending()
     assert (ending.kind, ending.detail) == (kind, detail)
@@ -88,7 +88,7 @@ def test_nothing_is_left_of_many(usual_sandbox, make_commanded):
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
-def test_nobody_outlives_the_marker(unsafe):
+def test_no_process_outlives_the_marker(unsafe):
     marker = f"""
         import socket, sys
         from tests.marking.sandbox.commanded import Commanded, sandbox

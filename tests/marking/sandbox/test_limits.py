@@ -40,13 +40,13 @@ def test_memory_in_small_pieces_is_limited_too(tight):
     assert commanded.process.memory() < 500
 
 
-def test_memory_that_nobody_misses_in_time_ends_it(tight):
+def test_memory_that_grows_slowly_ends_it(tight):
     ending = tight("entries:greedy", memory_mb=500).ending()
     assert (ending.kind, ending.code) == ("memory", 70)
     assert ending.detail == "The process needed more than the 500 MB of memory that are allowed."
 
 
-def test_a_crash_for_want_of_memory_is_told_as_such(tight):
+def test_a_crash_for_want_of_memory_is_reported_as_such(tight):
     commanded = tight(memory_mb=500)
     commanded.ask("held = [] \nwhile True: held.append(bytearray(100_000))")
     commanded.tell("import os; os.abort()")
@@ -120,35 +120,35 @@ def test_a_process_that_has_had_more_than_its_share_is_stopped(monkeypatch):
 
 def test_a_huge_file_is_too_large(tight):
     commanded = tight(file_mb=4)
-    said = commanded.ask("open('big', 'wb').write(bytes(5_000_000))")
-    assert said == "OSError: [Errno 27] File too large"
+    answer = commanded.ask("open('big', 'wb').write(bytes(5_000_000))")
+    assert answer == "OSError: [Errno 27] File too large"
 
 
 def test_many_files_fill_its_scratch_and_nothing_else(tight):
     commanded = tight(file_mb=4, scratch_mb=10)
-    said = commanded.ask("for i in range(1000): open(f'/tmp/{i}', 'wb').write(bytes(1_000_000))")
-    assert said == "OSError: [Errno 28] No space left on device"
+    answer = commanded.ask("for i in range(1000): open(f'/tmp/{i}', 'wb').write(bytes(1_000_000))")
+    assert answer == "OSError: [Errno 28] No space left on device"
     written = commanded.ask("import os; answer = [name for name in os.listdir('/tmp') if name.isdigit()]")
     assert len(written) < 12
-    assert commanded.ask("open('/dev/shm/x', 'wb').write(bytes(1_000_000))") == said
+    assert commanded.ask("open('/dev/shm/x', 'wb').write(bytes(1_000_000))") == answer
 
 
 def test_empty_files_are_counted(tight):
     commanded = tight(scratch_files=100)
-    said = commanded.ask("for i in range(1000): open(str(i), 'w')")
-    assert said.startswith("OSError: [Errno 28] No space left on device")
+    answer = commanded.ask("for i in range(1000): open(str(i), 'w')")
+    assert answer.startswith("OSError: [Errno 28] No space left on device")
     assert 50 < commanded.ask("import os; answer = len(os.listdir())") < 100
 
 
 def test_open_files_are_counted(commanded):
-    said = commanded.ask("held = [open('/dev/null') for _ in range(1000)]")
-    assert said == "OSError: [Errno 24] Too many open files: '/dev/null'"
+    answer = commanded.ask("held = [open('/dev/null') for _ in range(1000)]")
+    assert answer == "OSError: [Errno 24] Too many open files: '/dev/null'"
 
 
 def test_a_flood_of_stderr_ends_at_the_largest_file(tight):
     commanded = tight(file_mb=1)
-    said = commanded.ask("import os\nfor _ in range(100): os.write(2, b'x' * 100_000)")
-    assert said == "OSError: [Errno 27] File too large"
+    answer = commanded.ask("import os\nfor _ in range(100): os.write(2, b'x' * 100_000)")
+    assert answer == "OSError: [Errno 27] File too large"
     commanded.process.kill()
     assert commanded.ending().stderr == "x" * 4000
 

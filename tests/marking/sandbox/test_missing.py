@@ -83,7 +83,7 @@ def test_the_way_out_depends_on_the_system(tmp_path, files, way):
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
-def test_a_warm_process_that_dies_early_is_told_with_its_last_words(tmp_path, unsafe):
+def test_a_warm_process_that_dies_early_is_reported_with_its_last_words(tmp_path, unsafe):
     (tmp_path / "quitter.py").write_text("import os; os.write(2, b'no more'); os._exit(1)")
     with pytest.raises(SandboxFailed) as caught:
         Sandbox("quitter:main", preload=(), imports=[tmp_path], unsafe=unsafe)

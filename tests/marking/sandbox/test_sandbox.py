@@ -52,7 +52,7 @@ def test_the_socket_is_handed_over(usual_sandbox, make_commanded):
     assert process.wait(PATIENCE).kind == "exited"
 
 
-def test_a_closed_sandbox_starts_nobody():
+def test_a_closed_sandbox_starts_no_process():
     box = sandbox()
     box.close()
     box.close()
@@ -82,7 +82,7 @@ with open("/proc/self/maps") as maps:
     subprocess.run(["setarch", "-R", "true"], check=False).returncode != 0,
     reason="this system lets nobody choose: it is a container, as it seems",
 )
-def test_code_lies_at_the_same_addresses_with_and_without_walls(usual_sandbox, make_commanded):
+def test_code_lies_at_the_same_addresses_in_and_outside_the_sandbox(usual_sandbox, make_commanded):
     before = MINE.read_text()
     with sandbox(unsafe=True) as box:
         outside = make_commanded(box)

@@ -23,8 +23,8 @@ def caller(commanded):
 
 def test_every_call_on_the_list_is_denied(caller):
     denied = seccomp.PROGRAMS | seccomp.DENIED
-    said = caller.ask(f"answer = {{name: call(number) for name, number in {denied}.items()}}")
-    assert said == dict.fromkeys(denied, errno.EPERM)
+    answer = caller.ask(f"answer = {{name: call(number) for name, number in {denied}.items()}}")
+    assert answer == dict.fromkeys(denied, errno.EPERM)
 
 
 def test_clone_makes_threads_only_and_clone3_is_unknown(caller):

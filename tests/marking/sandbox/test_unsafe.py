@@ -1,4 +1,4 @@
-"""Without a sandbox: the same process, limits and endings; no walls."""
+"""Without a sandbox: the same process, limits and endings, without isolation."""
 import os
 from collections.abc import Iterator
 

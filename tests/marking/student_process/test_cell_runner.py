@@ -73,7 +73,7 @@ def test_code_that_cant_be_read_is_shown(student):
     assert value(student.run("1")) == "1"
 
 
-def test_a_figure_of_pyplot_shows_without_being_asked(student):
+def test_a_figure_of_pyplot_shows_without_show(student):
     outputs = student.run("import matplotlib.pyplot as plt\n_ = plt.plot([1, 2])")
     assert [list(output["data"]) for output in outputs] == [["text/plain", "image/png"]]
     assert student.run("pass") == []
@@ -128,7 +128,7 @@ def test_an_interrupt_of_the_students_own_ends_the_cell_only(student):
     assert value(student.run("1")) == "1"
 
 
-def test_nobody_types_anything(student):
+def test_no_input_is_given(student):
     assert error(student.run("input('name? ')"))[-1] == "EOFError: EOF when reading a line"
 
 
@@ -188,8 +188,8 @@ def test_code_that_catches_the_interrupt_gets_another(start_student):
     student = start_student(quick=CATCHES_ONCE)
     student.run(ENDLESS)
     assert student.run(TIME_BEGINS_LATER) == []
-    said = student.text(CATCHES_ONCE)
-    assert said == "once\nThis cell was interrupted: it took more than 0.5 s.\n"
+    message = student.text(CATCHES_ONCE)
+    assert message == "once\nThis cell was interrupted: it took more than 0.5 s.\n"
 
 
 def test_a_cell_that_cant_be_interrupted_ends_the_notebook(start_student, monkeypatch):

@@ -234,13 +234,13 @@ def test_an_accident_is_repaired_and_reported(damage, words, request):
 
 
 @pytest.mark.parametrize(("damage", "repairs", "words"), FLAGGED.values(), ids=FLAGGED)
-def test_what_no_honest_work_leaves_behind_changes_nothing_and_the_instructor_is_told(damage, repairs, words):
+def test_what_honest_work_does_not_lead_to_changes_nothing_and_is_flagged(damage, repairs, words):
     result = rebuilt(damage)
     assert (result.repairs, result.flags) == (repairs, [words])
     assert same(result.notebook)
 
 
-def test_a_missing_answer_is_told_from_an_untouched_and_an_empty_one():
+def test_a_missing_answer_is_distinguished_from_an_untouched_and_an_empty_one():
     def damage(notebook):
         cell(notebook, "counter")["source"] = next(c.source for c in STARTER.cells if c.id == "counter")
         cell(notebook, "battery")["source"] = ""
@@ -255,7 +255,7 @@ def test_a_missing_answer_is_told_from_an_untouched_and_an_empty_one():
     ]
 
 
-def test_cells_of_ours_that_give_no_points_are_run_as_the_student_changed_them():
+def test_released_cells_that_give_no_points_are_run_as_the_student_changed_them():
     def damage(notebook):
         cell(notebook, "setup")["source"] += "\nimport math"
         cell(notebook, "goal").update(cell_type="code", source="goal = 1")
@@ -286,7 +286,7 @@ def test_the_students_own_cells_stay_in_their_place_without_outputs_and_metadata
     assert (result.repairs, result.flags) == ([], [])
 
 
-def test_an_own_cell_cannot_take_the_id_of_ours():
+def test_an_own_cell_cannot_take_the_id_of_a_released_cell():
     def damage(notebook):
         notebook["cells"].insert(0, own("x = 1", id="hello"))
         notebook["cells"].insert(0, own("x = 2", id="cell-1"))
@@ -351,7 +351,7 @@ def test_a_cell_like_a_deleted_test_is_the_students_own():
     )
 
 
-def test_many_odd_cells_are_told_in_a_few_sentences():
+def test_many_odd_cells_are_reported_in_a_few_sentences():
     def damage(notebook):
         notebook["cells"] += [{"cell_type": "code", "source": 5}] * 300
 

@@ -179,7 +179,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("content", "words"), REPAIRED.values(), ids=REPAIRED)
-def test_a_damaged_file_is_read_as_well_as_possible_and_that_is_said(content, words):
+def test_a_damaged_file_is_read_as_well_as_possible_and_that_is_reported(content, words):
     result = rebuild(STARTER, read_notebook(content, "nodes.ipynb"))
     assert (result.repairs, result.flags) == ([words], [])
     assert same(result.notebook)
@@ -213,7 +213,7 @@ def test_a_file_that_is_not_utf_8_is_read_as_latin_1():
     assert any("# Grüße, \n" in cell.text for cell in notebook.cells)
 
 
-def test_a_few_damaged_characters_are_told_from_another_encoding():
+def test_a_few_damaged_characters_is_distinguished_from_another_encoding():
     notebook = read_notebook(GREEK.encode().replace("Ω".encode(), b"\xce"), "nodes.ipynb")
     assert notebook.repairs == ["In the notebook's file 1 character was damaged; it was read as �."]
     notebook = read_notebook(GREEK.encode().replace("Ω".encode(), b"\xce \xcf"), "nodes.ipynb")

@@ -131,7 +131,7 @@ def test_the_notebook_of_another_assignment_is_refused(folder):
     assert "saw only `topics.ipynb`, without its cells" in verdict(folder)
 
 
-def test_no_folder_at_all_is_said(tmp_path):
+def test_no_folder_at_all_is_reported(tmp_path):
     assert verdict(tmp_path / "nobody") == "Expected a notebook, saw nothing: no folder was handed in."
 
 
@@ -182,7 +182,7 @@ def test_a_huge_file_is_not_read(folder):
     )
 
 
-def test_a_file_or_folder_that_nobody_may_read_is_said(as_nobody):
+def test_a_file_or_folder_that_can_not_be_read_is_reported(as_nobody):
     (as_nobody / "nodes.ipynb").write_bytes(WHOLE)
     (as_nobody / "nodes.ipynb").chmod(0)
     words = "`nodes.ipynb` cannot be read (Permission denied). Hand in a file that may be read."
@@ -327,7 +327,7 @@ def test_whatever_was_handed_in_has_a_key(surprise, folder, monkeypatch):
     assert MAX_NOTEBOOK_BYTES < 10**9
 
 
-def test_a_file_that_nobody_may_read_has_a_key(as_nobody):
+def test_a_file_that_can_not_be_read_has_a_key(as_nobody):
     (as_nobody / "nodes.ipynb").touch(mode=0)
     unreadable = key(as_nobody)
     (as_nobody / "nodes.ipynb").chmod(0o600)

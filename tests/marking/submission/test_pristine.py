@@ -10,7 +10,7 @@ from tests.marking.submission.damage import ASSIGNMENTS, ROOT, rebuilt_folder, s
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("assignment", ASSIGNMENTS)
-def test_an_honest_submission_is_run_as_it_is_and_nothing_is_said(assignment, share, tmp_path):
+def test_an_honest_submission_is_run_as_it_is_and_nothing_is_reported(assignment, share, tmp_path):
     release = load_release(ROOT / "exercises" / assignment)
     for name, starter in release.notebooks.items():
         solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
@@ -30,8 +30,8 @@ def test_the_instructors_solution_as_a_submission_is_run_with_its_answers(assign
     # A cell of 01_nodes writes it, so it lies there where the solution was run.
     if (ROOT / "solutions" / assignment / "my_weather.py").exists():
         beside.append("my_weather.py")
-    said = f"Handed in beside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
-    assert (rebuilt.repairs, rebuilt.flags) == ([said], [])
+    message = f"Handed in beside the notebook and not used: {' and '.join(f'`{name}`' for name in beside)}."
+    assert (rebuilt.repairs, rebuilt.flags) == ([message], [])
     for name, starter in release.notebooks.items():
         solution = nbformat.read(ROOT / "solutions" / assignment / f"{name}.ipynb", 4)
         assert same(rebuilt.notebooks[name].notebook, submission(solution, starter, 1.0))

@@ -77,8 +77,8 @@ def test_a_notebook_without_end_is_looked_through_from_its_beginning():
     cells = [(f"a{number}", "import pty\n" + "a;" * 9_000) for number in range(1000)]
     *found, last = find_suspicious_code(cells)
     assert found == [f"The cell `a{n}` imports `pty`, which starts processes." for n in range(22)]
-    said = "and those before it have more than 400000 characters: nobody has looked further."
-    assert last == f"The cell `a22` {said}"
+    message = "and those before it have more than 400000 characters: nobody has looked further."
+    assert last == f"The cell `a22` {message}"
 
 
 @pytest.mark.parametrize("line", ["    %a", "a, b = !ls", "what?", " " * 9_000 + "what?"])

@@ -30,10 +30,10 @@ class ADay(date):
 
 def test_a_page_says_what_was_passed_and_bears_the_digest_of_the_result(course, say, monkeypatch):
     monkeypatch.setattr(cli, "date", ADay)
-    status, said, wrong = say("certificate", "--issuer", ISSUER, "--pass", "62.5")
+    status, output, wrong = say("certificate", "--issuer", ISSUER, "--pass", "62.5")
     kept = course.certificates() / "receipt.json"
     assert (status, wrong) == (0, "")
-    assert said.splitlines() == [
+    assert output.splitlines() == [
         "anna: 1 of 1 passed",
         "bob: none passed, no page",
         "eve: 1 of 1 passed",
@@ -90,8 +90,8 @@ def test_a_name_with_a_path_in_it_gets_no_page(course, page, say):
         book.update_or_create_student("../../out")
         with book.db.no_autoflush:
             book.update_or_create_submission(ASSIGNMENT, "../../out")
-    status, said, wrong = say("certificate", "--issuer", ISSUER)
-    assert (status, "../../out: none passed, no page" in said) == (1, True)
+    status, output, wrong = say("certificate", "--issuer", ISSUER)
+    assert (status, "../../out: none passed, no page" in output) == (1, True)
     why = f"was not marked by `python -m grader mark {ASSIGNMENT}`"
     assert wrong == f"../../out: {ASSIGNMENT} {why}. It is left out.\n"
     assert list(course.root.glob("*.html")) == []
@@ -102,8 +102,8 @@ def test_what_still_needs_a_look_is_left_out(course, say):
         grade = book.find_submission(ASSIGNMENT, "anna").notebooks[0].grades[0]
         grade.needs_manual_grade = True
         book.db.commit()
-    status, said, wrong = say("certificate", "--issuer", ISSUER, "--student", "anna")
-    assert (status, said.splitlines()[0]) == (1, "anna: none passed, no page")
+    status, output, wrong = say("certificate", "--issuer", ISSUER, "--student", "anna")
+    assert (status, output.splitlines()[0]) == (1, "anna: none passed, no page")
     assert wrong == f"anna: {ASSIGNMENT} still needs a look in the formgrader. It is left out.\n"
 
 
@@ -150,7 +150,7 @@ def test_an_unknown_student_is_named(course, say):
     assert say("certificate", "--issuer", ISSUER, "--student", "zoe") == (1, "", f"No certificates: {why}.\n")
 
 
-def test_a_class_without_marks_is_told_how_to_get_them(template, tmp_path, monkeypatch, say):
+def test_for_a_class_without_marks_it_is_reported_how_to_get_them(template, tmp_path, monkeypatch, say):
     folder = tmp_path / "fresh"
     shutil.copytree(template, folder)
     write_secret(folder, "x")

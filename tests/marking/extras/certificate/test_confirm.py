@@ -108,7 +108,7 @@ def number_of(text):
     return confirm.read_page(text)[confirm.NUMBER]
 
 
-def test_the_page_of_another_does_for_nobody_else(page, say):
+def test_the_page_of_another_fits_no_other_student(page, say):
     """Eve writes her name into Anna's page, with Anna's number or with her own."""
     eve = page.with_name("eve.html")
     shown = confirm.read_page(eve.read_text())["name"]
@@ -143,7 +143,7 @@ def test_a_mark_that_was_changed_since_is_named(course, page, say, today):
     assert say("confirm", str(page)) == refused(had, ", and has 14.5 of 15 now: the mark was changed since")
 
 
-def test_the_same_points_marked_again_are_confirmed_and_it_is_said(course, page, say):
+def test_the_same_points_marked_again_are_confirmed_and_it_is_reported(course, page, say):
     def again(course, task):
         return replace(marked(course, task), repairs=["Mended."])
 
@@ -151,9 +151,9 @@ def test_the_same_points_marked_again_are_confirmed_and_it_is_said(course, page,
     status, _, wrong = say("confirm", str(page))
     assert (status, wrong.split(", ", 1)[1]) == (1, "and now it still needs a look in the formgrader.\n")
     mark_by_hand(course)
-    status, said, _ = say("confirm", str(page))
+    status, message, _ = say("confirm", str(page))
     assert status == 0
-    assert said.endswith(f" passed; marked again since, with the same points: {ASSIGNMENT}.\n")
+    assert message.endswith(f" passed; marked again since, with the same points: {ASSIGNMENT}.\n")
 
 
 def test_a_mark_that_is_gone_is_named(course, page, say, today):

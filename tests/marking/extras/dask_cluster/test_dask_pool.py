@@ -120,8 +120,8 @@ def test_a_scheduler_that_goes_stops_the_marking_and_what_came_before_stays(clus
         gate.read_text()
         pool._wait_s = pool._client._timeout = 1.0
         cluster.scheduler.kill()
-        said = f"the scheduler at {cluster.address} has not answered for 1 s"
-        assert str(result.exception()) == said
+        output = f"the scheduler at {cluster.address} has not answered for 1 s"
+        assert str(result.exception()) == output
     cluster.processes[1].kill()  # a worker that is told to end waits for its cell
 
 
@@ -211,9 +211,9 @@ def test_what_fails_at_one_worker_is_given_to_another(shared, tasks, monkeypatch
 def test_a_scheduler_that_cant_be_reached_is_named(address, wait_s, why):
     with pytest.raises(DaskPoolError) as error:
         DaskPool(address, wait_s=wait_s)
-    said = str(error.value)
-    assert said.startswith(f"no Dask scheduler answers at {address} ({why}")
-    assert said.endswith("): `.venv/bin/dask scheduler` starts one")
+    output = str(error.value)
+    assert output.startswith(f"no Dask scheduler answers at {address} ({why}")
+    assert output.endswith("): `.venv/bin/dask scheduler` starts one")
 
 
 def test_who_could_not_connect_is_not_in_the_way_of_the_next(monkeypatch):

@@ -53,7 +53,7 @@ def test_nothing_is_raised_for_dask_would_log_the_secret(worker_pool, right):
     assert "secret" not in repr(FIRST)
 
 
-def test_a_machine_without_a_sandbox_says_so(worker_pool, right, monkeypatch):
+def test_a_machine_without_a_sandbox_is_reported(worker_pool, right, monkeypatch):
     monkeypatch.setenv("PATH", "")
     kind, why = worker_pool.mark(replace(FIRST, unsafe=False), right)
     assert kind == "unfit"

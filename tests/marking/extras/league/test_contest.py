@@ -38,7 +38,7 @@ def test_a_game_is_what_a_run_in_a_warehouse_shows():
     assert game.replay
 
 
-def test_where_nothing_is_delivered_the_likely_reason_is_told():
+def test_where_nothing_is_delivered_the_likely_reason_is_reported():
     idle = run(Idle, world=World.generate("warehouse", seed=7), seconds=1, quiet=True)
     why = "/idle has no publisher, no subscription and no timer: nothing can happen in it."
     assert game_of(idle).why == why

@@ -94,32 +94,32 @@ def test_a_class_has_a_table_and_a_page_for_each_warehouse(played):
     assert "The warehouses were drawn from <code>words</code>, which was unknown before." in found[INDEX]
 
 
-def test_its_pages_say_nothing_of_students_and_have_no_word_of_theirs(played):
+def test_its_pages_say_nothing_of_students_and_quote_no_student(played):
     for text in pages(played / "class" / "league").values():
         assert not re.search("anna|dora|emil|gus|no map|perception", re.sub('data-replay="[^"]*"', "", text))
 
 
 def test_the_terminal_says_whose_they_are_and_what_went_wrong(league, played, capsys):
     assert league(played) == 0
-    said = capsys.readouterr()
-    places = re.findall(r"^(\d) +\w+ \w+ +(\w+) +(\d of \d)", said.out, re.M)
+    output = capsys.readouterr()
+    places = re.findall(r"^(\d) +\w+ \w+ +(\w+) +(\d of \d)", output.out, re.M)
     assert [" ".join(place) for place in places] == [
         *("1 dora 0 of 0", "1 anna 0 of 2", "3 emil 0 of 1", "4 gus 0 of 0"),
     ]
-    assert "\n   the reference           0 of 2     0       0\n" in said.out
-    assert "  Something went wrong in 2 of 2 warehouses, first in 1. ValueError: <b>no map</b>" in said.out
-    assert "  Stopped in warehouse 2: from there on, nothing counts. The notebook `robot`" in said.out
-    assert "  Did not play. Expected your node's class, or your main function, saw None." in said.out
+    assert "\n   the reference           0 of 2     0       0\n" in output.out
+    assert "  Something went wrong in 2 of 2 warehouses, first in 1. ValueError: <b>no map</b>" in output.out
+    assert "  Stopped in warehouse 2: from there on, nothing counts. The notebook `robot`" in output.out
+    assert "  Did not play. Expected your node's class, or your main function, saw None." in output.out
     index = played / "class" / "league" / INDEX
-    assert said.out.endswith(f"\n\n0 played now, 5 in all: {index}\n")
-    assert said.err == ""
+    assert output.out.endswith(f"\n\n0 played now, 5 in all: {index}\n")
+    assert output.err == ""
 
 
 def test_a_league_is_the_same_when_it_is_played_again_in_another_company(played, tmp_path):
     other = classroom(tmp_path / "course", {"anna": robot(), "emil": ENDS_LATER})
-    caged = [word for word in SHORT if word != "--unsafe"]
+    sandboxed = [word for word in SHORT if word != "--unsafe"]
     with contextlib.chdir(other):
-        assert main([*caged, "--seed", "words", "--jobs", "1"]) == 0
+        assert main([*sandboxed, "--seed", "words", "--jobs", "1"]) == 0
     here, there = kept(played / "class"), kept(other / "class")
     assert {student: there[student] == here[student] for student in ("anna", "emil")} == {
         "anna": True,
@@ -141,16 +141,16 @@ def test_other_warehouses_are_played_anew(league, tmp_path, capsys):
 
 def test_robots_work_together_with_one_set_of_programs(league, tmp_path):
     ways = {}
-    for robots, caged in ((1, False), (2, False), (2, True)):
-        course = classroom(tmp_path / f"{robots} {caged}", {"ida": ROLLS})
+    for robots, sandboxed in ((1, False), (2, False), (2, True)):
+        course = classroom(tmp_path / f"{robots} {sandboxed}", {"ida": ROLLS})
         words = ["--seed", "words", "--robots", str(robots)]
-        if caged:
+        if sandboxed:
             with contextlib.chdir(course):
                 assert main([*(word for word in SHORT if word != "--unsafe"), *words]) == 0
         else:
             assert league(course, *words) == 0
         games = json.loads(kept(course / "class")["ida"])["notebooks"][0]["cells"][0]["games"]
-        ways[robots, caged] = [(game["way"], game["digest"]) for game in games]
+        ways[robots, sandboxed] = [(game["way"], game["digest"]) for game in games]
     assert ways[2, False] == ways[2, True]
     for (alone, _), (together, _) in zip(ways[1, False], ways[2, True], strict=True):
         assert together == pytest.approx(2 * alone, rel=0.01) and alone > 0.3
@@ -198,8 +198,8 @@ def test_students_compare_versions_of_their_own_in_public_warehouses(league, pla
     course = classroom(tmp_path / "course", {})
     old, new = write(course / "work" / "old<i>.ipynb", CRASHES), write(course / "work" / "new.ipynb", robot())
     assert league(course, str(old), str(new)) == 0
-    said = capsys.readouterr()
-    assert sorted(line.partition("  ")[2] for line in said.err.splitlines()) == [
+    output = capsys.readouterr()
+    assert sorted(line.partition("  ")[2] for line in output.err.splitlines()) == [
         "new: 0 delivered in 2 warehouses",
         "old<i>: 0 delivered in 2 warehouses",
     ]
@@ -224,17 +224,17 @@ def test_students_compare_versions_of_their_own_in_public_warehouses(league, pla
         ([], f"there are no submissions of {ASSIGNMENT}: put the notebooks into PLACE"),
     ],
 )
-def test_what_keeps_it_from_working_is_said(tmp_path, capsys, words, why):
+def test_what_keeps_it_from_working_is_reported(tmp_path, capsys, words, why):
     course = classroom(tmp_path / "course", {})
     (course / "d.ipynb").mkdir()
     for name in ("a", "b"):
         write(course / name / "x.ipynb", IDLE)
     with contextlib.chdir(course):
         assert main(["--assignment", ASSIGNMENT, "--unsafe", *words]) == 1
-    said = capsys.readouterr()
+    output = capsys.readouterr()
     why = why.replace("EXERCISES", str(course / "exercises"))
     why = why.replace("PLACE", str(course / "class" / "submitted" / "STUDENT" / ASSIGNMENT)).rstrip(".")
-    assert (said.out, said.err) == ("", f"Not played: {why}.\n")
+    assert (output.out, output.err) == ("", f"Not played: {why}.\n")
 
 
 @pytest.mark.parametrize("number", ["0", "-1", "2.5", "2401"])

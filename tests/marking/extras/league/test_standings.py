@@ -67,7 +67,7 @@ def test_a_row_has_the_figures_of_all_its_games():
         ([], "There is no notebook.", "Did not play.", "There is no notebook."),
     ],
 )
-def test_what_went_wrong_is_said_in_words_of_ours_and_apart_from_these_in_its_own(games, reason, note, why):
+def test_an_error_is_reported_in_the_course_s_words_and_separately_in_its_own(games, reason, note, why):
     [row] = standings([result("a", *games, reason=reason)], TWO, {"a": "a"})
     assert (row.note, row.why) == (note, why)
 
