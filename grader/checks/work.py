@@ -31,7 +31,7 @@ def work_of(recording: Recording, *, may_end: bool = False) -> WorkTime:
     """How much of its time a run has for the checks. may_end: a program that has ended may be done."""
     until, ended = worked_until(recording), recording.ended
     whole = ended.stamp if ended.reason in ("goal", "interrupted") else recording.seconds
-    if not whole or until >= whole - 1e-6:
+    if until >= whole - 1e-6:
         return WorkTime(1.0)
     if ended.reason not in CUT_SHORT and (may_end or recording.all_exited_at is None):
         return WorkTime(1.0)
