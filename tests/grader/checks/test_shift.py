@@ -10,8 +10,11 @@ from warehouse_msgs.msg import Order
 from grader.checks.motion import length
 from grader.checks.shift import Job, ShiftProgram, shift
 from sim import Process, Recording, World, run
-from sim.world import Box, MovableBox, OtherRobot, Person, WarehouseModel
+from sim.evidence import Endpoint
+from sim.world import Box, Circle, Contact, MovableBox, OtherRobot, Person, WarehouseModel
 from tests.bench.capstone import work
+from tests.grader.warehouse import order
+from tests.grader.warehouse import worked as recorded
 
 HALL = World(
     *("hall", "", (-2, -2, 4, 2), (0, 0, 0)),
@@ -127,3 +130,62 @@ def test_robots_that_work_together_count_together():
     assert (recording.contacts, done.met_person) == ([], met)
     apart = [length(path) for path in (recording.path, recording.tracks["two"])]
     assert done.way == sum(apart) and min(apart) > 0.2
+
+
+def test_an_order_is_wanted_at_its_deadline_to_the_nanosecond():
+    done = shift(recorded(order(1, waiting=2.9, patience=4.200000001), order(2, waiting=3.1, patience=4.8)))
+    assert [job.deadline for job in done.jobs] == [7.100000001, 7.9]
+
+
+def test_who_picked_an_order_up_is_known():
+    done = shift(recorded(order(1, waiting=2.0, picked_up=3.0, delivered=9.0, robot="two")))
+    assert done.jobs == (Job(1, 2.0, 102.0, 3.0, 9.0, "delivered", "two"),)
+
+
+def touch(stamp, what, x=0.0, y=0.0):
+    return Contact(stamp, stamp + 1.0, x, y, "front", what)
+
+
+def test_the_first_person_that_any_robot_met_counts_and_touches_are_in_the_order_of_the_alphabet():
+    world = World(
+        *("hall", "", (-9, -9, 9, 9), (0, 0, 0)), robots=(OtherRobot("two", (5, 5, 0)),), warehouse=HALL.warehouse
+    )
+    own = [touch(1.0, "wall"), touch(4.0, "circle"), touch(5.0, "person"), touch(6.0, "person")]
+    done = shift(recorded(world=world, contacts=own, other_contacts={"two": [touch(3.0, "person")]}))
+    assert done.met_person == 3.0
+    assert list(done.touched.items()) == [("circle", 1), ("person", 3), ("wall", 1)]
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "name"),
+    [(1.0, 0.0, "shelf"), (0.9955, 0.0, "shelf"), (0.9945, 0.0, "box"), (-3.0, 0.0, "box"), (0.0, 2.5, "box")],
+)
+def test_a_box_that_was_touched_is_a_shelf_where_one_stands_within_half_a_centimetre(x, y, name):
+    world = World(
+        *("hall", "", (-9, -9, 9, 9), (0, 0, 0)),
+        boxes=(Box(2.0, 0, 0, 2.0, 1.0),),
+        walls=(((-3.0, -1.0), (-3.0, 1.0)),),
+        circles=(Circle(0.0, 3.0, 0.5),),
+        warehouse=HALL.warehouse,
+    )
+    assert shift(recorded(world=world, contacts=[touch(1.0, "box", x, y)])).touched == {name: 1}
+
+
+def test_what_a_program_hears_and_sends_is_in_the_order_of_the_alphabet_without_what_every_node_has():
+    run_ = recorded(order(1, waiting=2.0))
+    ends = [
+        Endpoint(kind, "/control", topic, "std_msgs/msg/Empty", {})
+        for kind, topic in [
+            ("subscription", "/scan"),
+            ("subscription", "/map"),
+            ("subscription", "/map"),
+            ("subscription", "/clock"),
+            ("publisher", "/cmd_vel"),
+        ]
+    ]
+    run_.graph.nodes, run_.graph.endpoints = ["/control"], ends
+    sent = run_.published[0]._replace(sender="/control", from_course=False)
+    run_.published += [sent._replace(topic=topic) for topic in ("/state", "/cmd_vel", "/cmd_vel")]
+    program = shift(run_).programs["/control"]
+    assert program == ShiftProgram({"/cmd_vel": 2, "/state": 1}, ("/map", "/scan"), 0)
+    assert list(program.sent) == ["/cmd_vel", "/state"]
