@@ -79,6 +79,15 @@ def test_a_score_below_the_cap_has_no_note():
     assert "Safety" not in score.text
 
 
+def test_a_score_at_the_cap_has_no_note():
+    score = Score("drive", [verdict(4.0), verdict(6.0, "failed", 0.0, unsafe=True)])
+    assert (float(score), score.capped) == (4.0, False)
+
+
+def test_an_exercise_without_a_title_is_called_by_its_name():
+    assert Score("talk", []).title == "talk"
+
+
 @pytest.mark.parametrize(
     ("points", "credit", "earned"),
     [
@@ -199,6 +208,18 @@ def test_each_kind_of_picture_is_drawn_once():
     assert (said, told) == ("The robot's path, seen from above", "What was published, and when")
     assert way.html == recording.replay().html
     assert strokes._repr_png_() == plot_topics(recording)._repr_png_()
+
+
+def test_in_jupyter_each_picture_is_displayed_with_its_caption_as_the_text_for_screen_readers(monkeypatch):
+    displayed = []
+    monkeypatch.setattr("IPython.display.display", lambda item, metadata: displayed.append((item, metadata)))
+    recording = run(misfits.Talker, world="yard", seconds=1, quiet=True)
+    Score("drive", [verdict(1.0, "failed", picture="path")], [recording])._repr_mimebundle_()
+    ((picture, metadata),) = displayed
+    assert picture.html == recording.replay().html
+    assert metadata == {"image/png": {"alt": "The robot's path, seen from above"}}
+    Score("drive", [verdict(1.0)], [recording])._repr_mimebundle_()
+    assert len(displayed) == 1
 
 
 def test_a_picture_that_cannot_be_drawn_costs_nothing(capfd):
