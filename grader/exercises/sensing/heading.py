@@ -31,44 +31,53 @@ def says_a_heading(run: Recording) -> Headings:
     return series(run, HEADING, "data")
 
 
-def _is(formula: Callable[[float], float]) -> Callable[..., bool]:
-    """The cause of a miss: the heading is what a wrong formula gives for a yaw in rad."""
-    return lambda run, value, yaw: abs(turn_between(value, formula(math.radians(yaw)))) < 0.5
+def _all_are(formula: Callable[[float], float]) -> Callable[..., bool]:
+    """The cause of a miss: all wrong headings are what a wrong formula gives for a yaw in rad."""
+
+    def explains(run: Recording, wrong: Headings) -> bool:
+        return all(
+            any(abs(turn_between(value, formula(math.radians(yaw)))) < 0.5 for yaw in _yaws(run, stamp))
+            for stamp, value in wrong
+        )
+
+    return explains
+
+
+def _yaws(run: Recording, stamp: Seconds) -> list[float]:
+    return [yaw_at(run, stamp - lag) for lag in LAGS]
 
 
 @heading.check(
     4,
     after=says_a_heading,
     hints={
-        "That is the angle in radians: math.degrees(...) turns it into degrees.": _is(lambda yaw: yaw),
+        "That is the angle in radians: math.degrees(...) turns it into degrees.": _all_are(lambda yaw: yaw),
         "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).": (
-            _is(lambda yaw: math.sin(yaw / 2))
+            _all_are(lambda yaw: math.sin(yaw / 2))
         ),
         "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).": (
-            _is(lambda yaw: math.degrees(math.sin(yaw / 2)))
+            _all_are(lambda yaw: math.degrees(math.sin(yaw / 2)))
         ),
         "That is half of it: a quaternion holds half the angle. yaw = 2 * atan2(z, w).": (
-            _is(lambda yaw: math.degrees(yaw / 2))
+            _all_are(lambda yaw: math.degrees(yaw / 2))
         ),
         "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).": (
-            _is(lambda yaw: math.degrees(-yaw))
+            _all_are(lambda yaw: math.degrees(-yaw))
         ),
-        "That is the sine of the angle, not the angle.": _is(lambda yaw: math.degrees(math.sin(yaw))),
+        "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
         "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": (
-            lambda run, value, yaw: True
+            lambda run, wrong: True
         ),
     },
 )
 def heading_is_right(run: Recording, headings: Headings) -> Headings:
     """It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right."""
 
-    def error(stamp: Seconds, value: float) -> float:
-        return least_turn(value, [yaw_at(run, stamp - lag) for lag in LAGS])
-
-    stamp, worst = max(headings, key=lambda pair: error(*pair))
-    if error(stamp, worst) > NEAR:
-        yaw = yaw_at(run, stamp)
-        raise Missed(f"{yaw:.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(worst, yaw))
+    errors = [least_turn(value, _yaws(run, stamp)) for stamp, value in headings]
+    if max(errors) > NEAR:
+        wrong = [pair for pair, error in zip(headings, errors, strict=True) if error > NEAR]
+        stamp, worst = headings[errors.index(max(errors))]
+        raise Missed(f"{yaw_at(run, stamp):.1f} degrees at {stamp:.3g} s", f"{worst:.4g}", about=(wrong,))
     lasts(run, HEADING)
     return headings
 

@@ -13,6 +13,7 @@ from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
@@ -440,11 +441,6 @@ class IsThereFarTooEarly(Navigator):
     near = 2.0
 
 
-class Crawls(Navigator):
-    def drive(self, speed, turn):
-        super().drive(speed / 20, turn)
-
-
 class NeverEnds(Navigator):
     near = 0.0
 
@@ -460,7 +456,7 @@ class KeepsTooFarAway(Navigator):
 
 def without_a_server():
     rclpy.init()
-    rclpy.spin(Mapper())
+    rclpy.spin(Node("navigator"))
 
 
 other_name = main_of(OtherName)
@@ -486,7 +482,6 @@ never_plans_without_a_path = main_of(NeverPlansWithoutAPath)
 tells_the_straight_line = main_of(TellsTheStraightLine)
 with_one_thread = main_of(Navigator, SingleThreadedExecutor)
 is_there_far_too_early = main_of(IsThereFarTooEarly)
-crawls = main_of(Crawls)
 never_ends = main_of(NeverEnds)
 keeps_too_far_away = main_of(KeepsTooFarAway)
 
