@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from tests.sim.standalone.programs import LIMIT, REPOSITORY, environment, robot
+from tests.sim.standalone.programs import REPOSITORY, environment, robot
 from tests.tooling.lesson_programs import ROOT, definitions
 
 COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
@@ -27,7 +27,7 @@ def asked(running, errors, **spec):
     domain = {"ROS_DOMAIN_ID": str(running.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     done = subprocess.run(
         [sys.executable, "-m", "tests.tooling.lesson_programs", words],
-        cwd=REPOSITORY, env=environment(**domain), capture_output=True, text=True, timeout=LIMIT, check=False,
+        cwd=REPOSITORY, env=environment(**domain), capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.sim.standalone.programs import LIMIT, environment, robot
+from tests.patience import PATIENCE
+from tests.sim.standalone.programs import environment, robot
 
 pytestmark = pytest.mark.soak  # builds a package, and launches it in real time
 
@@ -47,7 +48,7 @@ def test_the_package_of_lesson_11_drives_a_robot_until_ctrl_c(tmp_path):
             yard.hear_until(lambda heard: heard["v"] > 0.25)
         finally:
             launched.send_signal(signal.SIGINT)
-            said = launched.communicate(timeout=LIMIT)[0]
+            said = launched.communicate(timeout=PATIENCE)[0]
         yard.hear_until(lambda heard: heard["v"] == 0.0)
     assert "I stop 1.0 m before a wall" in said
     assert "process has finished cleanly" in said

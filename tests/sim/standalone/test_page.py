@@ -14,6 +14,7 @@ from playwright.sync_api import expect
 from sim.standalone import live_page, server
 from tests.browser.lab import ARTIFACTS
 from tests.browser.pictures import COLOURS, chromium
+from tests.patience import PATIENCE
 from tests.sim.standalone.programs import ended, robot
 
 GRAPH = {"words": "nobody"}
@@ -25,6 +26,7 @@ BAD = (400, b"Bad Request\n")
 
 @pytest.fixture(scope="module")
 def browser():
+    expect.set_options(timeout=1000 * PATIENCE)
     with chromium() as started:
         yield started
 
@@ -40,11 +42,17 @@ def page():
 
 def request(page, method, path, body=None, **headers):
     """Status and body of one request; underscores in names of headers are dashes."""
-    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=120)
+    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=PATIENCE)
     names = {name.replace("_", "-"): value for name, value in headers.items()}
     connection.request(method, path, body, {"Host": f"localhost:{page.port}"} | names)
     answer = connection.getresponse()
     return answer.status, answer.read()
+
+
+def patient_page(browser):
+    page = browser.new_page()
+    page.set_default_timeout(1000 * PATIENCE)
+    return page
 
 
 def own(page):
@@ -93,7 +101,7 @@ def test_other_sites_see_nothing(page):
 
 
 def stream(page):
-    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=120)
+    connection = http.client.HTTPConnection("127.0.0.1", page.port, timeout=PATIENCE)
     connection.request("GET", "/frames", headers={"Host": f"localhost:{page.port}"})
     return connection.getresponse()
 
@@ -142,12 +150,12 @@ def test_of_some_ports_the_first_that_is_free_is_taken():
 def test_a_browser_shows_the_robot_and_drives_it(browser):
     with robot("--world", "yard", "--port", "0") as running:
         address = re.search(r"See and drive it at (\S+)", running.offer)[1]
-        page = browser.new_page()
+        page = patient_page(browser)
         faults = []
         page.on("console", lambda line: faults.append(line.text))
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(address)
-        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"), timeout=300_000)
+        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[5-9]|[1-9])"))
         page.get_by_role("application").click()
         page.keyboard.down("ArrowUp")
         running.receive_until(lambda received: received["x"] > 0.2 and received["v"] > 0.0)
@@ -156,10 +164,8 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
         page.locator(".graph summary").press("Enter")
         page.locator(".graph svg .ours text", has_text="/robot").wait_for()
         page.locator(".graph svg .ours text", has_text="/teleop").wait_for()
-        listener = running.client("listen", 300)
-        page.locator(".graph svg .node text").first.wait_for()
-        listener.kill()
-        listener.communicate()
+        with running.beside("crowd"):
+            page.locator(".graph svg .node text").first.wait_for()
         page.screenshot(path=ARTIFACTS / "standalone-graph.png", full_page=True)
         assert faults == []
         assert running.stop() == (0, "")
@@ -171,9 +177,9 @@ def test_a_browser_shows_the_robot_and_drives_it(browser):
 @pytest.mark.browser
 def test_a_machine_is_shown_without_a_pad(browser):
     with robot("--world", "arm", "--port", "0") as running:
-        page = browser.new_page()
+        page = patient_page(browser)
         page.goto(re.search(r"at (http://\S+)", running.offer)[1])
-        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[1-9]|[1-9])"), timeout=300_000)
+        expect(page.locator(".time b")).to_have_text(re.compile(r"^(0\.[1-9]|[1-9])"))
         assert page.get_by_text("/joint_commands").count() == 1
         assert page.get_by_text("DRIVE").count() == page.get_by_text("drive with the arrow keys").count() == 0
         page.close()
@@ -182,7 +188,7 @@ def test_a_machine_is_shown_without_a_pad(browser):
 @pytest.mark.browser
 def test_turtles_and_their_lines_are_shown(browser):
     with robot("--world", "turtlesim", "--port", "0") as running:
-        tab = browser.new_page()
+        tab = patient_page(browser)
         tab.faults = []
         tab.on("pageerror", lambda error: tab.faults.append(str(error)))
         tab.goto(re.search(r"http://\S+", running.offer)[0])
@@ -202,7 +208,7 @@ def test_turtles_and_their_lines_are_shown(browser):
 def test_a_frame_holds_stamp_poses_and_scan():
     with robot("--world", "room", "--port", "0") as running:
         port = int(re.search(r"localhost:(\d+)", running.offer)[1])
-        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
         connection.request("GET", "/frames")
         raw = base64.b64decode(connection.getresponse().readline().removeprefix(b"data: "))
         floats = struct.unpack(f"<{len(raw) // 4}f", raw)

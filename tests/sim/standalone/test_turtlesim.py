@@ -10,9 +10,10 @@ import sys
 import pytest
 
 from sim.ros.realtime import ArgumentsError, own_words
+from tests.patience import PATIENCE
 from tests.sim.ros.test_turtle_launch import MIMIC, file
 from tests.sim.ros2.test_terminal import ROS2, start
-from tests.sim.standalone.programs import LIMIT, REPOSITORY, ended, environment, free_domain, robot
+from tests.sim.standalone.programs import REPOSITORY, ended, environment, free_domain, robot
 
 OFFER = """\
 World 'turtlesim' in real time, ROS domain {domain}, this machine only.
@@ -51,11 +52,11 @@ def test_a_follower_finds_the_turtle_through_tf2_also_where_it_was_5_s_ago(pond,
     ]
     programs = [*tell, program(pond, *follower)]
     try:
-        meeting = json.loads(program(pond, "meeting").communicate(timeout=LIMIT)[0])
+        meeting = json.loads(program(pond, "meeting").communicate(timeout=PATIENCE)[0])
     finally:
         for one in programs:
             one.terminate()
-            one.communicate(timeout=LIMIT)
+            one.communicate(timeout=PATIENCE)
     assert meeting["turtle1"] == pytest.approx([5.544444561004639] * 2)
     assert meeting["apart"] < 0.1
 
@@ -87,7 +88,7 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
     told = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
     told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "ros_packages/python")])
     process = start([*ROS2, "launch", str(path)], free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
-    out, err = process.communicate(timeout=LIMIT)
+    out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, err) == (0, "")
     assert "[python3-5] it mimics\n" in out
     assert len(set(re.findall(r"See and drive it at http://localhost:(\d+)", out))) == 2
@@ -107,7 +108,7 @@ def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
         lines.append(process.stdout.readline())
         assert lines[-1], process.communicate()
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=LIMIT)
+    out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, err) == (0, "")
     assert out.count("process has finished cleanly") == 2
     assert sorted(re.findall(r"takes (/\S+cmd_vel)", "".join(lines))) == [
