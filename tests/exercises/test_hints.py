@@ -19,7 +19,6 @@ FOR_AUTHORS = (
 TOPICS = sorted(path.name for path in EXERCISES.iterdir() if path.is_dir() and path.name[0] != "_")
 # Still without a node for each hint; the list only gets shorter.
 STILL = {
-    "delivery",
     "navigator",
     "sensing",
 }  # fmt: skip

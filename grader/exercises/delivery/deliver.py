@@ -1,26 +1,40 @@
 """The project: a robot of several programs that delivers, whatever happens in its warehouse."""
 
-from __future__ import annotations
-
 import functools
-import itertools
-import math
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import sim
 from grader.checks import Missed, nearest_person, shift, travelled
+from grader.checks.check import Hints
 from grader.checks.motion import after_a_touch, stood_still
 from grader.checks.shift import Job
 from grader.exercise import Exercise, Scenario
-from grader.exercises.delivery.warehouses import FAIR, warehouse
+from grader.responses import Window, top_speed
+from grader.worlds.warehouses import FAIR, warehouse
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 
 SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
-GIVEN_UP = 30.0  # s for which a robot stands that has an order; for somebody who walks by it takes 10 at most
+GIVEN_UP = 30.0  # s for which a robot stands that has an order; a person who walks by stops it for 10 at most
 DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
+IDLE = {
+    "None of your programs publishes on /cmd_vel. Does your list hold all of them?": lambda run: all(
+        row.from_course for row in run.messages("/cmd_vel")
+    ),
+    "The robot never moves. Run each program alone, and look at what it publishes, and when.": (
+        lambda run: travelled(run) < 0.1
+    ),
+    "{touch}": lambda run: run.contacts and {"touch": after_a_touch(run)},
+}
+"""The usual reasons for a robot that doesn't deliver at all."""
+
+
+def _unless_idle(hint: str) -> Hints:
+    """A table of hints: the usual reasons, and otherwise what the scenario is about."""
+    return {**IDLE, hint: lambda run: True}
 
 
 def _met(run: Recording) -> bool:
@@ -30,7 +44,7 @@ def _met(run: Recording) -> bool:
 
 def _over(run: Recording) -> bool:
     """An order was delivered, a person was touched, or the robot stands for good."""
-    orders = [heard.message for heard in run.messages("/orders")[-1:] if heard.from_course]
+    orders = [row.message for row in run.messages("/orders")[-1:] if row.from_course]
     delivered = any(order.status == order.DELIVERED for order in orders)
     return delivered or _met(run) or stood_still(run, GIVEN_UP)
 
@@ -57,9 +71,9 @@ deliver = Exercise(
 
 
 def programs(robot: Callable[[], Iterable[Any]]) -> tuple[Any, ...]:
-    """The programs of a robot, as `run` and `grade` take them: what this function of the student's lists.
+    """Return the programs of a robot, as `run` and `grade` take them: what the student's function lists.
 
-    Where it fails, it is the program: so its error is told as any program's.
+    Where it fails, it is the program: so its error is shown as any program's.
     """
     try:
         return tuple(robot())
@@ -83,7 +97,7 @@ def touches_nobody(run: Recording) -> None:
         raise Missed(f"a robot that stands within {CLOSE} m", saw, hint, picture="path", unsafe=True)
 
 
-@deliver.check(5, after=touches_nobody, only="shift")
+@deliver.check(5, after=touches_nobody, only="shift", hints=IDLE)
 def delivers(run: Recording) -> None:
     """In a shift of 150 s at least two orders are delivered."""
     done = shift(run)
@@ -91,7 +105,7 @@ def delivers(run: Recording) -> None:
     if count < ENOUGH:
         saw = f"{count} of {len(done.jobs)}"
         credit = 0.8 * count / ENOUGH
-        raise Missed(f"{ENOUGH} delivered orders", saw, _why_idle(run), credit=credit, picture="path")
+        raise Missed(f"{ENOUGH} delivered orders", saw, credit=credit, picture="path")
 
 
 @deliver.check(2, after=delivers, only="shift")
@@ -113,59 +127,65 @@ def touches_nothing(run: Recording) -> None:
         raise Missed("no contact", saw, hint, picture="path")
 
 
-@deliver.check(3, after=touches_nobody, only="blind")
+@deliver.check(3, after=touches_nobody, only="blind", hints=IDLE)
 def stands_blind(run: Recording) -> None:
     """Whenever the lidar falls silent, the robot stands within 1 s."""
     drove = False
     for begin, end in run.world.lidar.silent:
         if begin + SETTLING > run.stamp:
             break
-        drove |= _fastest(run.during(begin - SETTLING, begin))[0] > STANDING
-        speed, stamp = _fastest(run.during(begin + SETTLING, end))
-        if speed > STANDING:
+        before, silent = Window(begin - SETTLING, begin), Window(begin + SETTLING, end)
+        drove |= top_speed(before.rows(run.path)).linear > STANDING
+        top = top_speed(silent.rows(run.path))
+        if top.linear > STANDING:
             expected = f"the robot standing from {begin + SETTLING:.3g} to {end:.3g} s: no scan comes"
             hint = "How old is what control knows? Older than half a second: zeros. Compare header.stamp."
-            raise Missed(expected, f"{speed:.2f} m/s at {stamp:.3g} s", hint, picture="topics")
+            raise Missed(expected, f"{top.linear:.2f} m/s at {top.stamp:.3g} s", hint, picture="topics")
     if not drove:
-        raise Missed("a robot that drives when the lidar falls silent", "it stood before", _why_idle(run))
+        raise Missed("a robot that drives when the lidar falls silent", "it stood before")
 
 
-@deliver.check(1, after=stands_blind, only="blind")
+WAITS_FOR_EVER = "The scans are back, and so should be poses and plans: nothing may wait for ever."
+SAME_WAY = "Plan anew once a second, with what the lidar sees as solid as a wall."
+SAME_ORDER = "An order that is canceled is published once more: its status says so. Choose again."
+NEW_MESSAGES_ONLY = (
+    "A program that comes back hears old orders, the map and the dock only if it asks for them: "
+    "durability TRANSIENT_LOCAL. What it hasn't heard yet must not end it."
+)
+
+
+@deliver.check(1, after=stands_blind, only="blind", hints=_unless_idle(WAITS_FOR_EVER))
 def sees_again(run: Recording) -> None:
     """When the scans come again it goes on, and delivers the order."""
-    _one_delivered(run, "The scans are back, and so should be poses and plans: nothing may wait for ever.")
+    _require_delivery(run)
 
 
-@deliver.check(3, after=touches_nobody, only="blocked")
+@deliver.check(3, after=touches_nobody, only="blocked", hints=_unless_idle(SAME_WAY))
 def goes_round(run: Recording) -> None:
     """When a box blocks its way that no map shows, it finds another way, and delivers the order."""
-    _one_delivered(run, "Plan anew once a second, with what the lidar sees as solid as a wall.")
+    _require_delivery(run)
 
 
-@deliver.check(2, after=touches_nobody, only="canceled")
+@deliver.check(2, after=touches_nobody, only="canceled", hints=_unless_idle(SAME_ORDER))
 def takes_another(run: Recording) -> None:
     """When its order is canceled under way, it carries out another one."""
-    _one_delivered(run, "An order that is canceled is published once more: its status says so. Choose again.")
+    _require_delivery(run)
 
 
-@deliver.check(2, after=touches_nobody, only="restarted")
+@deliver.check(2, after=touches_nobody, only="restarted", hints=_unless_idle(NEW_MESSAGES_ONLY))
 def comes_back(run: Recording) -> None:
     """Each program is killed once, and started again 2 s later: the order is delivered all the same."""
-    hint = (
-        "A program that comes back hears old orders, the map and the dock only if it asks for them: "
-        "durability TRANSIENT_LOCAL. What it hasn't heard yet must not end it."
-    )
-    _one_delivered(run, hint)
+    _require_delivery(run)
 
 
-def _one_delivered(run: Recording, hint: str) -> None:
+def _require_delivery(run: Recording) -> None:
     jobs = shift(run).jobs
     if not any(job.status == "delivered" for job in jobs):
-        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_told, jobs)])
-        raise Missed("a delivered order", saw, _why_idle(run) or hint, picture="path")
+        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_text, jobs)])
+        raise Missed("a delivered order", saw, picture="path")
 
 
-def _told(job: Job) -> str:
+def _text(job: Job) -> str:
     if job.over is None and job.picked_up is not None:
         return f"order {job.id} was picked up at {job.picked_up:.0f} s and not delivered"
     if job.over is not None:
@@ -173,17 +193,10 @@ def _told(job: Job) -> str:
     return f"order {job.id} is {job.status}"
 
 
-def _fastest(run: Recording) -> tuple[float, float]:
-    """The greatest speed (m/s), and when that was (s)."""
-    pairs = itertools.pairwise(run.path)
-    speeds = [(math.dist(a[1:3], b[1:3]) / (b.stamp - a.stamp), b.stamp) for a, b in pairs]
-    return max(speeds, default=(0.0, 0.0))
+def shift_of(robot: Callable[[], Iterable[Any]], seed: int = 3) -> Recording:
+    """Return a shift of the robot of which this function of the student's lists the programs.
 
-
-def _why_idle(run: Recording) -> str:
-    """The usual reasons for a robot that doesn't deliver at all; nothing where none of them holds."""
-    if not any(not heard.from_course for heard in run.messages("/cmd_vel")):
-        return "None of your programs publishes on /cmd_vel. Does your list hold all of them?"
-    if travelled(run) < 0.1:
-        return "The robot never moves. Run each program alone, and look at what it publishes, and when."
-    return after_a_touch(run)
+    When a notebook is marked, it runs all the same, although `run` is left out there: so its questions are
+    shown above the student's answers.
+    """
+    return sim.run(*programs(robot), world=warehouse("shift", seed), seconds=SHIFT, seed=seed)

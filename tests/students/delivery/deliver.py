@@ -16,7 +16,7 @@ from tests.students.teams import Team
 
 PARTS = (
     *("sequence", "first_of", "Tree", "Charger", "Clerk", "Chaser", "Repeating", "Sulking", "Restless"),
-    *("Unsocial", "Forgetful", "ByTheMap", "Faithful", "Tight"),
+    *("Unsocial", "Forgetful", "ByTheMap", "Patient", "Faithful", "Tight"),
 )
 
 StateMachine = Team(Perception, Decision, Control)
@@ -188,6 +188,22 @@ class ByTheMap(Control):
 
 
 NeverReplans = Team(Perception, Decision, ByTheMap)
+
+
+class Patient(ByTheMap):
+    """Waits until what is in its way has gone."""
+
+    def on_obstacles(self, obstacles):
+        self.ahead = [(pose.position.x, pose.position.y) for pose in obstacles.poses]
+
+    def follow(self, x, y, yaw):
+        speed, turn = super().follow(x, y, yaw)
+        offs = [(px - x, py - y) for px, py in getattr(self, "ahead", [])]
+        near = [math.atan2(dy, dx) for dx, dy in offs if math.hypot(dx, dy) < 0.6]
+        return 0.0 if any(abs(math.remainder(way - yaw, math.tau)) < 0.7 for way in near) else speed, turn
+
+
+WaitsForTheBox = Team(Perception, Decision, Patient)
 
 
 class Faithful(Decision):

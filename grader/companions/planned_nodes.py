@@ -1,6 +1,4 @@
-"""A graph on paper, and the programs that have its ends, and only empty messages to say."""
-
-from __future__ import annotations
+"""Programs that have the publishers and subscriptions of a plan, and publish empty messages."""
 
 import functools
 from collections.abc import Callable, Mapping, Sequence
@@ -12,37 +10,37 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import Image
 
-from sim.world import World
 
-
-class Ear(NamedTuple):
-    """A subscription to be: to which topic, of which type, with which profile."""
+class PlannedSubscription(NamedTuple):
+    """A subscription of a plan."""
 
     topic: str
     type: Any
     profile: QoSProfile | int
 
 
-class Mouth(NamedTuple):
-    """A publisher to be."""
+class PlannedPublisher(NamedTuple):
+    """A publisher of a plan."""
 
     topic: str
     type: Any
     profile: QoSProfile | int
 
 
-def hears(topic: str, type: Any, profile: QoSProfile | int = 10) -> Ear:
+def subscribes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedSubscription:
     """A line of a plan: this program subscribes to a topic."""
-    return Ear(topic, type, profile)
+    return PlannedSubscription(topic, type, profile)
 
 
-def says(topic: str, type: Any, profile: QoSProfile | int = 10) -> Mouth:
+def publishes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedPublisher:
     """A line of a plan: this program publishes on a topic."""
-    return Mouth(topic, type, profile)
+    return PlannedPublisher(topic, type, profile)
 
 
-def sketch(plan: Mapping[str, Callable[[], Sequence[Ear | Mouth]]]) -> Callable[[], None]:
-    """A program with a node for each name of the plan, and its ends: what the function of that name lists.
+def sketch(
+    plan: Mapping[str, Callable[[], Sequence[PlannedSubscription | PlannedPublisher]]],
+) -> Callable[[], None]:
+    """Return a program with a node for each name of the plan, with what the function of that name lists.
 
     The nodes publish empty messages, five times a second.
     """
@@ -57,10 +55,10 @@ def sketch(plan: Mapping[str, Callable[[], Sequence[Ear | Mouth]]]) -> Callable[
     return main
 
 
-def _node(name: str, ends: Sequence[Ear | Mouth]) -> Node:
+def _node(name: str, ends: Sequence[PlannedSubscription | PlannedPublisher]) -> Node:
     node = Node(name)
     for end in ends:
-        if isinstance(end, Ear):
+        if isinstance(end, PlannedSubscription):
             node.create_subscription(end.type, end.topic, lambda message: None, end.profile)
         else:
             publisher = node.create_publisher(end.type, end.topic, end.profile)
@@ -68,7 +66,7 @@ def _node(name: str, ends: Sequence[Ear | Mouth]) -> Node:
     return node
 
 
-class Camera(Node):
+class ShelfCamera(Node):
     """The camera of the robot: a small picture on /image, five times a second."""
 
     def __init__(self) -> None:
@@ -76,8 +74,3 @@ class Camera(Node):
         self.publisher = self.create_publisher(Image, "/image", qos_profile_sensor_data)
         self.picture = Image(height=2, width=2, encoding="mono8", step=2, data=[0, 255, 255, 0])
         self.create_timer(0.2, lambda: self.publisher.publish(self.picture))
-
-
-def hall(seed: int) -> World:
-    """The warehouse for which the plan is."""
-    return World.generate("warehouse", seed=seed)

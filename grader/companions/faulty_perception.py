@@ -1,6 +1,4 @@
-"""Nodes of ours for the exercise `gate`: one that sees, and falls silent, and one that says where to go."""
-
-from __future__ import annotations
+"""Perception that has faults, and a node that publishes one goal after the other."""
 
 import functools
 import math
@@ -14,47 +12,44 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
-from grader.exercises.delivery.floor import Place, Point, flat, listed, points_of, stamped, thinned
+from grader.companions.map_messages import flat, listed, stamped
+from grader.geometry import Point, Pose2D
+from grader.geometry.floor import points_of, thinned
+from grader.worlds.warehouses import floor_of
 from sim.evidence import Seconds, since_start
-from sim.world import World
 from sim.world.clearance import clearance
 
 POSE, PEOPLE, OBSTACLES, GOAL = "/robot_pose", "/people", "/obstacles", "/goal_pose"
-LASTS = 2.5  # s; each fault, and each person who is only told of
-CLOSE, FARTHER = 1.1, 2.0  # m; where these persons are
+LASTS = 2.5  # s; each fault, and each person who is not really there
+CLOSE, FARTHER = 1.1, 2.0  # m; how far these persons are
 ALONE = 2.8  # m; nobody is nearer when a fault begins
 DRIVES, FAST = 0.8, 0.2  # s and m/s of driving before the next fault
 FAULTS = "silent", "stale", "no people", "close", "farther"
 
 
-@functools.lru_cache(maxsize=16)
-def floor_of(seed: int) -> World:
-    """A small warehouse with somebody in it, and boxes."""
-    return World.generate("warehouse", seed=seed, columns=2, rows=2, movable=2, people=1)
-
-
-class Located(Node):
-    """Knows where the robot is, from /odom and where it began."""
+class Localized(Node):
+    """Estimates where the robot is, from /odom and where it began."""
 
     def __init__(self, name: str, seed: int) -> None:
         super().__init__(name)
         self.world = floor_of(seed)
-        self.pose: Place = self.world.start
+        self.pose = Pose2D(*self.world.start)
         self.speed = 0.0  # m/s
         self.create_subscription(Odometry, "/odom", self.on_odom, 10)
 
     def on_odom(self, odom: Odometry) -> None:
         """The start looks along x, so the two add up."""
         x, y, yaw = flat(odom.pose.pose)
-        self.pose = self.world.start[0] + x, self.world.start[1] + y, yaw
+        self.pose = Pose2D(self.world.start[0] + x, self.world.start[1] + y, yaw)
         self.speed = odom.twist.twist.linear.x
 
 
-class Seer(Located):
+class FaultyPerception(Localized):
     """Perception for the student's control, with the stamps of scans. It knows the warehouse and its boxes.
 
-    Once the robot drives, and nobody is near, the next fault comes: it is silent, or its stamps stand still,
-    or it says where the robot is but not who walks; or it tells of somebody who isn't there, close or not.
+    Once the robot drives, and nobody is near, the next fault comes: it publishes nothing, or its stamps no
+    longer change, or it publishes the robot's pose but no people, or it reports a person who isn't there,
+    close or not.
     """
 
     def __init__(self, seed: int) -> None:
@@ -70,7 +65,7 @@ class Seer(Located):
         self.obstacles_pub = self.create_publisher(PoseArray, OBSTACLES, 10)
 
     def on_scan(self, scan: LaserScan) -> None:
-        """Every other scan: tell, unless there is a fault."""
+        """Publish at every other scan, unless there is a fault."""
         self.scans += 1
         if self.scans % 2:
             return
@@ -89,7 +84,7 @@ class Seer(Located):
         self.pose_pub.publish(stamped(self.stamp, *self.pose))
 
     def seen(self, scan: LaserScan) -> tuple[list[Point], list[Point]]:
-        """Points of people, and of boxes that may be pushed."""
+        """Return points of people, and of boxes that may be pushed."""
         points = points_of(scan, self.pose)
         points = points[clearance(self.world, points[:, 0], points[:, 1]) > 0.15]
         boxes = np.array([(box.x, box.y) for box in self.world.movable])
@@ -97,11 +92,11 @@ class Seer(Located):
         return thinned(points[~near].tolist()), thinned(points[near].tolist())
 
     def ghost(self, away: float) -> Point:
-        """A place so far (m) from the robot."""
+        """Return a point so far (m) from the robot."""
         return self.pose[0] + away * math.cos(self.side), self.pose[1] + away * math.sin(self.side)
 
     def change(self, now: Seconds, people: list[Point]) -> None:
-        """Whether a fault begins or ends now."""
+        """Let a fault begin or end, if it is time."""
         if self.fault:
             if now - self.begin >= LASTS:
                 self.fault, self.driven = "", 0
@@ -112,7 +107,7 @@ class Seer(Located):
             self.fault, self.begin = self.faults.pop(), now
 
 
-class Guide(Located):
+class GoalCycle(Localized):
     """Decision for the student's control: one place after the other, as soon as the robot stands there."""
 
     def __init__(self, seed: int) -> None:
@@ -120,21 +115,21 @@ class Guide(Located):
         self.draw = random.Random(f"guide {seed}")
         self.place = self.next(self.pose[:2])
         self.publisher = self.create_publisher(PoseStamped, GOAL, 10)
-        self.create_timer(0.5, self.tell)
+        self.create_timer(0.5, self.publish_goal)
 
     def next(self, here: Point) -> Point:
-        """A place at a shelf that is neither here nor at the other end."""
+        """Return a place at a shelf that is neither here nor at the other end."""
         places = [pickup[:2] for pickup in self.world.warehouse.pickups]
         places.sort(key=lambda place: math.dist(here, place))
         return self.draw.choice([place for place in places if math.dist(here, place) > 1.0][:2])
 
-    def tell(self) -> None:
-        """Where to go now."""
+    def publish_goal(self) -> None:
+        """Publish where to go now."""
         if math.dist(self.pose[:2], self.place) < 0.1 and abs(self.speed) < 0.02:
             self.place = self.next(self.place)
         self.publisher.publish(stamped(self.get_clock().now().to_msg(), *self.place))
 
 
 def partners(seed: int) -> list[Callable[[], Node]]:
-    """Perception and decision of a seed, as companions of a run."""
-    return [functools.partial(Seer, seed), functools.partial(Guide, seed)]
+    """Return perception and decision of a seed, as companions of a run."""
+    return [functools.partial(FaultyPerception, seed), functools.partial(GoalCycle, seed)]

@@ -1,6 +1,4 @@
-"""A desk of ours for the exercise `decide`: what it says when, and what a right decision then wants."""
-
-from __future__ import annotations
+"""An order desk that follows a script, and the decision that is right in each situation of the script."""
 
 import functools
 import math
@@ -14,7 +12,8 @@ from rclpy.time import Duration
 from sensor_msgs.msg import BatteryState
 from warehouse_msgs.msg import Order
 
-from grader.exercises.delivery.floor import KEPT, Point, stamped
+from grader.companions.map_messages import KEPT, stamped
+from grader.geometry import Point
 from sim.evidence import Seconds, since_start
 
 LEAST, PER_METRE = 20.0, 4.0  # s, and s for each metre from pickup to delivery: what an order takes
@@ -24,7 +23,7 @@ SPELL = 2.2, 2.8  # s; how long a situation lasts
 
 
 @dataclass(frozen=True)
-class Job:
+class ScriptedOrder:
     """An order: from where to where, and how many seconds it has left when it comes."""
 
     id: int
@@ -40,19 +39,19 @@ class Job:
 
 @dataclass
 class Situation:
-    """What is said at `begin`, and what is wanted until `end`: a state, and the place to go to.
+    """What is published at `begin`, and what is right until `end`: a state, and the place to go to.
 
-    about: the rule that is tried. told: what happened, in words. orders: jobs with their new status.
+    about: the rule that is tested. reason: what happened, in words. orders: each with its new status.
     """
 
     about: str
-    told: str
+    reason: str
     begin: Seconds
     end: Seconds
     state: str
     place: Point
     share: float
-    orders: list[tuple[Job, int]]
+    orders: list[tuple[ScriptedOrder, int]]
 
 
 class Script:
@@ -72,80 +71,86 @@ class Script:
     def _point(self, left: float) -> Point:
         return round(self.draw.uniform(left, left + 2.0), 2), round(self.draw.uniform(0.0, 9.0), 2)
 
-    def _job(self, left: Seconds = AMPLE, way: float = 5.0) -> Job:
+    def _job(self, left: Seconds = AMPLE, way: float = 5.0) -> ScriptedOrder:
         """An order with so many seconds left; way: from pickup to delivery, m."""
         self.count += 1
         pickup, angle = self._point(4.0), self.draw.uniform(-1.0, 1.0)
         delivery = pickup[0] - way * math.cos(angle), pickup[1] + way * math.sin(angle)
-        return Job(self.count, pickup, (round(delivery[0], 2), round(delivery[1], 2)), left)
+        return ScriptedOrder(self.count, pickup, (round(delivery[0], 2), round(delivery[1], 2)), left)
 
     def _add(
-        self, about: str, told: str, state: str, place: Point, *orders: tuple[Job, int], **more: float
+        self,
+        about: str,
+        reason: str,
+        state: str,
+        place: Point,
+        *orders: tuple[ScriptedOrder, int],
+        **more: float,
     ) -> None:
         end = self.begin + more.get("lasts", self.draw.uniform(*SPELL))
         share = more.get("share", WELL)
         self.situations.append(
-            Situation(about, told, self.begin, end, state, place, round(share, 2), list(orders))
+            Situation(about, reason, self.begin, end, state, place, round(share, 2), list(orders))
         )
         self.begin = end
 
     def _shift(self) -> None:
-        """From what was said before anybody listened to a charged battery."""
+        """From what was published before any subscription existed to a charged battery."""
         first, gone, urgent = self._job(), self._job(AMPLE - 60.0), self._job(AMPLE - 80.0)
         before = (first, Order.WAITING), (gone, Order.WAITING), (gone, Order.CANCELED)
         low, half, full = (self.draw.uniform(*part) for part in ((0.1, 0.25), (0.4, 0.7), (0.83, 0.95)))
-        told = "an order was published before your node began, and one that was canceled again"
-        self._add("past", told, "fetch", first.pickup, *before)
-        told = "a more urgent order came while it fetched this one"
-        self._add("keeps", told, "fetch", first.pickup, (urgent, Order.WAITING))
-        told = f"it carries order {first.id}, and the battery is at {low:.0%}"
-        self._add("delivers", told, "deliver", first.delivery, (first, Order.PICKED_UP), share=low)
-        told = f"the load is delivered, and the battery is at {low:.0%}"
-        self._add("charges", told, "charge", self.dock, (first, Order.DELIVERED), share=low)
+        reason = "an order was published before your node began, and one that was canceled again"
+        self._add("past", reason, "fetch", first.pickup, *before)
+        reason = "a more urgent order came while it fetched this one"
+        self._add("keeps", reason, "fetch", first.pickup, (urgent, Order.WAITING))
+        reason = f"it carries order {first.id}, and the battery is at {low:.0%}"
+        self._add("delivers", reason, "deliver", first.delivery, (first, Order.PICKED_UP), share=low)
+        reason = f"the load is delivered, and the battery is at {low:.0%}"
+        self._add("charges", reason, "charge", self.dock, (first, Order.DELIVERED), share=low)
         self._add("charges", f"it charges, and is at {half:.0%}", "charge", self.dock, share=half)
-        told = f"it charged, and is at {full:.0%}"
-        self._add("charges", told, "fetch", urgent.pickup, share=full)
-        told = "the only order was canceled"
-        self._add("gives up", told, "rest", self.dock, (urgent, Order.CANCELED))
+        reason = f"it charged, and is at {full:.0%}"
+        self._add("charges", reason, "fetch", urgent.pickup, share=full)
+        reason = "the only order was canceled"
+        self._add("gives up", reason, "rest", self.dock, (urgent, Order.CANCELED))
 
     def _too_late(self) -> None:
         """One that can't be made, and one that can be, for a while."""
         far = self._job(0.0, self.draw.uniform(7.0, 9.0))
-        far = Job(far.id, far.pickup, far.delivery, far.takes - 3.0)
+        far = ScriptedOrder(far.id, far.pickup, far.delivery, far.takes - 3.0)
         near = self._job(0.0, self.draw.uniform(1.0, 2.0))
-        near = Job(near.id, near.pickup, near.delivery, near.takes + 3.0)
-        told = f"the only order takes {far.takes:.3g} s and has {far.left:.3g} s left"
-        self._add("gives up", told, "rest", self.dock, (far, Order.WAITING))
-        told = f"an order takes {near.takes:.3g} s and has {near.left:.3g} s left"
-        self._add("gives up", told, "fetch", near.pickup, (near, Order.WAITING), lasts=3.0)
-        told = f"an order that it fetched takes {near.takes:.3g} s, and has less left by now"
-        self._add("gives up", told, "rest", self.dock)
+        near = ScriptedOrder(near.id, near.pickup, near.delivery, near.takes + 3.0)
+        reason = f"the only order takes {far.takes:.3g} s and has {far.left:.3g} s left"
+        self._add("gives up", reason, "rest", self.dock, (far, Order.WAITING))
+        reason = f"an order takes {near.takes:.3g} s and has {near.left:.3g} s left"
+        self._add("gives up", reason, "fetch", near.pickup, (near, Order.WAITING), lasts=3.0)
+        reason = f"an order that it fetched takes {near.takes:.3g} s, and has less left by now"
+        self._add("gives up", reason, "rest", self.dock)
 
     def _in_between(self) -> None:
-        """A battery that is neither low nor full sends nobody to the charger."""
+        """A battery that is neither low nor full is no reason to charge."""
         job, share = self._job(), self.draw.uniform(0.38, 0.5)
-        told = f"it doesn't charge, the battery is at {share:.0%}, and an order comes"
-        self._add("charges", told, "fetch", job.pickup, (job, Order.WAITING), share=share)
-        told = "the only order expired"
-        self._add("gives up", told, "rest", self.dock, (job, Order.EXPIRED))
+        reason = f"it doesn't charge, the battery is at {share:.0%}, and an order comes"
+        self._add("charges", reason, "fetch", job.pickup, (job, Order.WAITING), share=share)
+        reason = "the only order expired"
+        self._add("gives up", reason, "rest", self.dock, (job, Order.EXPIRED))
 
     def _three_at_once(self) -> None:
         """The most urgent one first; and another one is picked up on the way."""
         jobs = [self._job(AMPLE - 30.0 * number) for number in range(3)]
         urgent, other = jobs[2], jobs[0]
         self.draw.shuffle(jobs)
-        told = "three orders came at once, and this one is the most urgent"
-        self._add("keeps", told, "fetch", urgent.pickup, *((job, Order.WAITING) for job in jobs))
-        told = f"it picked up order {other.id} on its way"
-        self._add("delivers", told, "deliver", other.delivery, (other, Order.PICKED_UP))
+        reason = "three orders came at once, and this one is the most urgent"
+        self._add("keeps", reason, "fetch", urgent.pickup, *((job, Order.WAITING) for job in jobs))
+        reason = f"it picked up order {other.id} on its way"
+        self._add("delivers", reason, "deliver", other.delivery, (other, Order.PICKED_UP))
         over = [(job, Order.DELIVERED if job is other else Order.CANCELED) for job in jobs]
         self._add("gives up", "all orders are delivered or canceled", "rest", self.dock, *over)
 
 
 class Desk(Node):
-    """Says on /orders, /battery_state and /dock_pose what the script of a seed has.
+    """Publishes on /orders, /battery_state and /dock_pose what the script of a seed has.
 
-    What is latched and belongs to the first situation is said before the student's node is there.
+    What is latched and belongs to the first situation is published before the student's node is there.
     """
 
     def __init__(self, seed: int) -> None:
@@ -158,22 +163,22 @@ class Desk(Node):
         self.battery = self.create_publisher(BatteryState, "/battery_state", 10)
         self.docks = self.create_publisher(PoseStamped, "/dock_pose", KEPT)
         self.docks.publish(stamped(self.get_clock().now().to_msg(), *self.script.dock))
-        self.say()
-        self.create_timer(0.1, self.say)
-        self.create_timer(0.25, self.tell_battery)
+        self.publish_due()
+        self.create_timer(0.1, self.publish_due)
+        self.create_timer(0.25, self.publish_battery)
 
-    def say(self) -> None:
-        """What has become due."""
+    def publish_due(self) -> None:
+        """Publish what is due by now."""
         now = since_start(self.get_clock().now().to_msg())
         while self.ahead and self.ahead[0].begin <= now + 1e-6:
             situation = self.ahead.pop(0)
             self.share = situation.share
-            self.tell_battery()
+            self.publish_battery()
             for job, status in situation.orders:
                 self.orders.publish(self.order(job, status))
 
-    def order(self, job: Job, status: int) -> Order:
-        """The message on an order that has this status now."""
+    def order(self, job: ScriptedOrder, status: int) -> Order:
+        """Return the message on an order that has this status now."""
         now = self.get_clock().now()
         end = self.deadlines.setdefault(job.id, now + Duration(seconds=job.left))
         stamp = now.to_msg()
@@ -183,18 +188,18 @@ class Desk(Node):
         order.header.stamp, order.header.frame_id = stamp, "map"
         return order
 
-    def tell_battery(self) -> None:
-        """How full the battery is."""
+    def publish_battery(self) -> None:
+        """Publish how full the battery is."""
         message = BatteryState(percentage=self.share)
         message.header.stamp = self.get_clock().now().to_msg()
         self.battery.publish(message)
 
 
 def desk(seed: int) -> list[Callable[[], Node]]:
-    """The desk of a seed, as companions of a run."""
+    """Return the desk of a seed, as companions of a run."""
     return [functools.partial(Desk, seed)]
 
 
 def situations(seed: int, about: str) -> Iterator[Situation]:
-    """Those of a seed that try this rule."""
+    """Return the situations of a seed that test this rule."""
     return (one for one in Script(seed).situations if one.about == about)

@@ -1,7 +1,5 @@
 """Warehouses in which something happens to the robot, each drawn from a seed."""
 
-from __future__ import annotations
-
 import dataclasses
 import functools
 import itertools
@@ -33,11 +31,11 @@ APART = 1.0  # m from its middle to where a robot or somebody begins, and to whe
 
 @functools.lru_cache(maxsize=32)
 def warehouse(kind: str, seed: int) -> World:
-    """The warehouse of a scenario.
+    """Return the warehouse of a scenario.
 
-    shift: many orders, and a tired battery. blind: one order, and a lidar that falls silent. blocked: one
-    order, and a box that is on no map stands on the way. canceled: the first order is taken back before the
-    second one comes. restarted: one order.
+    shift: many orders, and a tired battery. blind: one order, and a lidar that stops publishing at times.
+    blocked: one order, and a box that is on no map stands on the way. canceled: the first order is canceled
+    before the second one comes. restarted: one order.
     """
     world = World.generate("warehouse", seed=seed)
     if kind == "shift":
@@ -54,8 +52,19 @@ def warehouse(kind: str, seed: int) -> World:
     return world
 
 
+@functools.lru_cache(maxsize=16)
+def floor_of(seed: int) -> World:
+    """Return a small warehouse with a person in it, and boxes."""
+    return World.generate("warehouse", seed=seed, columns=2, rows=2, movable=2, people=1)
+
+
+def hall(seed: int) -> World:
+    """Return a warehouse as it is generated."""
+    return World.generate("warehouse", seed=seed)
+
+
 def silences(seed: int) -> tuple[tuple[float, float], ...]:
-    """When the lidar of the blind robot falls silent, and speaks again, s."""
+    """Return when the lidar of the blind robot stops publishing, and when it resumes, s."""
     draw = random.Random(f"silences {seed}").uniform
     spans = [(draw(4.0, 6.0), draw(4.0, 5.0)) for _ in range(3)]
     times = list(itertools.accumulate(itertools.chain.from_iterable(spans), initial=2.0))[1:]

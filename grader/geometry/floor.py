@@ -1,63 +1,24 @@
-"""What a delivery robot computes with, given to students: poses, what the map doesn't explain, ways.
+"""What a delivery robot computes with, given to students: points of a scan, an occupancy grid, paths by A*.
 
-It is what lesson 13 has beside its notebook, with types.
+Lesson 13 has the same code beside its notebook, without types.
 """
-
-from __future__ import annotations
 
 import heapq
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
-from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Pose, PoseArray, PoseStamped
-from nav_msgs.msg import OccupancyGrid
-from rclpy.qos import DurabilityPolicy, QoSProfile
-from sensor_msgs.msg import LaserScan
 
-Point = tuple[float, float]  # m, in map
-Place = tuple[float, float, float]  # x, y (m) and yaw (rad)
+from grader.geometry.pose import Point
+
 Cell = tuple[int, int]  # column, row
 
-KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # also for latecomers
 CELL = 0.1  # m; the width of a cell in which ways are searched
 CLEAR = 0.2  # m from the middle of the robot to what is solid
 
 
-def seconds(stamp: Time) -> float:
-    """A stamp in a message, in s."""
-    return stamp.sec + stamp.nanosec / 1e9
-
-
-def flat(pose: Pose) -> Place:
-    """Where a Pose is: x (m), y (m) and yaw (rad)."""
-    return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
-
-
-def posed(x: float, y: float, yaw: float = 0.0) -> Pose:
-    """A Pose on the floor."""
-    pose = Pose()
-    pose.position.x, pose.position.y = float(x), float(y)
-    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return pose
-
-
-def stamped(stamp: Time, x: float, y: float, yaw: float = 0.0) -> PoseStamped:
-    """A PoseStamped in map."""
-    message = PoseStamped(pose=posed(x, y, yaw))
-    message.header.stamp, message.header.frame_id = stamp, "map"
-    return message
-
-
-def listed(stamp: Time, points: Iterable[Sequence[float]]) -> PoseArray:
-    """A PoseArray in map, of points (x, y)."""
-    message = PoseArray(poses=[posed(*point) for point in points])
-    message.header.stamp, message.header.frame_id = stamp, "map"
-    return message
-
-
-def points_of(scan: LaserScan, pose: Place) -> np.ndarray:
+def points_of(scan: Any, pose: Sequence[float]) -> np.ndarray:
     """The points (x, y) in map that the rays met, as rows; pose: x, y and yaw of the lidar."""
     ranges = np.array(scan.ranges)
     rays = np.flatnonzero(np.isfinite(ranges))
@@ -80,7 +41,7 @@ def thinned(points: Iterable[Sequence[float]], gap: float = 0.1) -> list[Sequenc
     return kept
 
 
-def steer(pose: Place, point: Sequence[float], speed: float = 0.5) -> tuple[float, float]:
+def steer(pose: Sequence[float], point: Sequence[float], speed: float = 0.5) -> tuple[float, float]:
     """The speed (m/s) and the turn (rad/s) that lead to a point."""
     distance = math.dist(pose[:2], point)
     off = math.remainder(math.atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2], math.tau)
@@ -91,7 +52,7 @@ def steer(pose: Place, point: Sequence[float], speed: float = 0.5) -> tuple[floa
 class Floor:
     """The map of the warehouse: an OccupancyGrid, as one can ask it."""
 
-    def __init__(self, grid: OccupancyGrid) -> None:
+    def __init__(self, grid: Any) -> None:
         self.info = grid.info
         self.left, self.bottom = grid.info.origin.position.x, grid.info.origin.position.y
         self.solid = np.array(grid.data).reshape(grid.info.height, grid.info.width) > 50

@@ -1,0 +1,213 @@
+"""Perception: the robot's pose, what stands there, and who walks."""
+
+import itertools
+import math
+
+import numpy as np
+
+from grader.checks import Missed, publishes
+from grader.checks.no_data import no_data
+from grader.companions.turner import turner
+from grader.exercise import Exercise
+from grader.geometry import Point, Pose2D
+from grader.geometry.floor import far_from, points_of
+from grader.responses import from_course
+from grader.worlds.crossing import CLOSE, FAR, crossing, in_view
+from sim.evidence import Message, Pose, Recording, Seconds, since_start
+from sim.world.clearance import clearance
+
+POSE, PEOPLE, OBSTACLES = "/robot_pose", "/people", "/obstacles"
+ARRAY = "geometry_msgs/msg/PoseArray"
+PLACED, TURNED = 0.05, 0.06  # m, rad
+REACH = 0.5  # m from the middle of a person or box to a point of it
+BOX = 0.25  # m from a box's middle to its points, mostly
+BACK, NEW = 10, 0.2  # scans before, half a second; m from what was seen then to what is new
+EACH = 3  # every third message is judged: what is in view takes time to compute
+MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
+WALKS, STANDS = 0.4, 0.05  # m/s
+SETTLED = 6.0  # s until what stands is known to stand
+
+perceive = Exercise(
+    "perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner, seeds=(1,)
+)
+
+
+@perceive.check(2)
+def publishes_all_three(run: Recording) -> None:
+    """The node publishes a PoseStamped on /robot_pose, and PoseArrays on /people and /obstacles."""
+    publishes(run, POSE, "geometry_msgs/msg/PoseStamped", at_least=20)
+    publishes(run, PEOPLE, ARRAY, at_least=20)
+    publishes(run, OBSTACLES, ARRAY, at_least=20)
+
+
+@perceive.check(4, after=publishes_all_three)
+def knows_its_place(run: Recording) -> None:
+    """/robot_pose is where base_link was at its stamp, in map."""
+    hint = (
+        "Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's stamp."
+    )
+    for row in _from_student(run, POSE):
+        pose, true = Pose2D.from_message(row.message.pose), Pose2D(*_nearest(run.path, _time(row))[1:])
+        if not pose.is_near(true, PLACED, TURNED):
+            expected = f"the robot at {_text(true)}, turned by {true.yaw:.2f} rad"
+            saw = f"{_text(pose)} and {pose.yaw:.2f} rad at {row.stamp:.3g} s"
+            raise Missed(expected, saw, hint)
+
+
+@perceive.check(3, after=knows_its_place)
+def stamps_by_the_scan(run: Recording) -> None:
+    """All three carry the stamp of the scan that they come from, and the frame map, five times a second."""
+    stamps = {_nanoseconds(row) for row in from_course(run, "/scan")}
+    hint = "Pass scan.header.stamp on, and not the time of now."
+    for topic in (POSE, PEOPLE, OBSTACLES):
+        rows = _from_student(run, topic)
+        wrong = next((row for row in rows if _nanoseconds(row) not in stamps), None)
+        if wrong:
+            saw = f"{_time(wrong):.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
+            raise Missed("the stamps of scans", saw, hint)
+        if any(row.message.header.frame_id != "map" for row in rows):
+            hint = "The header says in which frame a place is: listed and stamped write map."
+            raise Missed(f"the frame map on {topic}", f"“{rows[0].message.header.frame_id}”", hint)
+        count = len(set(map(_nanoseconds, rows)))
+        if count < 4 * run.ended.stamp:
+            saw = f"those of {count} scans in {run.ended.stamp:.3g} s"
+            hint = "Tell with every other scan; whoever hears of people late drives on for too long."
+            raise Missed(f"five scans or more each second on {topic}", saw, hint)
+
+
+@perceive.check(4, after=knows_its_place)
+def finds_what_stands(run: Recording) -> None:
+    """/obstacles has points of the boxes in view, and none of what is on the map."""
+    boxes = _boxes_in_view(run)
+    hint = "Floor.strange gives the points that the map doesn't explain; publish them all."
+    for row in _from_student(run, OBSTACLES)[::EACH]:
+        points, person = _points(row), _nearest(_person(run), _time(row))[1:3]
+        person_in_view = in_view(run.world, run.world.start[:2], person, FAR, 0.0)
+        for box in [] if person_in_view else boxes:
+            if not _has(points, box):
+                expected = f"a point of the box at {_text(box)}"
+                raise Missed(expected, f"none within {REACH} m of it at {row.stamp:.3g} s", hint)
+        gaps = clearance(run.world, *np.array(points).T) if points else []
+        mapped = [point for point, gap in zip(points, gaps, strict=True) if gap < MAPPED]
+        if mapped:
+            saw = f"{_text(mapped[0])} at {row.stamp:.3g} s, which is on the map"
+            raise Missed("points that the map doesn't explain", saw, hint)
+
+
+@perceive.check(5, after=knows_its_place)
+def finds_who_walks(run: Recording) -> None:
+    """/people has a point of whoever walks in view, and of no box that stands there from the beginning."""
+    rows = _from_student(run, PEOPLE)[::EACH]
+    seen = [row for row in rows if _is_seen(run, row, 1.0) and _speed_of_person(run, row, 1.0) > WALKS]
+    comes = _time(seen[0]) if seen else math.inf
+    _require_no_boxes(run, [row for row in rows if SETTLED < _time(row) <= comes])
+    for row in seen:
+        hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
+        _require_person(run, row, "somebody who walks", hint)
+    _require_three(run, seen, "somebody who walks")
+
+
+@perceive.check(4, after=finds_who_walks)
+def remembers_who_stops(run: Recording) -> None:
+    """Whoever walked, and stops, is told of for some seconds more."""
+    rows = _from_student(run, PEOPLE)[::EACH]
+    seen = [row for row in rows if _is_seen(run, row, 1.2) and _speed_of_person(run, row, 1.2) < STANDS]
+    for row in seen:
+        hint = "Keep the points that moved, each with its time, for five seconds."
+        _require_person(run, row, "somebody who walked here, and stands now", hint)
+    _require_three(run, seen, "somebody who stands")
+
+
+def _require_no_boxes(run: Recording, rows: list[Message]) -> None:
+    boxes = _plain_boxes(run, _time(rows[-1])) if rows else []
+    for row, box in itertools.product(rows, boxes):
+        if any(math.dist(point, box) < BOX for point in _points(row)):
+            hint = "What has stood there all the time doesn't walk: compare with half a second before."
+            saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
+            raise Missed("no box on /people that has stood there for six seconds", saw, hint)
+
+
+def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
+    """The boxes in view of which all that is seen until `end` was seen half a second before, too.
+
+    The lidar is off the middle of a robot that turns, so a side of a box may come into view as if it walked.
+    """
+    hits = []
+    for scan in [scan for scan in from_course(run, "/scan") if _time(scan) <= end]:
+        pose = run.world.lidar.mounted_at(_nearest(run.path, _time(scan))[1:])
+        hits.append(points_of(scan.message, pose).tolist())
+
+    def is_plain(box: Point) -> bool:
+        seen = [[hit for hit in row if math.dist(hit, box) < BOX] for row in hits]
+        return not any(far_from(now, before, NEW) for before, now in zip(seen, seen[BACK:], strict=False))
+
+    return [box for box in _boxes_in_view(run) if is_plain(box)]
+
+
+def _require_person(run: Recording, row: Message, who: str, hint: str) -> None:
+    """Raises Missed where the person isn't on /people, or is there with far too many points."""
+    there, points = _nearest(_person(run), _time(row))[1:3], _points(row)
+    if not _has(points, there):
+        saw = f"no point of /people within {REACH} m of that at {row.stamp:.3g} s"
+        raise Missed(f"{who}, at {_text(there)}", saw, hint)
+    if len(points) > 300:
+        hint = "Publish the points that moved as they are, each of them once."
+        saw = f"{len(points)} points at {row.stamp:.3g} s"
+        raise Missed("at most 300 points of people", saw, hint)
+
+
+def _require_three(run: Recording, judged: list[Message], who: str) -> None:
+    if len(judged) < 3:
+        raise no_data(run, f"messages on {PEOPLE} with {who} in view", f"{len(judged)}", [])
+
+
+def _person(run: Recording) -> list[Pose]:
+    return run.tracks["person_1"]
+
+
+def _nearest(track: list[Pose], stamp: Seconds) -> Pose:
+    """The pose of a track that is nearest in time."""
+    return min(track, key=lambda pose: abs(pose.stamp - stamp))
+
+
+def _speed_of_person(run: Recording, row: Message, lasting: Seconds) -> float:
+    """Their mean speed in the time until the stamp of a message, m/s."""
+    before, now = (_nearest(_person(run), _time(row) - back) for back in (lasting, 0.0))
+    return math.dist(before[1:3], now[1:3]) / lasting
+
+
+def _is_seen(run: Recording, row: Message, lasting: Seconds) -> bool:
+    """Whether the person has been in view for a while."""
+    there = [_nearest(_person(run), _time(row) - back)[1:3] for back in (lasting, lasting / 2, 0.0)]
+    return all(in_view(run.world, run.world.start[:2], place, FAR - 0.5) for place in there)
+
+
+def _boxes_in_view(run: Recording) -> list[Point]:
+    here, world = run.world.start[:2], run.world
+    boxes = [(track[0].x, track[0].y) for name, track in run.tracks.items() if name.startswith("box")]
+    return [box for box in boxes if math.dist(here, box) > CLOSE and in_view(world, here, box, FAR)]
+
+
+def _has(points: list[Point], there: Point) -> bool:
+    return any(math.dist(point, there) < REACH for point in points)
+
+
+def _points(row: Message) -> list[Point]:
+    return [Pose2D.from_message(pose)[:2] for pose in row.message.poses]
+
+
+def _from_student(run: Recording, topic: str) -> list[Message]:
+    return [row for row in run.messages(topic) if not row.from_course]
+
+
+def _time(row: Message) -> Seconds:
+    return since_start(row.message.header.stamp)
+
+
+def _nanoseconds(row: Message) -> tuple[int, int]:
+    stamp = row.message.header.stamp
+    return stamp.sec, stamp.nanosec
+
+
+def _text(place: Point) -> str:
+    return f"{place[0]:.2f}, {place[1]:.2f}"
