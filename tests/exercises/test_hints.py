@@ -17,11 +17,6 @@ FOR_AUTHORS = (
     *("Stimuli", "Exercise", "compile", "from_data"),
 )
 TOPICS = sorted(path.name for path in EXERCISES.iterdir() if path.is_dir() and path.name[0] != "_")
-# Still without a node for each hint; the list only gets shorter.
-STILL = {
-    "navigator",
-    "sensing",
-}  # fmt: skip
 
 
 def sentences(source: str) -> Iterator[str]:
@@ -63,7 +58,7 @@ def test_a_sentence_is_found_by_its_words():
     assert unseen(found, "Turn 3 times") == ["times, not one more than that."]
 
 
-@pytest.mark.parametrize("topic", [topic for topic in TOPICS if topic not in STILL])
+@pytest.mark.parametrize("topic", TOPICS)
 def test_every_hint_has_a_wrong_node_that_gets_it(topic):
     shown = shown_somewhere()
     hidden = {
@@ -75,11 +70,7 @@ def test_every_hint_has_a_wrong_node_that_gets_it(topic):
     assert hidden == set()
 
 
-def topic_of(name: str) -> str:
-    return exercises()[name].checks[0].function.__module__.split(".")[2]
-
-
-@pytest.mark.parametrize("name", [name for name in sorted(exercises()) if topic_of(name) not in STILL])
+@pytest.mark.parametrize("name", sorted(exercises()))
 def test_every_row_of_a_table_of_hints_is_shown(name):
     shown = shown_somewhere()
     checks = exercises()[name].checks

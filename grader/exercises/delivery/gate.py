@@ -91,7 +91,7 @@ def _goals(run: Recording) -> list[tuple[Seconds, Point]]:
     return [(row.stamp, Pose2D.from_message(row.message.pose)[:2]) for row in rows]
 
 
-class Moment(NamedTuple):
+class KnownState(NamedTuple):
     """What control could know at a time.
 
     age: of the older of the two messages, by their stamps (s). why: why it is old. near: how far the nearest
@@ -104,7 +104,7 @@ class Moment(NamedTuple):
     near: float
 
 
-def _moments(run: Recording) -> list[Moment]:
+def _moments(run: Recording) -> list[KnownState]:
     """From the first messages on both topics on."""
     rows = {topic: from_course(run, topic, at_least=0) for topic in (POSE, PEOPLE)}
     if not all(rows.values()):
@@ -123,28 +123,28 @@ def _moments(run: Recording) -> list[Moment]:
             why = "there was no news"
         elif now - people.stamp > OLD:
             why = f"nothing came on {PEOPLE}"
-        found.append(Moment(now, age, why, near))
+        found.append(KnownState(now, age, why, near))
     return found
 
 
-def _old(moment: Moment) -> str:
+def _old(moment: KnownState) -> str:
     return moment.why if moment.age > OLD else ""
 
 
-def _close(moment: Moment) -> str:
+def _close(moment: KnownState) -> str:
     return "somebody was within 1.5 m" if moment.near < NEAR - ABOUT and moment.age < OLD else ""
 
 
-def _farther(moment: Moment) -> str:
+def _farther(moment: KnownState) -> str:
     inside = NEAR + ABOUT < moment.near < WIDE - ABOUT and moment.age < OLD
     return "somebody was within 2.5 m" if inside else ""
 
 
-def _allowed(moment: Moment) -> str:
+def _allowed(moment: KnownState) -> str:
     return "nothing spoke against it" if moment.near > NEAR + ABOUT and moment.age < OLD - 0.1 else ""
 
 
-def _windows(run: Recording, cause: Callable[[Moment], str]) -> list[tuple[Window, str]]:
+def _windows(run: Recording, cause: Callable[[KnownState], str]) -> list[tuple[Window, str]]:
     """The times in which one of the causes above holds all along, and its text."""
     groups = itertools.groupby(_moments(run), key=cause)
     begins = [(why, next(moments).stamp) for why, moments in groups]
@@ -153,7 +153,7 @@ def _windows(run: Recording, cause: Callable[[Moment], str]) -> list[tuple[Windo
 
 
 def _require_at_most(
-    run: Recording, speed: float, cause: Callable[[Moment], str], hint: str, unsafe: bool = False
+    run: Recording, speed: float, cause: Callable[[KnownState], str], hint: str, unsafe: bool = False
 ) -> None:
     """Raises Missed where the robot is faster than that (m/s) although a cause has held for a while."""
     found = [row for row in _windows(run, cause) if row[0].end - row[0].begin > BRAKING]

@@ -19,7 +19,7 @@ DISTANCE, BEARING = "/goal/distance", "/goal/bearing"
 Formula = Callable[[Pose2D], float]
 
 
-class Answer(NamedTuple):
+class Value(NamedTuple):
     """A value that the node published, and the last three poses of the odometry until then.
 
     Three, because a node may publish a little later.
@@ -59,7 +59,7 @@ def _all_are(formula: Formula, tolerance: float) -> Callable[..., bool]:
 
 
 @compass.check(2)
-def tells_both(run: Recording) -> None:
+def publishes_both(run: Recording) -> None:
     """The node publishes Float64 messages on /goal/distance and on /goal/bearing."""
     for topic in (DISTANCE, BEARING):
         publishes(run, topic, "std_msgs/msg/Float64", at_least=20)
@@ -67,7 +67,7 @@ def tells_both(run: Recording) -> None:
 
 @compass.check(
     4,
-    after=tells_both,
+    after=publishes_both,
     guess={
         "math.hypot takes the differences to the goal: math.hypot(goal x - x, goal y - y).": (
             _all_are(lambda pose: math.hypot(*pose[:2]), 0.05)
@@ -82,7 +82,7 @@ def tells_both(run: Recording) -> None:
         "Print x, y and yaw in the callback, and work one out by hand.": lambda run, answers: True,
     },
 )
-def tells_the_distance(run: Recording) -> None:
+def publishes_the_distance(run: Recording) -> None:
     """/goal/distance is the distance from the robot to (5, 5), in metres, within 5 cm."""
     _agrees(_answers(run, DISTANCE), _distance, 0.05, "m")
     lasts(run, DISTANCE)
@@ -90,7 +90,7 @@ def tells_the_distance(run: Recording) -> None:
 
 @compass.check(
     6,
-    after=tells_both,
+    after=publishes_both,
     hints={
         "It is right but for whole turns: math.remainder(angle, math.tau) brings it to -pi..pi.": (
             lambda run, answers: _is_right_but_for_turns(answers)
@@ -120,14 +120,14 @@ def tells_the_distance(run: Recording) -> None:
         "Print x, y and yaw in the callback, and work one out by hand.": lambda run, answers: True,
     },
 )
-def tells_the_bearing(run: Recording) -> None:
+def publishes_the_bearing(run: Recording) -> None:
     """/goal/bearing is how far the robot must turn to face (5, 5): -pi to pi rad, positive to the left."""
     answers = _answers(run, BEARING)
     _agrees(answers, _bearing, 0.1, "rad", credit=0.5 if _is_right_but_for_turns(answers) else 0.0)
     lasts(run, BEARING)
 
 
-def _agrees(answers: list[Answer], right: Formula, tolerance: float, unit: str, credit: float = 0.0) -> None:
+def _agrees(answers: list[Value], right: Formula, tolerance: float, unit: str, credit: float = 0.0) -> None:
     wrong = [answer for answer in answers if not answer.fits(right, tolerance)]
     if wrong:
         stamp, value, poses = wrong[0]
@@ -140,15 +140,15 @@ def _agrees(answers: list[Answer], right: Formula, tolerance: float, unit: str, 
         )
 
 
-def _is_right_but_for_turns(answers: list[Answer]) -> bool:
+def _is_right_but_for_turns(answers: list[Value]) -> bool:
     return all(answer.fits(_bearing, 0.1, math.tau) for answer in answers)
 
 
-def _answers(run: Recording, topic: str) -> list[Answer]:
+def _answers(run: Recording, topic: str) -> list[Value]:
     poses = [(row.stamp, Pose2D.from_message(row.message.pose.pose)) for row in run.messages("/odom")]
     found, known = [], 1
     for stamp, value in series(run, topic, "data"):
         while known < len(poses) and poses[known][0] <= stamp + EDGE:
             known += 1
-        found.append(Answer(stamp, value, [pose for _, pose in poses[max(known - 3, 0) : known]]))
+        found.append(Value(stamp, value, [pose for _, pose in poses[max(known - 3, 0) : known]]))
     return found

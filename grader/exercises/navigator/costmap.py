@@ -38,7 +38,7 @@ clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
     1,
     guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.",
 )
-def hears_the_map(run: Recording) -> Any:
+def receives_the_map(run: Recording) -> Any:
     """The node hears /map, though it was published before."""
     for end in subscribes(run, "/map", GRID):
         if end.qos["durability"] != "transient_local":
@@ -51,7 +51,7 @@ def hears_the_map(run: Recording) -> Any:
     return run.messages("/map", "/map_server")[0].message
 
 
-@costmap.check(2, after=hears_the_map)
+@costmap.check(2, after=receives_the_map)
 def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     """The node publishes an OccupancyGrid on /global_costmap/costmap, with the form of /map."""
     made = publishes(run, COSTMAP, GRID)[-1].message
@@ -99,7 +99,7 @@ def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
 
 @costmap.check(
     5,
-    after=hears_the_map,
+    after=receives_the_map,
     hints={
         "The map begins at info.origin, not at (0, 0): take the origin away before you divide.": (
             _all_are(_without_origin)

@@ -179,7 +179,7 @@ def does_not_dawdle(run: Recording) -> None:
 
 
 @navigate.check(3, after=(serves, reaches_the_goal))
-def tells_how_far(run: Recording) -> None:
+def reports_the_distance_left(run: Recording) -> None:
     """At least every 2 s the feedback says where the robot is, how far it is to go and how long it takes."""
     goal = goals_from_course(run)[-1]
     moments = [goal.at("executing") or 0.0, *stamps(goal.feedback), end_of(run, goal)]

@@ -9,15 +9,15 @@ HELLO = r"^\W*?Hello, robot!"
 
 
 @hello.check(7)
-def says_hello(run: Recording) -> None:
+def logs_hello(run: Recording) -> None:
     """The node logs “Hello, robot!” at info level."""
     silent = "Debug lines are hidden, so use info; and a method that nobody calls says nothing."
     with hinting("" if run.logs or run.prints else silent):
         logs(run, HELLO, level="INFO", example="Hello, robot!")
 
 
-@hello.check(3, after=says_hello)
-def says_it_once(run: Recording) -> None:
+@hello.check(3, after=logs_hello)
+def logs_it_once(run: Recording) -> None:
     """It says so once."""
     count = len(logs(run, HELLO))
     if count > 1:

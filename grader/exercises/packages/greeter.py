@@ -19,18 +19,18 @@ greeter = Exercise(
 
 
 @greeter.check(5, guess="Compare the topic's name with the task, letter by letter.")
-def says_hello(run: PackageRun) -> None:
+def publishes_hello(run: PackageRun) -> None:
     """`ros2 run greeter hello` publishes String messages on /greeting."""
     publishes(run, TOPIC, "std_msgs/msg/String")
 
 
-@greeter.check(3, after=says_hello)
+@greeter.check(3, after=publishes_hello)
 def twice_a_second(run: PackageRun) -> None:
     """A greeting comes twice a second."""
     rate(run, TOPIC, 2.0)
 
 
-@greeter.check(2, after=says_hello)
+@greeter.check(2, after=publishes_hello)
 def counts(run: PackageRun) -> None:
     """The greetings are hello 1, hello 2, hello 3 and so on."""
     for number, row in enumerate(run.messages(TOPIC), 1):

@@ -24,7 +24,7 @@ heading = Exercise(
 
 
 @heading.check(2)
-def says_a_heading(run: Recording) -> Headings:
+def publishes_a_heading(run: Recording) -> Headings:
     """The node hears /odom, and publishes Float64 messages on /heading."""
     subscribes(run, "/odom", "nav_msgs/msg/Odometry")
     publishes(run, HEADING, "std_msgs/msg/Float64", at_least=20)
@@ -49,7 +49,7 @@ def _yaws(run: Recording, stamp: Seconds) -> list[float]:
 
 @heading.check(
     4,
-    after=says_a_heading,
+    after=publishes_a_heading,
     hints={
         "That is the angle in radians: math.degrees(...) turns it into degrees.": _all_are(lambda yaw: yaw),
         "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).": (

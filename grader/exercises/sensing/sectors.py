@@ -21,7 +21,7 @@ MIDDLES = {"/front": 0.0, "/left": 90.0, "/right": -90.0}  # degrees
 LAG, PATIENCE = 0.02, 0.3  # seconds
 
 
-class Answer(NamedTuple):
+class SectorValue(NamedTuple):
     """What a node published for a direction after a scan, None for nothing, and what there was to see."""
 
     stamp: Seconds
@@ -48,7 +48,7 @@ sectors = Exercise(
 
 
 @sectors.check(3)
-def says_three_distances(run: Recording) -> list[Answer]:
+def publishes_three_distances(run: Recording) -> list[SectorValue]:
     """The node hears /scan, and publishes Float64 messages on /front, /left and /right."""
     subscribes(run, "/scan", SCAN)
     with hinting(guess="A publisher for each of the three, and a message on each after every scan."):
@@ -57,39 +57,39 @@ def says_three_distances(run: Recording) -> list[Answer]:
     return list(_answers(run))
 
 
-def _all(condition: Callable[[Answer], bool]) -> Callable[..., bool]:
+def _all(condition: Callable[[SectorValue], bool]) -> Callable[..., bool]:
     """The cause of a miss: all wrong answers are like this."""
     return lambda run, wrong: all(map(condition, wrong))
 
 
-def _returns_in_the_loop(run: Recording, wrong: list[Answer]) -> bool:
+def _returns_in_the_loop(run: Recording, wrong: list[SectorValue]) -> bool:
     first_ray = [answer.value == answer.sector.middle != math.inf for answer in wrong]
     return any(first_ray) and all(
         is_first or answer.value == math.inf for is_first, answer in zip(first_ray, wrong, strict=True)
     )
 
 
-def _is_nearest_around(run: Recording, wrong: list[Answer]) -> bool:
+def _is_nearest_around(run: Recording, wrong: list[SectorValue]) -> bool:
     return all(answer.value == answer.sector.around for answer in wrong if answer.topic == wrong[0].topic)
 
 
-def _sides(wrong: list[Answer]) -> list[Answer]:
+def _sides(wrong: list[SectorValue]) -> list[SectorValue]:
     return [answer for answer in wrong if answer.topic != "/front"]
 
 
-def _is_within(run: Recording, wrong: list[Answer]) -> bool:
+def _is_within(run: Recording, wrong: list[SectorValue]) -> bool:
     finite = [answer for answer in _sides(wrong) if answer.value and math.isfinite(answer.value)]
     return any(answer.value in answer.sector.rays for answer in finite)
 
 
-def _is_too_far_aside(run: Recording, wrong: list[Answer]) -> bool:
+def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
     sides = _sides(wrong)
     return bool(sides) and all(answer.value in answer.sector.beside for answer in sides)
 
 
 @sectors.check(
     5,
-    after=says_three_distances,
+    after=publishes_three_distances,
     hints={
         "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it.": (
             _all(lambda answer: answer.value == answer.sector.middle)
@@ -119,7 +119,7 @@ def _is_too_far_aside(run: Recording, wrong: list[Answer]) -> bool:
         ),
     },
 )
-def knows_the_directions(run: Recording, answers: list[Answer]) -> list[Answer]:
+def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[SectorValue]:
     """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
     _all_right(answers, "plain")
     for topic in MIDDLES:
@@ -136,7 +136,7 @@ def knows_the_directions(run: Recording, answers: list[Answer]) -> list[Answer]:
         )
     },
 )
-def leaves_out_lost_rays(run: Recording, answers: list[Answer]) -> None:
+def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
     """Rays that got lost (nan) change nothing."""
     _all_right(answers, "lost")
 
@@ -153,13 +153,13 @@ def leaves_out_lost_rays(run: Recording, answers: list[Answer]) -> None:
         ),
     },
 )
-def knows_near_and_far(run: Recording, answers: list[Answer]) -> None:
+def knows_near_and_far(run: Recording, answers: list[SectorValue]) -> None:
     """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
     _all_right(answers, "near")
     _all_right(answers, "empty")
 
 
-def _all_right(answers: list[Answer], kind: str) -> None:
+def _all_right(answers: list[SectorValue], kind: str) -> None:
     """Raise Missed for a wrong answer about a sector of this kind."""
     wrong = [answer for answer in answers if answer.sector.kind == kind and not answer.right]
     if wrong:
@@ -171,7 +171,7 @@ def _all_right(answers: list[Answer], kind: str) -> None:
         )
 
 
-def _answers(run: Recording) -> Iterator[Answer]:
+def _answers(run: Recording) -> Iterator[SectorValue]:
     """The last message on each topic after each scan and before the next one."""
     messages = {topic: run.messages(topic) for topic in MIDDLES}
     times = {topic: stamps(rows) for topic, rows in messages.items()}
@@ -185,7 +185,7 @@ def _answers(run: Recording) -> Iterator[Answer]:
             if last >= 0 and times[topic][last] >= scan.stamp:
                 at_once = times[topic][last] < scan.stamp + LAG
                 value = messages[topic][last].message.data
-                yield Answer(scan.stamp, topic, value, sector, before.get(topic) if at_once else None)
+                yield SectorValue(scan.stamp, topic, value, sector, before.get(topic) if at_once else None)
             elif following.stamp > scan.stamp + PATIENCE:
-                yield Answer(scan.stamp, topic, None, sector, None)
+                yield SectorValue(scan.stamp, topic, None, sector, None)
         before = seen

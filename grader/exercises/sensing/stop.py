@@ -80,7 +80,7 @@ def stops_in_time(run: Recording) -> None:
 
 
 @stop.check(2, after=stops_in_time)
-def says_stop(run: Recording) -> None:
+def publishes_a_stop(run: Recording) -> None:
     """It stays there, and goes on sending zeros."""
     stands_still(run)
     stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]

@@ -15,7 +15,7 @@ late = Exercise("late", "Latecomers", seconds=9, companions=[LatchedMap, LateSub
 
 
 @late.check(2)
-def listens_to_the_map(run: Recording) -> None:
+def subscribes_to_the_map(run: Recording) -> None:
     """The node subscribes to /map."""
     with hinting("The map comes on /map."):
         subscribes(run, "/map", GRID)
@@ -23,7 +23,7 @@ def listens_to_the_map(run: Recording) -> None:
 
 @late.check(
     5,
-    after=listens_to_the_map,
+    after=subscribes_to_the_map,
     hints={
         "That is how many cells are known. A free cell is 0.": (
             lambda run, count: count == sum(cell >= 0 for cell in _cells(run))

@@ -26,14 +26,14 @@ class Counted(NamedTuple):
 
 
 @lidar.check(2)
-def listens_to_scans(run: Recording) -> None:
+def subscribes_to_scans(run: Recording) -> None:
     """The node subscribes to /scan."""
     with hinting("The lidar publishes its scans on /scan."):
         subscribes(run, "/scan", SCAN)
 
 
-@lidar.check(3, after=listens_to_scans)
-def hears_every_scan(run: Recording) -> list[Counted]:
+@lidar.check(3, after=subscribes_to_scans)
+def receives_every_scan(run: Recording) -> list[Counted]:
     """It hears the scans: with each that comes, one count (Int32) goes out on /missed."""
     counts = publishes(run, "/missed", COUNT)
     # Each subscribing node loses other messages; one of the nodes counts.
@@ -51,7 +51,7 @@ def hears_every_scan(run: Recording) -> list[Counted]:
 
 @lidar.check(
     8,
-    after=hears_every_scan,
+    after=receives_every_scan,
     hints={
         "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost.": (
             lambda run, counted: not any(one.count for one in counted)
@@ -80,7 +80,7 @@ def counts_all(run: Recording, counted: list[Counted]) -> None:
         raise Missed(expected, f"{last.count}", about=(counted,))
 
 
-@lidar.check(3, after=(hears_every_scan, counts_all))
+@lidar.check(3, after=(receives_every_scan, counts_all))
 def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> None:
     """The count is right after every scan."""
     for one in counted:

@@ -20,7 +20,7 @@ chatters = Exercise(
 
 
 @chatters.check(4, guess="Make one subscription for each topic, in a loop or one by one.")
-def listens_to_all_three(run: Recording) -> None:
+def subscribes_to_all_three(run: Recording) -> None:
     """The node listens to /chatter0 (String), /chatter1 (Float64) and /chatter2 (Bool)."""
     for found, (topic, kind) in enumerate(CHATTERS.items()):
         try:
@@ -32,7 +32,7 @@ def listens_to_all_three(run: Recording) -> None:
 
 @chatters.check(
     8,
-    after=listens_to_all_three,
+    after=subscribes_to_all_three,
     hints={
         "A callback with two parameters gets such details as the second. "
         "Give it the topic: partial(self.hear, topic=topic).": lambda run, row: _has_details(run, row),

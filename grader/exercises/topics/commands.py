@@ -17,14 +17,14 @@ commands = Exercise("commands", "A robot that listens", seconds=10, companions=[
 
 
 @commands.check(3)
-def listens_to_commands(run: Recording) -> None:
+def subscribes_to_commands(run: Recording) -> None:
     """The node listens to String messages on /robot/command."""
     subscribes(run, COMMAND, "std_msgs/msg/String")
 
 
 @commands.check(
     6,
-    after=listens_to_commands,
+    after=subscribes_to_commands,
     guess={
         PRINTED: lambda run: run.prints,
         "The word is in msg.data. Compare it with ==, and log with self.get_logger().info(...).": (
@@ -48,7 +48,7 @@ def obeys(run: Recording) -> None:
 
 @commands.check(
     4,
-    after=listens_to_commands,
+    after=subscribes_to_commands,
     guess={
         PRINTED: lambda run: run.prints,
         "In an else: self.get_logger().warning(...), with the word msg.data in the text.": lambda run: True,
@@ -60,7 +60,7 @@ def warns(run: Recording) -> None:
 
 
 @commands.check(2, after=obeys)
-def says_nothing_else(run: Recording) -> None:
+def logs_nothing_else(run: Recording) -> None:
     """A word is answered by its own answer and by no other."""
     for row in run.messages(COMMAND):
         if line := _first_contradiction(run, row):

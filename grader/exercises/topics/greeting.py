@@ -8,12 +8,12 @@ greeting = Exercise("greeting", "A publisher in one line", seconds=5)
 
 
 @greeting.check(5)
-def says_something(run: Recording) -> None:
+def publishes_something(run: Recording) -> None:
     """The node publishes String messages on /greeting."""
     publishes(run, "/greeting", "std_msgs/msg/String")
 
 
-@greeting.check(3, after=says_something)
-def says_it_twice_a_second(run: Recording) -> None:
+@greeting.check(3, after=publishes_something)
+def publishes_twice_a_second(run: Recording) -> None:
     """A greeting goes out twice a second."""
     rate(run, "/greeting", 2.0)

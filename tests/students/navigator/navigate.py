@@ -314,6 +314,15 @@ class OtherType(Navigator):
     kind = Spin
 
 
+class NoActionServer(Node):
+    """Publishes commands, and serves no goals."""
+
+    def __init__(self):
+        super().__init__("navigator")
+        publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, lambda: publisher.publish(Twist()))
+
+
 class Blind(Navigator):
     """Never looks at the lidar."""
 
@@ -484,5 +493,6 @@ with_one_thread = main_of(Navigator, SingleThreadedExecutor)
 is_there_far_too_early = main_of(IsThereFarTooEarly)
 never_ends = main_of(NeverEnds)
 keeps_too_far_away = main_of(KeepsTooFarAway)
+no_action_server = main_of(NoActionServer)
 
 PARTS = ("main_of", *(name for name, item in list(vars().items()) if isinstance(item, type)))
