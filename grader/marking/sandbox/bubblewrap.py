@@ -24,8 +24,8 @@ SYSCTLS = (
 )
 # Ubuntu's profile: bubblewrap may make namespaces, and the processes that it starts may not.
 PROFILE = "etc/apparmor.d/bwrap-userns-restrict"
-IN_PYTHON = "launch", "launch_ros", "tf2_py", "tf2_ros", "tf2_geometry_msgs", "tf_transformations"
-COURSE = "sim", "grader", *IN_PYTHON
+ROS_PACKAGES = Path(__file__).parents[3] / "ros_packages" / "python"
+COURSE = "sim", "grader", *sorted(file.parent.name for file in ROS_PACKAGES.glob("*/__init__.py"))
 
 
 def visible_paths(extra: Sequence[Path]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Our tf2_ros and its like have upstream's names and defaults; where ROS is installed, its own win."""
+"""The course's Python packages have upstream's names and defaults; an installation of ROS has precedence."""
 
 import inspect
 import pkgutil
@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 from rclpy.duration import Duration
 
-TABLE = Path(__file__).with_name("tf2_api.txt").read_text(encoding="utf-8").splitlines()
+TABLE = Path(__file__).with_name("python_api.txt").read_text(encoding="utf-8").splitlines()
 NAMES = [line for line in TABLE if not line.startswith("#")]
-PACKAGES = ("tf2_ros", "tf2_geometry_msgs", "tf_transformations", "tf2_py")
+FOLDER = Path(__file__).parents[2] / "ros_packages" / "python"
+PACKAGES = sorted(file.parent.name for file in FOLDER.glob("*/__init__.py"))
 
 
 def signature(thing) -> str:
