@@ -9,15 +9,10 @@ from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
 
 PATIENCE = 8.0  # seconds
 
-courier = Exercise(
-    "courier",
-    "A client that gives up in time",
-    scenarios=[
-        Scenario("yard", seconds=16, seed=1, companions=[DriveServer], name="floor"),
-        Scenario("yard", seconds=16, seed=2, companions=[CarpetServer], name="carpet"),
-    ],
-    may_end=True,
-)
+courier = Exercise("courier", "A client that gives up in time", scenarios=[
+    Scenario("yard", seconds=16, seed=1, companions=[DriveServer], name="floor"),
+    Scenario("yard", seconds=16, seed=2, companions=[CarpetServer], name="carpet"),
+], may_end=True)
 
 
 @courier.check(3)

@@ -31,41 +31,29 @@ def offers_to_turn(run: Recording) -> None:
         subscribes(run, "/odom", "nav_msgs/msg/Odometry")
 
 
-@turn.check(
-    6,
-    after=offers_to_turn,
-    guess={
-        "The angle of the goal before is still there: self.turned = 0.0 at the beginning of execute.": (
-            lambda run, goal, turned: any(abs(told) > 0.3 for told in _angles(goal)[:1])
-        ),
-        "It stopped far too early: are all angles in radians? The robot's are, and the goal's, too.": (
-            lambda run, goal, turned: any(abs(a) > 5 * abs(turned) > 0.05 for a in _angles(goal)[-1:])
-        ),
-        "The robot hasn't turned: send a Twist with angular.z in the loop, each time.": (
-            lambda run, goal, turned: abs(turned) < 0.05 and goal.status == "succeeded"
-        ),
-        "It turned the wrong way: a negative target_yaw is to the right, with a negative angular.z.": (
-            lambda run, goal, turned: turned * goal.request.target_yaw < 0
-        ),
-        "The robot stands, and the goal never ends: send a Twist in the loop, each time.": (
-            lambda run, goal, turned: not goal.over and abs(turned) < 0.05
-        ),
-        "It turned on and on, for self.turned stays 0: does hear_odometry add to it? And does execute "
-        "await self.pause(...)? While it sleeps, the node is deaf to /odom.": (
-            lambda run, goal, turned: not goal.over and any(abs(a) < 0.01 for a in _angles(goal)[-1:])
-        ),
-        "It turned on and on, for self.turned is the last step only. Add up: self.turned += ...": (
-            lambda run, goal, turned: not goal.over and 0 < max(map(abs, _angles(goal)), default=0) < 0.1
-        ),
-        "It turned on and on. From pi the yaw jumps to -pi: add up small steps, each one "
-        "math.remainder(yaw - self.yaw, math.tau), to self.turned.": lambda run, goal, turned: not goal.over,
-        "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly.": (
-            lambda run, goal, turned: abs(turned) - abs(goal.request.target_yaw) > 0.25
-        ),
-        "self.turned adds up the small steps between messages of /odom, from 0 with each goal. After each "
-        "step hear_odometry keeps the yaw: self.yaw = yaw.": otherwise,
-    },
-)
+@turn.check(6, after=offers_to_turn, guess={
+    "The angle of the goal before is still there: self.turned = 0.0 at the beginning of execute.":
+        lambda run, goal, turned: any(abs(told) > 0.3 for told in _angles(goal)[:1]),
+    "It stopped far too early: are all angles in radians? The robot's are, and the goal's, too.":
+        lambda run, goal, turned: any(abs(a) > 5 * abs(turned) > 0.05 for a in _angles(goal)[-1:]),
+    "The robot hasn't turned: send a Twist with angular.z in the loop, each time.":
+        lambda run, goal, turned: abs(turned) < 0.05 and goal.status == "succeeded",
+    "It turned the wrong way: a negative target_yaw is to the right, with a negative angular.z.":
+        lambda run, goal, turned: turned * goal.request.target_yaw < 0,
+    "The robot stands, and the goal never ends: send a Twist in the loop, each time.":
+        lambda run, goal, turned: not goal.over and abs(turned) < 0.05,
+    "It turned on and on, for self.turned stays 0: does hear_odometry add to it? And does execute "
+    "await self.pause(...)? While it sleeps, the node is deaf to /odom.":
+        lambda run, goal, turned: not goal.over and any(abs(a) < 0.01 for a in _angles(goal)[-1:]),
+    "It turned on and on, for self.turned is the last step only. Add up: self.turned += ...":
+        lambda run, goal, turned: not goal.over and 0 < max(map(abs, _angles(goal)), default=0) < 0.1,
+    "It turned on and on. From pi the yaw jumps to -pi: add up small steps, each one "
+    "math.remainder(yaw - self.yaw, math.tau), to self.turned.": lambda run, goal, turned: not goal.over,
+    "It turned on after its goal: send a Twist() of zeros when it has arrived, and turn slowly.":
+        lambda run, goal, turned: abs(turned) - abs(goal.request.target_yaw) > 0.25,
+    "self.turned adds up the small steps between messages of /odom, from 0 with each goal. After each "
+    "step hear_odometry keeps the yaw: self.yaw = yaw.": otherwise,
+})
 def turns_by_the_angle(run: Recording) -> None:
     """Goals to both sides, also by more than half a turn, succeed: the robot has turned by target_yaw."""
     goals = picked(run, SPIN, lambda goal: goal.request.target_yaw < 5.0)

@@ -12,20 +12,15 @@ RATE, LIMIT = 100, 0.035  # Hz, s
 EXACT, TRACKED = 0.03, 0.05  # s: of what is published, and how often the truth is recorded
 WRONG_TIME = {
     "In seconds, please.": lambda run, stood, right: stood > 100 * right,
-    "Count from the first joint state to the one at which the angle is beyond 0.5 rad, to either side.": (
-        otherwise
-    ),
+    "Count from the first joint state to the one at which the angle is beyond 0.5 rad, to either side.":
+        otherwise,
 }
 
-balance = Exercise(
-    "balance",
-    "P falls, PD stands",
-    scenarios=[
-        Scenario(long_track, 10, seed=1, name="stands"),
-        Scenario(long_track, 10, seed=2, name="stands"),
-        Scenario(hopeless_cart, 4, seed=1, name="falls"),
-    ],
-)
+balance = Exercise("balance", "P falls, PD stands", scenarios=[
+    Scenario(long_track, 10, seed=1, name="stands"),
+    Scenario(long_track, 10, seed=2, name="stands"),
+    Scenario(hopeless_cart, 4, seed=1, name="falls"),
+])
 
 
 @balance.check(2)
@@ -64,17 +59,11 @@ def counts_while_it_stands(run: Recording) -> None:
         raise Missed(f"{RATE} messages a second on {STOOD}", f"{len(sent)} in {end:.3g} s", hint)
 
 
-@balance.check(
-    3,
-    after=pushes,
-    only="falls",
-    hints={
-        "It goes on counting: what has fallen has fallen.": (
-            lambda run, stood, fell: same(stood, run.ended.stamp, 0.1)
-        ),
-        **WRONG_TIME,
-    },
-)
+@balance.check(3, after=pushes, only="falls", hints={
+    "It goes on counting: what has fallen has fallen.":
+        lambda run, stood, fell: same(stood, run.ended.stamp, 0.1),
+    **WRONG_TIME,
+})
 def keeps_how_long_it_stood(run: Recording) -> None:
     """Where the motor is too weak, /stood stays at how long the pole stood: until it leant by 0.5 rad."""
     fell = fell_at(run)

@@ -35,20 +35,14 @@ def publishes_both(run: Recording) -> None:
         publishes(run, topic, FLOAT, at_least=10)
 
 
-@gap.check(
-    4,
-    after=publishes_both,
-    hints={
-        "That is the scan itself, with all its noise: mix it with what you had before.": (
-            lambda run, sent, scans: matches(sent, scans, CLOSE)
-        ),
-        "The weights are swapped: a fifth of the new value, four fifths of the old one.": (
-            lambda run, sent, scans: matches(sent, _filtered(scans, 1 - WEIGHT), CLOSE)
-        ),
-        "It begins at 0: take the first distance as it is.": lambda run, sent, scans: sent[0] < scans[0] / 2,
-        "self.distance + 0.2 * (new - self.distance), and keep it for the next scan.": otherwise,
-    },
-)
+@gap.check(4, after=publishes_both, hints={
+    "That is the scan itself, with all its noise: mix it with what you had before.":
+        lambda run, sent, scans: matches(sent, scans, CLOSE),
+    "The weights are swapped: a fifth of the new value, four fifths of the old one.":
+        lambda run, sent, scans: matches(sent, _filtered(scans, 1 - WEIGHT), CLOSE),
+    "It begins at 0: take the first distance as it is.": lambda run, sent, scans: sent[0] < scans[0] / 2,
+    "self.distance + 0.2 * (new - self.distance), and keep it for the next scan.": otherwise,
+})
 def filters(run: Recording) -> None:
     """/distance is what the lidar sees ahead, filtered: a fifth of what is new, four fifths of what was."""
     scans = [row.message.ranges[0] for row in from_course(run, "/scan", what="scans")]
@@ -66,17 +60,12 @@ def filters(run: Recording) -> None:
             raise Missed(expectation, f"{saw:.3f} m", about=(sent[: len(seen)], scans))
 
 
-@gap.check(
-    4,
-    after=publishes_both,
-    hints={
-        SIGN: lambda run: run.messages("/speed")[0].message.data < 0,
-        WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,
-        "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall.": (
-            lambda run: True
-        ),
-    },
-)
+@gap.check(4, after=publishes_both, hints={
+    SIGN: lambda run: run.messages("/speed")[0].message.data < 0,
+    WIND_UP: lambda run: _speed_on_arrival(run) > 0.9 * MOST,
+    "The error is the distance minus 0.6 m: it is 0 where the robot has to stand, and not at the wall.":
+        lambda run: True,
+})
 def does_not_run_into_the_wall(run: Recording) -> None:
     """The robot comes to the wall, up to 0.85 m or less, and never nearer than 0.48 m. It touches nothing."""
     keeps_clear(run, "")
@@ -97,15 +86,11 @@ def keeps_within_the_limit(run: Recording) -> None:
         within(run, "/speed", "data", -MOST, MOST, unit="m/s")
 
 
-@gap.check(
-    4,
-    after=does_not_run_into_the_wall,
-    hints={
-        "P alone stands where its push is as strong as the pull of the slope. I takes the rest away: the sum "
-        "of error times time.": lambda run, distance: distance > TARGET,
-        WIND_UP: otherwise,
-    },
-)
+@gap.check(4, after=does_not_run_into_the_wall, hints={
+    "P alone stands where its push is as strong as the pull of the slope. I takes the rest away: the sum "
+    "of error times time.": lambda run, distance: distance > TARGET,
+    WIND_UP: otherwise,
+})
 def stands_at_the_distance(run: Recording) -> None:
     """In the last four seconds it stands 0.6 m from the wall, within 3 cm."""
     begin = run.ended.stamp - LAST

@@ -36,19 +36,15 @@ def subscribes_to_beats(run: Recording) -> None:
         subscribes(run, "/beat", "std_msgs/msg/Header")
 
 
-@jitter.check(
-    4,
-    after=subscribes_to_beats,
-    hints={
-        "Arrival minus stamp, and not the other way round.": lambda run, sent, beats: matches(
-            sent, [-beat.latency for beat in beats], EXACT
-        ),
-        "That is the time of day: take the stamp away from it.": lambda run, sent, beats: matches(
-            sent, [EPOCH / SECOND + beat.arrived for beat in beats], EXACT
-        ),
-        "The latency is now minus the stamp in the header, in seconds.": otherwise,
-    },
-)
+@jitter.check(4, after=subscribes_to_beats, hints={
+    "Arrival minus stamp, and not the other way round.": lambda run, sent, beats: matches(
+        sent, [-beat.latency for beat in beats], EXACT
+    ),
+    "That is the time of day: take the stamp away from it.": lambda run, sent, beats: matches(
+        sent, [EPOCH / SECOND + beat.arrived for beat in beats], EXACT
+    ),
+    "The latency is now minus the stamp in the header, in seconds.": otherwise,
+})
 def measures_the_latency(run: Recording) -> list[Beat]:
     """With each message its latency is on /latency: from when it was measured to when it arrived."""
     beats = _beats(run)
@@ -56,41 +52,32 @@ def measures_the_latency(run: Recording) -> list[Beat]:
     return beats
 
 
-@jitter.check(
-    5,
-    after=measures_the_latency,
-    hints={
-        "Early counts as much as late: take abs(...) of it.": lambda run, sent, beats: matches(
-            sent, [gap - PERIOD for gap in _gaps(run)], EXACT
-        ),
-        "That is the time between two arrivals: how much does it differ from 0.02 s?": (
-            lambda run, sent, beats: matches(sent, _gaps(run), EXACT)
-        ),
-        "Between the stamps it is always 0.02 s, for the sensor measures exactly. What your loop feels is "
-        "when messages arrive: by your own clock.": lambda run, sent, beats: matches(
-            sent, [abs(b.measured - a.measured - PERIOD) for a, b in itertools.pairwise(_beats(run))], EXACT
-        ),
-        "Remember when the last message arrived, by your clock; abs(now - before - 0.02).": otherwise,
-    },
-)
+@jitter.check(5, after=measures_the_latency, hints={
+    "Early counts as much as late: take abs(...) of it.": lambda run, sent, beats: matches(
+        sent, [gap - PERIOD for gap in _gaps(run)], EXACT
+    ),
+    "That is the time between two arrivals: how much does it differ from 0.02 s?":
+        lambda run, sent, beats: matches(sent, _gaps(run), EXACT),
+    "Between the stamps it is always 0.02 s, for the sensor measures exactly. What your loop feels is "
+    "when messages arrive: by your own clock.": lambda run, sent, beats: matches(
+        sent, [abs(b.measured - a.measured - PERIOD) for a, b in itertools.pairwise(_beats(run))], EXACT
+    ),
+    "Remember when the last message arrived, by your clock; abs(now - before - 0.02).": otherwise,
+})
 def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
     """With each message but the first, /jitter says by how much the time since the last is not 0.02 s."""
     _require_numbers(run, "/jitter", FLOAT, [abs(gap - PERIOD) for gap in _gaps(run)], beats[1:])
 
 
-@jitter.check(
-    3,
-    after=measures_the_latency,
-    hints={
-        "Each count is for one message alone: add them up, self.late += 1.": lambda run, sent, beats: matches(
-            sent, [int(beat.latency > ALLOWED) for beat in beats]
-        ),
-        "Those came in time.": lambda run, sent, beats: matches(
-            sent, list(itertools.accumulate(int(beat.latency <= ALLOWED) for beat in beats))
-        ),
-        "Count those whose latency is above 0.01 s, from the start on.": otherwise,
-    },
-)
+@jitter.check(3, after=measures_the_latency, hints={
+    "Each count is for one message alone: add them up, self.late += 1.": lambda run, sent, beats: matches(
+        sent, [int(beat.latency > ALLOWED) for beat in beats]
+    ),
+    "Those came in time.": lambda run, sent, beats: matches(
+        sent, list(itertools.accumulate(int(beat.latency <= ALLOWED) for beat in beats))
+    ),
+    "Count those whose latency is above 0.01 s, from the start on.": otherwise,
+})
 def counts_missed_deadlines(run: Recording, beats: list[Beat]) -> None:
     """After each message /late says how many came with a latency of more than 0.01 s."""
     counts = list(itertools.accumulate(int(beat.latency > ALLOWED) for beat in beats))

@@ -49,24 +49,17 @@ def spares_the_motor(run: Recording) -> None:
     keeps_to_limits(run, WEAK)
 
 
-@marks.check(
-    5,
-    after=keeps_it_up,
-    hints={
-        "First it has to come to the middle, where the mark is 0. Does x count?": lambda run, mark: (
-            mark == 0.0
-        ),
-        "It stays in the middle: take the mark away from x.": lambda run, mark: all(
-            abs(x) < NEAR for _, x in _reached(run)
-        ),
-        "It goes to the other side: it is x minus the mark.": lambda run, mark: all(
-            abs(x + mark) < 2 * NEAR for mark, x in _reached(run)
-        ),
-        "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow.": (
-            otherwise
-        ),
-    },
-)
+@marks.check(5, after=keeps_it_up, hints={
+    "First it has to come to the middle, where the mark is 0. Does x count?": lambda run, mark: mark == 0.0,
+    "It stays in the middle: take the mark away from x.": lambda run, mark: all(
+        abs(x) < NEAR for _, x in _reached(run)
+    ),
+    "It goes to the other side: it is x minus the mark.": lambda run, mark: all(
+        abs(x + mark) < 2 * NEAR for mark, x in _reached(run)
+    ),
+    "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow.":
+        otherwise,
+})
 def comes_to_the_marks(run: Recording) -> None:
     """Four seconds after each mark has come, the cart is within 5 cm of it, and stays there."""
     still_stands(run)

@@ -32,16 +32,11 @@ def subscribes_and_publishes(run: Recording) -> None:
     publishes(run, ANSWERS, "std_msgs/msg/Int32")
 
 
-@worker.check(
-    1,
-    after=subscribes_and_publishes,
-    hints={
-        "Nobody can see so quickly: call look(...) for each picture, and publish what it returns.": (
-            lambda run, picture: any(_is_early(picture, row) for row in picture.responses)
-        ),
-        "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
-    },
-)
+@worker.check(1, after=subscribes_and_publishes, hints={
+    "Nobody can see so quickly: call look(...) for each picture, and publish what it returns.":
+        lambda run, picture: any(_is_early(picture, row) for row in picture.responses),
+    "Call look(...) for each picture that comes, and publish what it returns. Leave none out.": otherwise,
+})
 def looks_at_each_picture(run: Recording) -> None:
     """Each picture is looked at: the place of its brightest pixel is on /brightest 0.3 s to 0.75 s later."""
     taken = pictures(run)

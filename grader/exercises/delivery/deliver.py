@@ -24,9 +24,8 @@ IDLE = {
     "None of your programs publishes on /cmd_vel. Does your list hold all of them?": lambda run: all(
         row.from_course for row in run.messages("/cmd_vel")
     ),
-    "The robot never moves. Run each program alone, and look at what it publishes, and when.": (
-        lambda run: travelled(run) < 0.1
-    ),
+    "The robot never moves. Run each program alone, and look at what it publishes, and when.":
+        lambda run: travelled(run) < 0.1,
     "{touch}": lambda run: run.contacts and {"touch": after_a_touch(run)},
 }
 """The usual reasons for a robot that doesn't deliver at all."""

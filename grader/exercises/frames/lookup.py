@@ -29,26 +29,17 @@ def subscribes_to_sightings(run: Recording) -> None:
         subscribes(run, "/tf_static")
 
 
-@lookup.check(
-    6,
-    after=subscribes_to_sightings,
-    hints={
-        "Publish in the callback: what buffer.transform or do_transform_point gives.": (
-            lambda run, seen: len(seen.responses) != 1
-        ),
-        "Target first, then source: buffer.transform(msg, 'map').": lambda run, seen: _frame(seen) != "map",
-        "That is where it would be now. The robot has driven on since: ask for the time of the sighting, "
-        "msg.header.stamp, and not for the newest, Time().": (
-            lambda run, seen: math.dist(_answer(seen), _place(run, seen, seen.stamp)) < LATE
-        ),
-        "That is the point as the camera sees it. It has to be taken into the frame map.": (
-            lambda run, seen: same(_answer(seen), (seen.value.point.x, seen.value.point.y))
-        ),
-        "Target first, then source: lookup_transform('map', msg.header.frame_id, msg.header.stamp).": (
-            otherwise
-        ),
-    },
-)
+@lookup.check(6, after=subscribes_to_sightings, hints={
+    "Publish in the callback: what buffer.transform or do_transform_point gives.":
+        lambda run, seen: len(seen.responses) != 1,
+    "Target first, then source: buffer.transform(msg, 'map').": lambda run, seen: _frame(seen) != "map",
+    "That is where it would be now. The robot has driven on since: ask for the time of the sighting, "
+    "msg.header.stamp, and not for the newest, Time().":
+        lambda run, seen: math.dist(_answer(seen), _place(run, seen, seen.stamp)) < LATE,
+    "That is the point as the camera sees it. It has to be taken into the frame map.":
+        lambda run, seen: same(_answer(seen), (seen.value.point.x, seen.value.point.y)),
+    "Target first, then source: lookup_transform('map', msg.header.frame_id, msg.header.stamp).": otherwise,
+})
 def places_them(run: Recording) -> None:
     """Each sighting by a robot on the map comes out on /found (PointStamped): where it was, in map."""
     publishes(run, FOUND, POINT)

@@ -49,15 +49,11 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
     return sent
 
 
-@mount.check(
-    5,
-    after=puts_it_there,
-    hints={
-        f"z 0 and w 1 is no turn at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
-        "theta is in radians already.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
-        FULL_TURN: otherwise,
-    },
-)
+@mount.check(5, after=puts_it_there, hints={
+    f"z 0 and w 1 is no turn at all. {FULL_TURN}": lambda run, turn: turn.z == 0.0 and turn.w == 1.0,
+    "theta is in radians already.": lambda run, turn: abs(turn.z) < 0.05 and abs(turn.w) > 0.9,
+    FULL_TURN: otherwise,
+})
 def turns_it(run: Recording, sent: list[Broadcast]) -> None:
     """It is turned as the mechanic says: a quaternion of length 1, for theta about z."""
     theta, turn = from_course(run, MOUNTING)[0].message.theta, sent[-1].message.transform.rotation

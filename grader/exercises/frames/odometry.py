@@ -31,19 +31,13 @@ def subscribes_and_broadcasts(run: Recording) -> None:
         publishes(run, "/tf", TF)
 
 
-@odometry.check(
-    5,
-    after=subscribes_and_broadcasts,
-    hints={
-        "That is where it was before. Send in the callback of /wheels/odom, and not from a timer.": (
-            lambda run, sent, poses: _is_late(sent, poses)
-        ),
-        "translation is the position, pose.pose.position: x and y of the same message.": (
-            lambda run, sent, poses: not _is_placed(sent, poses)
-        ),
-        f"Parts of rotation are those of pose.pose.orientation, all four. {FULL_TURN}": otherwise,
-    },
-)
+@odometry.check(5, after=subscribes_and_broadcasts, hints={
+    "That is where it was before. Send in the callback of /wheels/odom, and not from a timer.":
+        lambda run, sent, poses: _is_late(sent, poses),
+    "translation is the position, pose.pose.position: x and y of the same message.":
+        lambda run, sent, poses: not _is_placed(sent, poses),
+    f"Parts of rotation are those of pose.pose.orientation, all four. {FULL_TURN}": otherwise,
+})
 def puts_it_there(run: Recording) -> None:
     """The parent is odom, the child base_link, and it is where the odometry has it, turned as it is."""
     rows, sent, wrong = _odometry(run), broadcasts(run, "/tf"), []

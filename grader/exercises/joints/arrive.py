@@ -17,14 +17,12 @@ UNEVEN = 1.0  # s: a node that looks at the joint is late by about the same each
 arrive = Exercise("arrive", "Wait for arrival", world=joint_of, seconds=18, companions=foreman, seeds=(1, 2))
 
 NOT_ALL = {
-    "The time is over before all had their turn, the last one at {last:.3g} s: don't wait so long.": (
-        lambda run, sent: 1 < len(sent) < len(_positions(run)) and {"last": _commands(run)[-1].stamp}
-    ),
+    "The time is over before all had their turn, the last one at {last:.3g} s: don't wait so long.":
+        lambda run, sent: 1 < len(sent) < len(_positions(run)) and {"last": _commands(run)[-1].stamp},
     "It never counts as arrived. Compare the position, in radians, with the target, with a tolerance such as "
     "0.01 rad, and not with ==.": lambda run, sent: len(sent) < len(_positions(run)),
-    "Take them in their order, from the front: self.positions.pop(0).": (
-        lambda run, sent: len(sent) == len(_positions(run))
-    ),
+    "Take them in their order, from the front: self.positions.pop(0).":
+        lambda run, sent: len(sent) == len(_positions(run)),
     "After the last one there is nothing more to send.": otherwise,
 }
 
@@ -35,19 +33,14 @@ def publishes_commands(run: Recording) -> None:
     publishes(run, COMMANDS, "std_msgs/msg/Float64")
 
 
-@arrive.check(
-    2,
-    after=publishes_commands,
-    hints={
-        "The positions are radians already, and /joint_commands wants radians.": (
-            lambda run, first: abs(first) > 3.2
-        ),
-        "Begin with the first: self.positions.pop(0) gives it, and pop() the last.": lambda run, first: any(
-            same(first, other) for other in _positions(run)[1:]
-        ),
-        "Publish the numbers of /positions as they are; they come once, latched.": otherwise,
-    },
-)
+@arrive.check(2, after=publishes_commands, hints={
+    "The positions are radians already, and /joint_commands wants radians.":
+        lambda run, first: abs(first) > 3.2,
+    "Begin with the first: self.positions.pop(0) gives it, and pop() the last.": lambda run, first: any(
+        same(first, other) for other in _positions(run)[1:]
+    ),
+    "Publish the numbers of /positions as they are; they come once, latched.": otherwise,
+})
 def begins_with_the_first(run: Recording) -> None:
     """The first command is the first position of /positions."""
     first, expected = _commands(run)[0].message.data, _positions(run)[0]
@@ -55,22 +48,16 @@ def begins_with_the_first(run: Recording) -> None:
         raise Missed(f"{expected:g} first", f"{first:g}", about=(first,))
 
 
-@arrive.check(
-    6,
-    after=begins_with_the_first,
-    hints={
-        "A command every {period:.3g} s, whatever the joint does: time says nothing about arrival. Compare "
-        "its position on /joint_states with the target.": lambda run, commands, gap: _period(commands),
-        "It is there, but it still moves: arrived means that the velocity is nearly 0, too.": (
-            lambda run, commands, gap: gap <= CLOSE
-        ),
-        "Arrived means abs(position - target) < 0.01, with abs, or any position below the target would do; "
-        "and abs(velocity) < 0.01 as well, which alone is true before the joint has begun to move.": (
-            lambda run, commands, gap: True
-        ),
-        **NOT_ALL,
-    },
-)
+@arrive.check(6, after=begins_with_the_first, hints={
+    "A command every {period:.3g} s, whatever the joint does: time says nothing about arrival. Compare "
+    "its position on /joint_states with the target.": lambda run, commands, gap: _period(commands),
+    "It is there, but it still moves: arrived means that the velocity is nearly 0, too.":
+        lambda run, commands, gap: gap <= CLOSE,
+    "Arrived means abs(position - target) < 0.01, with abs, or any position below the target would do; "
+    "and abs(velocity) < 0.01 as well, which alone is true before the joint has begun to move.":
+        lambda run, commands, gap: True,
+    **NOT_ALL,
+})
 def waits_for_arrival(run: Recording) -> None:
     """No command comes before the joint stands where the one before has sent it."""
     commands, count = _commands(run), len(_positions(run))

@@ -34,21 +34,15 @@ def publishes_commands(run: Recording) -> None:
     publishes(run, COMMANDS, "std_msgs/msg/Float64")
 
 
-@careful.check(
-    4,
-    after=publishes_commands,
-    hints={
-        "Positions and limits are radians, all of them: pass the number on as it is.": lambda run, request: (
-            request.responses and abs(request.values()[0]) > 3.2
-        ),
-        "A refusal is not the end: return from the callback, and take the next wish as ever.": (
-            lambda run, request: _silent_since_a_refusal(run, request)
-        ),
-        "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.": (
-            lambda run, request: _limits(run)._asdict()
-        ),
-    },
-)
+@careful.check(4, after=publishes_commands, hints={
+    "Positions and limits are radians, all of them: pass the number on as it is.": lambda run, request: (
+        request.responses and abs(request.values()[0]) > 3.2
+    ),
+    "A refusal is not the end: return from the callback, and take the next wish as ever.":
+        lambda run, request: _silent_since_a_refusal(run, request),
+    "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
+        lambda run, request: _limits(run)._asdict(),
+})
 def passes_on(run: Recording) -> None:
     """What is wanted within the lift's limits goes on to /joint_commands at once, every time."""
     _refused(run)
@@ -56,19 +50,14 @@ def passes_on(run: Recording) -> None:
         request.expects(request.value.data)
 
 
-@careful.check(
-    4,
-    after=passes_on,
-    hints={
-        "nan is neither below the lower limit nor above the upper one: each comparison with it is False. Ask "
-        "the other way round: if not lower <= value <= upper, refuse.": lambda run: all(
-            math.isnan(row.message.data) for row in run.messages(COMMANDS) if not _is_within(run, row.message)
-        ),
-        "Compare with both limits of the description before you publish, the lower one with its sign.": (
-            lambda run: True
-        ),
-    },
-)
+@careful.check(4, after=passes_on, hints={
+    "nan is neither below the lower limit nor above the upper one: each comparison with it is False. Ask "
+    "the other way round: if not lower <= value <= upper, refuse.": lambda run: all(
+        math.isnan(row.message.data) for row in run.messages(COMMANDS) if not _is_within(run, row.message)
+    ),
+    "Compare with both limits of the description before you publish, the lower one with its sign.":
+        lambda run: True,
+})
 def refuses(run: Recording) -> None:
     """What lies beyond the limits, or is not a number, is not passed on, nor anything else in its place."""
     commands_within(run, COMMANDS, "data", *_limits(run))
@@ -94,26 +83,19 @@ def logs_refusals(run: Recording) -> None:
     )
 
 
-@careful.check(
-    5,
-    after=passes_on,
-    hints={
-        "For a moment it pulls with all its might whenever it begins to move. Stuck is a joint that has "
-        "pulled so for half a second, and didn't move.": lambda run, jam, later: jam is None,
-        "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit.": (
-            lambda run, jam, later: jam.effort < 0 and _frees_one_that_pulls_up(run)
-        ),
-        "That is late: half a second of pulling without a movement is enough to know.": (
-            lambda run, jam, later: later and same(later[0], jam.position, NEAR)
-        ),
-        "It isn't {sent:.2g} where it is stuck. Send the position that the message has for lift_joint: find "
-        "its place in msg.name, and take position, velocity and effort from there.": (
-            lambda run, jam, later: later and {"sent": later[0]}
-        ),
-        "Stuck is when abs(effort) is as high as the description's limit, and abs(velocity) is 0, for half a "
-        "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
-    },
-)
+@careful.check(5, after=passes_on, hints={
+    "For a moment it pulls with all its might whenever it begins to move. Stuck is a joint that has "
+    "pulled so for half a second, and didn't move.": lambda run, jam, later: jam is None,
+    "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit.":
+        lambda run, jam, later: jam.effort < 0 and _frees_one_that_pulls_up(run),
+    "That is late: half a second of pulling without a movement is enough to know.":
+        lambda run, jam, later: later and same(later[0], jam.position, NEAR),
+    "It isn't {sent:.2g} where it is stuck. Send the position that the message has for lift_joint: find "
+    "its place in msg.name, and take position, velocity and effort from there.":
+        lambda run, jam, later: later and {"sent": later[0]},
+    "Stuck is when abs(effort) is as high as the description's limit, and abs(velocity) is 0, for half a "
+    "second. Read them by the joint's name, remember since when, and compare with now.": otherwise,
+})
 def frees_what_is_stuck(run: Recording) -> None:
     """Where the lift is stuck it is told to stay where it is, within 1.2 s; and at no other time."""
     for jam in _jams(run):

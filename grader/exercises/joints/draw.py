@@ -23,19 +23,13 @@ def sends_a_goal(run: Recording) -> list[Goal]:
         return sends_goals(run, *FOLLOW_TRAJECTORY)
 
 
-@draw.check(
-    3,
-    after=sends_a_goal,
-    hints={
-        "Each point comes later than the one before: the first after 3 s, then 0.15 s more for each.": (
-            lambda run, reason: "time_from_start" in reason
-        ),
-        "Angles beyond the limits come of degrees, or of a wrong quadrant: use atan2(y, x), radians.": (
-            lambda run, reason: "limits" in reason
-        ),
-        "Read the reason: it says which point or joint it is about.": otherwise,
-    },
-)
+@draw.check(3, after=sends_a_goal, hints={
+    "Each point comes later than the one before: the first after 3 s, then 0.15 s more for each.":
+        lambda run, reason: "time_from_start" in reason,
+    "Angles beyond the limits come of degrees, or of a wrong quadrant: use atan2(y, x), radians.":
+        lambda run, reason: "limits" in reason,
+    "Read the reason: it says which point or joint it is about.": otherwise,
+})
 def can_be_followed(run: Recording, goals: list[Goal]) -> None:
     """The arm accepts it, and comes to its end."""
     for goal in goals:
@@ -45,27 +39,21 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
             raise Missed("a goal that succeeds", f"{goal.status or 'no answer'}: {reason}", about=(reason,))
 
 
-@draw.check(
-    10,
-    after=can_be_followed,
-    hints={
-        "That is the figure, mirrored at the x axis: look at the sign of y.": lambda run: _comes_near(
-            run, [(x, -y) for x, y in _figure(run)]
-        ),
-        "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.": (
-            lambda run: _points(run)[0].time_from_start.sec < 1
-        ),
-        "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "
-        "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder take away what the bent elbow adds?": (
-            lambda run: not _comes_near(run, _figure(run)[:1])
-        ),
-        "The figure has {figure} points, and the trajectory {sent}: each becomes one.": lambda run: (
-            len(_points(run)) < len(_figure(run)) and {"figure": len(_figure(run)), "sent": len(_points(run))}
-        ),
-        "It comes near the figure, and not onto it. Are the lengths those of /robot_description? The elbow's "
-        "origin says how long the upper arm is, and the tip's how long the forearm is.": lambda run: True,
-    },
-)
+@draw.check(10, after=can_be_followed, hints={
+    "That is the figure, mirrored at the x axis: look at the sign of y.": lambda run: _comes_near(
+        run, [(x, -y) for x, y in _figure(run)]
+    ),
+    "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.":
+        lambda run: _points(run)[0].time_from_start.sec < 1,
+    "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "
+    "out: x = upper + fore, y = 0 gives 0, 0. Does the shoulder take away what the bent elbow adds?":
+        lambda run: not _comes_near(run, _figure(run)[:1]),
+    "The figure has {figure} points, and the trajectory {sent}: each becomes one.": lambda run: (
+        len(_points(run)) < len(_figure(run)) and {"figure": len(_figure(run)), "sent": len(_points(run))}
+    ),
+    "It comes near the figure, and not onto it. Are the lengths those of /robot_description? The elbow's "
+    "origin says how long the upper arm is, and the tip's how long the forearm is.": lambda run: True,
+})
 def draws_the_figure(run: Recording) -> None:
     """The tip draws the whole figure, and nothing else once it has begun, within 1.5 cm."""
     draws(run, _figure(run), tolerance=TOLERANCE)

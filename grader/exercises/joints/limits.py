@@ -39,27 +39,22 @@ def subscribes_to_both(run: Recording) -> None:
         subscribes(run, "/robot_description", STRING)
 
 
-@limits.check(
-    8,
-    after=subscribes_to_both,
-    hints={
-        "The description was sent once, before your node was there. Who wants to hear it asks for durability "
-        "TRANSIENT_LOCAL.": lambda run: all(
-            end.qos["durability"] == "volatile"
-            for end in run.graph.subscriptions("/robot_description")
-            if not end.from_course
-        ),
-        "The description has no limits for it: it names {names}. Leave others alone.": lambda run, wrong: (
-            wrong.message.data not in described_limits(run) and {"names": ", ".join(described_limits(run))}
-        ),
-        "That is another joint's position. Drivers list their joints in an order of their own: "
-        "for name, position in zip(msg.name, msg.position).": lambda run, wrong: _another_is_near(run, wrong),
-        "Its limits are {lower:g} and {upper:g} rad. Take them from the description of this robot; they are "
-        "radians, as the positions are, and the lower one has a sign of its own.": (
-            lambda run, wrong: described_limits(run)[wrong.message.data]._asdict()
-        ),
-    },
-)
+@limits.check(8, after=subscribes_to_both, hints={
+    "The description was sent once, before your node was there. Who wants to hear it asks for durability "
+    "TRANSIENT_LOCAL.": lambda run: all(
+        end.qos["durability"] == "volatile"
+        for end in run.graph.subscriptions("/robot_description")
+        if not end.from_course
+    ),
+    "The description has no limits for it: it names {names}. Leave others alone.": lambda run, wrong: (
+        wrong.message.data not in described_limits(run) and {"names": ", ".join(described_limits(run))}
+    ),
+    "That is another joint's position. Drivers list their joints in an order of their own: "
+    "for name, position in zip(msg.name, msg.position).": lambda run, wrong: _another_is_near(run, wrong),
+    "Its limits are {lower:g} and {upper:g} rad. Take them from the description of this robot; they are "
+    "radians, as the positions are, and the lower one has a sign of its own.":
+        lambda run, wrong: described_limits(run)[wrong.message.data]._asdict(),
+})
 def names_those_near(run: Recording) -> list[Visit]:
     """The name of each joint that comes within 0.1 rad of a limit goes out on /near_limit, and no other."""
     messages, visits = publishes(run, NAME, STRING), _visits(run)

@@ -20,25 +20,19 @@ def publishes_commands(run: Recording) -> None:
     publishes(run, COMMANDS, "std_msgs/msg/Float64")
 
 
-@seven.check(
-    4,
-    after=publishes_commands,
-    hints={
-        "Joints are told radians: a right angle is 1.57. Publish the numbers of the task as they are.": (
-            lambda run, sent: any(abs(value) > 3.2 for value in sent)
-        ),
-        "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
-            (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
-        ),
-        "After the seventh it is over: compare self.index with len(self.positions).": lambda run, sent: (
-            sent[: len(POSITIONS)] == POSITIONS
-        ),
-        "Each call sends the same one: self.positions[self.index], and then self.index += 1.": (
-            lambda run, sent: len(set(sent)) == 1
-        ),
-        "Publish self.positions[self.index], and then self.index += 1.": otherwise,
-    },
-)
+@seven.check(4, after=publishes_commands, hints={
+    "Joints are told radians: a right angle is 1.57. Publish the numbers of the task as they are.":
+        lambda run, sent: any(abs(value) > 3.2 for value in sent),
+    "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
+        (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
+    ),
+    "After the seventh it is over: compare self.index with len(self.positions).": lambda run, sent: (
+        sent[: len(POSITIONS)] == POSITIONS
+    ),
+    "Each call sends the same one: self.positions[self.index], and then self.index += 1.":
+        lambda run, sent: len(set(sent)) == 1,
+    "Publish self.positions[self.index], and then self.index += 1.": otherwise,
+})
 def sends_all_seven(run: Recording) -> None:
     """It sends the seven positions, one after the other, and no others."""
     sent = [round(row.message.data, 6) for row in run.messages(COMMANDS)]

@@ -45,23 +45,17 @@ def sends_a_goal(run: Recording) -> None:
         sends_goals(run, *FOLLOW_TRAJECTORY)
 
 
-@trajectory.check(
-    5,
-    after=sends_a_goal,
-    hints={
-        "The path has radians, and so has the goal: no degrees.": lambda run, path, sent: any(
-            abs(value) > 3.2 for point in sent.points for value in point.positions
-        ),
-        "Every point of the path becomes a point of the goal: a new JointTrajectoryPoint for each.": (
-            lambda run, path, sent: len(sent.points) != len(path.points)
-        ),
-        "The path says in joint_names which number belongs to which joint, and the order differs from "
-        "path to path. Copy path.joint_names into the goal with the positions.": (
-            lambda run, path, sent: list(path.joint_names) != list(sent.joint_names)
-        ),
-        "Copy the positions as they are: list(point.positions).": otherwise,
-    },
-)
+@trajectory.check(5, after=sends_a_goal, hints={
+    "The path has radians, and so has the goal: no degrees.": lambda run, path, sent: any(
+        abs(value) > 3.2 for point in sent.points for value in point.positions
+    ),
+    "Every point of the path becomes a point of the goal: a new JointTrajectoryPoint for each.":
+        lambda run, path, sent: len(sent.points) != len(path.points),
+    "The path says in joint_names which number belongs to which joint, and the order differs from "
+    "path to path. Copy path.joint_names into the goal with the positions.":
+        lambda run, path, sent: list(path.joint_names) != list(sent.joint_names),
+    "Copy the positions as they are: list(point.positions).": otherwise,
+})
 def by_their_names(run: Recording) -> list[Lesson]:
     """Each path becomes one goal: the same points, each joint under its own name."""
     lessons = _lessons(run)
@@ -75,27 +69,21 @@ def by_their_names(run: Recording) -> list[Lesson]:
     return lessons
 
 
-@trajectory.check(
-    4,
-    after=by_their_names,
-    hints={
-        "time_from_start is not set: Duration(seconds=time).to_msg().": lambda run, parts, wrong: (
-            not any(part.end for part in parts)
-        ),
-        "time_from_start counts from the start of the whole trajectory, and not from the point before: "
-        "it must rise from point to point. time += ...": lambda run, parts, wrong: (
-            wrong.begin and same(wrong.end, wrong.needed, 0.02)
-        ),
-        "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.": (
-            lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1
-        ),
-        "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
-        "the arm is now, by /joint_states and by name; and the next one where the point before is.": (
-            lambda run, parts, wrong: wrong.end - wrong.begin < wrong.needed
-        ),
-        "The way (rad) divided by 0.8 rad/s is the time (s); and it starts anew with each goal.": otherwise,
-    },
-)
+@trajectory.check(4, after=by_their_names, hints={
+    "time_from_start is not set: Duration(seconds=time).to_msg().": lambda run, parts, wrong: (
+        not any(part.end for part in parts)
+    ),
+    "time_from_start counts from the start of the whole trajectory, and not from the point before: "
+    "it must rise from point to point. time += ...": lambda run, parts, wrong: (
+        wrong.begin and same(wrong.end, wrong.needed, 0.02)
+    ),
+    "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.":
+        lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1,
+    "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
+    "the arm is now, by /joint_states and by name; and the next one where the point before is.":
+        lambda run, parts, wrong: wrong.end - wrong.begin < wrong.needed,
+    "The way (rad) divided by 0.8 rad/s is the time (s); and it starts anew with each goal.": otherwise,
+})
 def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
     """From point to point, and from where the arm is to the first, the faster joint turns at 0.8 rad/s."""
     for _, goal in lessons:
@@ -129,20 +117,16 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
             )
 
 
-@trajectory.check(
-    5,
-    after=by_their_names,
-    hints={
-        "The first answer says whether the goal is accepted: if not handle.accepted, there is no result "
-        "to wait for, and that is the end.": lambda run, expected, sent: expected == "rejected",
-        "That a result came doesn't mean that it is good: future.result().status is STATUS_SUCCEEDED or "
-        "STATUS_ABORTED, and result.error_string says why.": lambda run, expected, sent: (
-            expected.startswith("aborted") and sent and sent[0].startswith("succeeded")
-        ),
-        "get_result_async() gives a future. In its callback look at future.result().status, and publish the "
-        "word; with the result's error_string if it was aborted.": otherwise,
-    },
-)
+@trajectory.check(5, after=by_their_names, hints={
+    "The first answer says whether the goal is accepted: if not handle.accepted, there is no result "
+    "to wait for, and that is the end.": lambda run, expected, sent: expected == "rejected",
+    "That a result came doesn't mean that it is good: future.result().status is STATUS_SUCCEEDED or "
+    "STATUS_ABORTED, and result.error_string says why.": lambda run, expected, sent: (
+        expected.startswith("aborted") and sent and sent[0].startswith("succeeded")
+    ),
+    "get_result_async() gives a future. In its callback look at future.result().status, and publish the "
+    "word; with the result's error_string if it was aborted.": otherwise,
+})
 def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
     """Each goal's end goes out on /outcome: “succeeded”, “rejected”, or “aborted: ” and the error_string."""
     published = publishes(run, "/outcome", "std_msgs/msg/String")

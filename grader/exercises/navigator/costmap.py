@@ -34,10 +34,7 @@ costmap = Exercise(
 clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
 
 
-@costmap.check(
-    1,
-    guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.",
-)
+@costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.")
 def receives_the_map(run: Recording) -> Any:
     """The node hears /map, though it was published before."""
     for end in subscribes(run, "/map", GRID):
@@ -97,29 +94,19 @@ def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
     return explains
 
 
-@costmap.check(
-    5,
-    after=receives_the_map,
-    hints={
-        "The map begins at info.origin, not at (0, 0): take the origin away before you divide.": (
-            _all_are(_without_origin)
-        ),
-        "Add the map's origin again in to_point.": _all_are(_origin_half_way),
-        "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.": (
-            _all_are(lambda info, point: _centre(info, point, offset=0.0))
-        ),
-        "round() takes the nearest cell, which may be the next one: use math.floor().": (
-            _all_are(lambda info, point: _centre(info, point, round))
-        ),
-        "A column and a row are whole numbers: math.floor() rounds down.": (
-            _all_are(lambda info, point: _centre(info, point, lambda value: value))
-        ),
-        "x belongs to the column and y to the row; here they are swapped.": (
-            _all_are(lambda info, point: _centre(info, point)[::-1])
-        ),
-    },
-    guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down.",
-)
+@costmap.check(5, after=receives_the_map, hints={
+    "The map begins at info.origin, not at (0, 0): take the origin away before you divide.":
+        _all_are(_without_origin),
+    "Add the map's origin again in to_point.": _all_are(_origin_half_way),
+    "This is the cell's corner. Its middle is half a cell farther: (column + 0.5) * resolution.":
+        _all_are(lambda info, point: _centre(info, point, offset=0.0)),
+    "round() takes the nearest cell, which may be the next one: use math.floor().":
+        _all_are(lambda info, point: _centre(info, point, round)),
+    "A column and a row are whole numbers: math.floor() rounds down.":
+        _all_are(lambda info, point: _centre(info, point, lambda value: value)),
+    "x belongs to the column and y to the row; here they are swapped.":
+        _all_are(lambda info, point: _centre(info, point)[::-1]),
+}, guess="Work one out by hand: the cell is (x - origin) / resolution, rounded down.")
 def answers_clicks(run: Recording, given: Any) -> None:
     """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
     publishes(run, "/cell_centre", "geometry_msgs/msg/PointStamped")
@@ -164,30 +151,21 @@ class Inflation(NamedTuple):
         return self.extra.any() and not self.missing.any()
 
 
-@costmap.check(
-    8,
-    after=publishes_a_costmap,
-    guess={
-        "The costmap is the map as it was: set cells of the copy, `inflated`, to 100, up to `reach` cells "
-        f"away, which is {RADIUS} m / resolution.": lambda run, it: np.array_equal(it.given, it.made),
-        "Some cells became another number than 100: that is what stands for occupied.": (
-            lambda run, it: ((it.made != it.given) & (it.made != 100)).any()
-        ),
-        "Corners are too thick: skip cells that are farther than `reach`, by math.hypot(right, up).": (
-            lambda run, it: not it.missing.any() and it.far[it.extra].max(initial=0.0) <= RADIUS * 1.5
-        ),
-        "Nearly all is occupied: look for occupied cells in the old map, and write into the copy.": (
-            lambda run, it: not it.missing.any() and (it.made[it.given != -1] == 100).mean() > 0.9
-        ),
-        f"That is too far: it should reach {RADIUS} m, in cells {RADIUS} / resolution.": (
-            lambda run, it: it.reaches_too_far
-        ),
-        f"It should reach {RADIUS} m in all directions; in cells that is {RADIUS} / resolution.": (
-            lambda run, it: it.missing.any() and not it.extra.any()
-        ),
-        "Is it cells[row, column]: first the row (y), then the column (x)?": lambda run, it: True,
-    },
-)
+@costmap.check(8, after=publishes_a_costmap, guess={
+    "The costmap is the map as it was: set cells of the copy, `inflated`, to 100, up to `reach` cells "
+    f"away, which is {RADIUS} m / resolution.": lambda run, it: np.array_equal(it.given, it.made),
+    "Some cells became another number than 100: that is what stands for occupied.":
+        lambda run, it: ((it.made != it.given) & (it.made != 100)).any(),
+    "Corners are too thick: skip cells that are farther than `reach`, by math.hypot(right, up).":
+        lambda run, it: not it.missing.any() and it.far[it.extra].max(initial=0.0) <= RADIUS * 1.5,
+    "Nearly all is occupied: look for occupied cells in the old map, and write into the copy.":
+        lambda run, it: not it.missing.any() and (it.made[it.given != -1] == 100).mean() > 0.9,
+    f"That is too far: it should reach {RADIUS} m, in cells {RADIUS} / resolution.":
+        lambda run, it: it.reaches_too_far,
+    f"It should reach {RADIUS} m in all directions; in cells that is {RADIUS} / resolution.":
+        lambda run, it: it.missing.any() and not it.extra.any(),
+    "Is it cells[row, column]: first the row (y), then the column (x)?": lambda run, it: True,
+})
 def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
     """In the costmap every cell within 0.2 m of an occupied one is 100, and no other cell has changed."""
     given, made = map(cells_of, maps)

@@ -50,33 +50,23 @@ def sends_velocities(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
 
 
-@drive.check(
-    7,
-    after=sends_velocities,
-    guess={
-        "The robot never turned: angular.z follows the bearing, such as 2.0 * bearing.": (
-            lambda run: any(_speeds(run)) and not _turns(run)
-        ),
-        "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?": (
-            lambda run: not any(_speeds(run)) and not _turns(run)
-        ),
-        "The robot was never told to go ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
-        "It was told to go backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
-        "The commands stopped too early. Send one with each /odom, until the robot is there.": (
-            lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1
-        ),
-        "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.": (
-            lambda run: travelled(run) < 0.5
-        ),
-        "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.": _stops_on_the_way,
-        "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.": (
-            lambda run: travelled(run) > _straight(run)
-        ),
-        "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.": (
-            lambda run: {"way": travelled(run), "time": run.ended.stamp}
-        ),
-    },
-)
+@drive.check(7, after=sends_velocities, guess={
+    "The robot never turned: angular.z follows the bearing, such as 2.0 * bearing.":
+        lambda run: any(_speeds(run)) and not _turns(run),
+    "All commands are zeros; they should be only nearer than 0.1 m: is it > or <?":
+        lambda run: not any(_speeds(run)) and not _turns(run),
+    "The robot was never told to go ahead: set linear.x (m/s).": lambda run: not any(_speeds(run)),
+    "It was told to go backwards: a positive linear.x goes ahead.": lambda run: max(_speeds(run)) <= 0,
+    "The commands stopped too early. Send one with each /odom, until the robot is there.":
+        lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1,
+    "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.":
+        lambda run: travelled(run) < 0.5,
+    "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.": _stops_on_the_way,
+    "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.":
+        lambda run: travelled(run) > _straight(run),
+    "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.":
+        lambda run: {"way": travelled(run), "time": run.ended.stamp},
+})
 def gets_there(run: Recording) -> None:
     """The robot comes within 20 cm of (5, 5)."""
     left, stamp = closest(run.path, GOAL)
@@ -95,17 +85,12 @@ def _goes_past(run: Recording) -> Any:
     return left > STOP and {"left": left}
 
 
-@drive.check(
-    4,
-    after=gets_there,
-    guess={
-        "First get there.": lambda run: closest(run.path, GOAL)[0] > NEAR,
-        "It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower.": (
-            _goes_past
-        ),
-        "Nearer than 0.1 m is near enough: then send a Twist() with zeros.": lambda run: True,
-    },
-)
+@drive.check(4, after=gets_there, guess={
+    "First get there.": lambda run: closest(run.path, GOAL)[0] > NEAR,
+    "It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower.":
+        _goes_past,
+    "Nearer than 0.1 m is near enough: then send a Twist() with zeros.": lambda run: True,
+})
 def stays_there(run: Recording) -> None:
     """In the end the robot stands still, within 20 cm of (5, 5)."""
     arrives(run, GOAL, tolerance=NEAR)

@@ -81,41 +81,27 @@ def sends_commands(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
 
 
-@follow.check(
-    7,
-    after=sends_commands,
-    guess={
-        "It only turns on the spot. A positive bearing is to the left, and so is a positive angular.z.": (
-            lambda run: not any(_speeds(run)) and any(_turns(run))
-        ),
-        "The robot was never told to go ahead: linear.x is the speed, such as 0.4 m/s.": (
-            lambda run: not any(_speeds(run))
-        ),
-        "The robot was never told to turn: angular.z is speed times curvature.": (
-            lambda run: not any(_turns(run)) and _is_slow(run)
-        ),
-        "It hardly turns: the curvature is 2 * sin(bearing) / distance, with the bearing in rad.": (
-            lambda run: max(map(abs, _turns(run))) < 0.05 and _is_slow(run)
-        ),
-        "The speed changes all the time, and the turn doesn't: first comes the speed, then the turn.": (
-            lambda run: len(set(_turns(run))) <= 4 and len(set(_speeds(run))) > 16
-        ),
-        "A speed of {speed:.3g} m/s: first comes the speed, then the turn; on the spot it is 0.": (
-            lambda run: not _is_slow(run) and {"speed": max(_speeds(run))}
-        ),
-        "It steers as if /odom, or the transform from odom to base_link, said where the robot is in the map. "
-        "That is where it is since its start: put the transform from map to odom before it.": (
-            lambda run: _trusts_odometry_alone(run)
-        ),
-        "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}": _touch,
-        "It was told to stop before the end: 0.1 m from the last point is near enough.": (
-            lambda run: _speeds(run)[-1] == 0.0 and not _turns(run)[-1]
-        ),
-        "Draw the point ahead: it has to lie on the path, a little farther on than the robot.": (
-            lambda run: True
-        ),
-    },
-)
+@follow.check(7, after=sends_commands, guess={
+    "It only turns on the spot. A positive bearing is to the left, and so is a positive angular.z.":
+        lambda run: not any(_speeds(run)) and any(_turns(run)),
+    "The robot was never told to go ahead: linear.x is the speed, such as 0.4 m/s.":
+        lambda run: not any(_speeds(run)),
+    "The robot was never told to turn: angular.z is speed times curvature.":
+        lambda run: not any(_turns(run)) and _is_slow(run),
+    "It hardly turns: the curvature is 2 * sin(bearing) / distance, with the bearing in rad.":
+        lambda run: max(map(abs, _turns(run))) < 0.05 and _is_slow(run),
+    "The speed changes all the time, and the turn doesn't: first comes the speed, then the turn.":
+        lambda run: len(set(_turns(run))) <= 4 and len(set(_speeds(run))) > 16,
+    "A speed of {speed:.3g} m/s: first comes the speed, then the turn; on the spot it is 0.":
+        lambda run: not _is_slow(run) and {"speed": max(_speeds(run))},
+    "It steers as if /odom, or the transform from odom to base_link, said where the robot is in the map. "
+    "That is where it is since its start: put the transform from map to odom before it.":
+        lambda run: _trusts_odometry_alone(run),
+    "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}": _touch,
+    "It was told to stop before the end: 0.1 m from the last point is near enough.":
+        lambda run: _speeds(run)[-1] == 0.0 and not _turns(run)[-1],
+    "Draw the point ahead: it has to lie on the path, a little farther on than the robot.": lambda run: True,
+})
 def drives_along(run: Recording) -> None:
     """The robot drives along the path to its end."""
     covered, whole = _covered(run)

@@ -77,13 +77,9 @@ def _other_action(run: Recording) -> Any:
     return others and {"other": others[0], "action": ACTION}
 
 
-@navigate.check(
-    2,
-    hints={
-        "Yours is {other}, and clients look for {action}: the third argument of ActionServer.": _other_action
-    },
-    guess="In __init__: ActionServer(self, NavigateToPose, 'navigate_to_pose', ...).",
-)
+@navigate.check(2, hints={
+    "Yours is {other}, and clients look for {action}: the third argument of ActionServer.": _other_action
+}, guess="In __init__: ActionServer(self, NavigateToPose, 'navigate_to_pose', ...).")
 def serves(run: Recording) -> None:
     """The node serves the action /navigate_to_pose of the type NavigateToPose."""
     serves_action(run, ACTION, TYPE)
@@ -102,37 +98,28 @@ def _stands(run: Recording) -> bool:
 
 
 ARRIVES: dict[str, Callable[..., Any]] = {
-    "The goal was rejected. Without a goal_callback every goal is accepted.": (
-        lambda run, goal, left: goal.status == "rejected"
-    ),
-    "It is said to have succeeded before the robot has moved: go on as long as the goal is far.": (
-        lambda run, goal, left: _succeeded(goal, left) and _stands(run)
-    ),
-    "That is too early: go on until the robot is nearer than 0.1 m.": (
-        lambda run, goal, left: _succeeded(goal, left) and left < 1.0
-    ),
+    "The goal was rejected. Without a goal_callback every goal is accepted.":
+        lambda run, goal, left: goal.status == "rejected",
+    "It is said to have succeeded before the robot has moved: go on as long as the goal is far.":
+        lambda run, goal, left: _succeeded(goal, left) and _stands(run),
+    "That is too early: go on until the robot is nearer than 0.1 m.":
+        lambda run, goal, left: _succeeded(goal, left) and left < 1.0,
     "It is said to have succeeded, but the robot is not there. The goal is in the frame map: compare it with "
     "the robot's pose in the map, not with /odom.": lambda run, goal, left: _succeeded(goal, left),
     "No plan was published. In the loop: where there is no path yet, or it is blocked, self.plan(goal). And "
-    f"while a goal is executed the node has to hear /tf and /map: {THREADS}.": (
-        lambda run, goal, left: not _plans(run)
-    ),
-    "All plans are empty. Is the start where the robot is in the map, and are both cells free?": (
-        lambda run, goal, left: not any(plan.poses for plan in _plans(run))
-    ),
-    f"It plans again and again. Does it mark the box, and no more? {TURNED}": (
-        lambda run, goal, left: run.world.lidar.yaw and len(_plans(run)) > 3
-    ),
-    f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}.": (
-        lambda run, goal, left: _stands(run) and any(series(run, "/cmd_vel", "angular.z"))
-    ),
-    "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop.": (
-        lambda run, goal, left: _stands(run)
-    ),
+    f"while a goal is executed the node has to hear /tf and /map: {THREADS}.":
+        lambda run, goal, left: not _plans(run),
+    "All plans are empty. Is the start where the robot is in the map, and are both cells free?":
+        lambda run, goal, left: not any(plan.poses for plan in _plans(run)),
+    f"It plans again and again. Does it mark the box, and no more? {TURNED}":
+        lambda run, goal, left: run.world.lidar.yaw and len(_plans(run)) > 3,
+    f"It only turns on the spot. If self.pose stays the same, nobody hears /tf: {THREADS}.":
+        lambda run, goal, left: _stands(run) and any(series(run, "/cmd_vel", "angular.z")),
+    "There is a plan, but the robot doesn't drive: send a Twist in each turn of the loop.":
+        lambda run, goal, left: _stands(run),
     "{touch}": lambda run, goal, left: run.contacts and {"touch": after_a_touch(run)},
-    "The picture shows where it stopped. Compare it with the last message on /plan.": (
-        lambda run, goal, left: True
-    ),
+    "The picture shows where it stopped. Compare it with the last message on /plan.":
+        lambda run, goal, left: True,
 }
 
 

@@ -63,19 +63,14 @@ def _is_reversed(run: Recording, points: list[Point]) -> bool:
     return math.dist(points[0], end) < GAP and math.dist(points[-1], begin) < GAP
 
 
-@plan.check(
-    4,
-    after=answers_a_goal,
-    hints={
-        "The way back from the goal to the start has to be turned round: way[::-1].": _is_reversed,
-        "x and y are swapped: a cell is (column, row).": lambda run, points: (
-            math.dist(points[-1], run.world.goal[::-1]) < GAP
-        ),
-        "The way back begins at the goal and ends at the cell that came from nowhere (None).": (
-            lambda run, points: True
-        ),
-    },
-)
+@plan.check(4, after=answers_a_goal, hints={
+    "The way back from the goal to the start has to be turned round: way[::-1].": _is_reversed,
+    "x and y are swapped: a cell is (column, row).": lambda run, points: (
+        math.dist(points[-1], run.world.goal[::-1]) < GAP
+    ),
+    "The way back begins at the goal and ends at the cell that came from nowhere (None).":
+        lambda run, points: True,
+})
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""
     begin, end = run.world.start[:2], run.world.goal

@@ -13,31 +13,24 @@ WALL = 2.0  # m: where the wall ahead is; all robots start at 0
 GAPS = {"left": 0.5, "right": 1.0}  # m
 REQUESTED = 0.8  # m: for the left one, by an argument
 NEAR, MOVED = 0.08, 0.02  # m
-LANES = World.from_data(
-    {
-        "name": "lanes",
-        "card": "Picture: Three lanes with a robot in each; 2 m ahead of them is a wall.",
-        "start": [0.0, 0.0, 0.0],
-        "bounds": [-0.5, -1.8, WALL, 1.8],
-        "walls": [[[-0.5, 1.8], [WALL, 1.8], [WALL, -1.8], [-0.5, -1.8]]],
-        "robots": [{"name": "left", "start": [0.0, 1.2, 0.0]}, {"name": "right", "start": [0.0, -1.2, 0.0]}],
-    }
-)
+LANES = World.from_data({
+    "name": "lanes",
+    "card": "Picture: Three lanes with a robot in each; 2 m ahead of them is a wall.",
+    "start": [0.0, 0.0, 0.0],
+    "bounds": [-0.5, -1.8, WALL, 1.8],
+    "walls": [[[-0.5, 1.8], [WALL, 1.8], [WALL, -1.8], [-0.5, -1.8]]],
+    "robots": [{"name": "left", "start": [0.0, 1.2, 0.0]}, {"name": "right", "start": [0.0, -1.2, 0.0]}],
+})
 
 
 def _launch(*words: str) -> functools.partial:
     return functools.partial(installation.ros2_launch, "convoy", "two.launch.py", *words)
 
 
-convoy = Exercise(
-    "convoy",
-    "One launch file, two robots",
-    package="convoy",
-    scenarios=[
-        Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
-        Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={REQUESTED}")),
-    ],
-)
+convoy = Exercise("convoy", "One launch file, two robots", package="convoy", scenarios=[
+    Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
+    Scenario(LANES, seconds=7, seed=1, name="asked", prepare=_launch(f"gap:={REQUESTED}")),
+])
 
 
 @convoy.check(

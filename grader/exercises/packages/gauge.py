@@ -17,18 +17,13 @@ BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) 
 SOON, SAME = 0.2, 0.05  # s, degrees
 
 
-gauge = Exercise(
-    "gauge",
-    "A module of your own",
-    package="gauge",
-    scenarios=[
-        Scenario(
-            seconds=6,
-            prepare=functools.partial(installation.ros2_run, "gauge", "gauge"),
-            companions=lambda seed: [functools.partial(VoltageProbe, seed)],
-        )
-    ],
-)
+gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
+    Scenario(
+        seconds=6,
+        prepare=functools.partial(installation.ros2_run, "gauge", "gauge"),
+        companions=lambda seed: [functools.partial(VoltageProbe, seed)],
+    )
+])
 
 
 voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")

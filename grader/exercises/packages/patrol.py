@@ -12,23 +12,18 @@ from grader.workspace.package import PackageRun
 TWIST = "geometry_msgs/msg/Twist"
 ALONE, LAUNCHED = 0.2, 0.15  # m/s
 
-patrol = Exercise(
-    "patrol",
-    "A broken package",
-    package="patrol",
-    scenarios=[
-        Scenario(
-            seconds=3,
-            name="program",
-            prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
-        ),
-        Scenario(
-            seconds=4,
-            name="launch",
-            prepare=functools.partial(installation.ros2_launch, "patrol", "patrol.launch.py"),
-        ),
-    ],
-)
+patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=[
+    Scenario(
+        seconds=3,
+        name="program",
+        prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
+    ),
+    Scenario(
+        seconds=4,
+        name="launch",
+        prepare=functools.partial(installation.ros2_launch, "patrol", "patrol.launch.py"),
+    ),
+])
 
 
 @patrol.check(5, only="program")

@@ -46,22 +46,15 @@ def wanders_off(run: Recording) -> None:
         raise Missed("a robot that drives or turns", "a robot that stands", picture="path")
 
 
-@avoid.check(
-    3,
-    after=wanders_off,
-    hints={
-        "It pushes against something. {why}": _pushes,
-        "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way round "
-        "is the comparison? Look ahead only, not all round: a wall beside the robot stays near, however "
-        "long it turns. And turn one way until it is free, not to and fro.": (
-            lambda run, way: _turning(run) > 0.6
-        ),
-        "It never turns: where something is near ahead, set angular.z, until it is free.": (
-            lambda run, way: _turning(run) == 0
-        ),
-        "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": lambda run, way: True,
-    },
-)
+@avoid.check(3, after=wanders_off, hints={
+    "It pushes against something. {why}": _pushes,
+    "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way round "
+    "is the comparison? Look ahead only, not all round: a wall beside the robot stays near, however "
+    "long it turns. And turn one way until it is free, not to and fro.": lambda run, way: _turning(run) > 0.6,
+    "It never turns: where something is near ahead, set angular.z, until it is free.":
+        lambda run, way: _turning(run) == 0,
+    "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": lambda run, way: True,
+})
 def drives_on(run: Recording) -> None:
     """It does not get stuck: in 60 s it comes 4 m far, or more."""
     way = travelled(until_a_touch(run))

@@ -49,14 +49,10 @@ class Ahead(NamedTuple):
 
 REMAPPED = [(OUT, RAW)]
 
-guard = Exercise(
-    "guard",
-    "A guard for the robot",
-    scenarios=[
-        Scenario(free_start, 40, 1, [Radio, Process(CarelessDriver, remappings=REMAPPED)]),
-        Scenario(long_hall, 24, 2, [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
-    ],
-)
+guard = Exercise("guard", "A guard for the robot", scenarios=[
+    Scenario(free_start, 40, 1, [Radio, Process(CarelessDriver, remappings=REMAPPED)]),
+    Scenario(long_hall, 24, 2, [BadRadio, Process(CrashingDriver, remappings=REMAPPED)]),
+])
 
 
 @guard.check(
@@ -74,23 +70,15 @@ def _had_a_fault(run: Recording, moment: Moment) -> bool:
     return any(fault.end < moment.stamp for fault in faults)
 
 
-@guard.check(
-    4,
-    after=stands_between,
-    hints={
-        "There was a fault before, but now all is well again: then the commands should pass again.": (
-            _had_a_fault
-        ),
-        "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.": (
-            lambda run, moment: moment.sent is None
-        ),
-        "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
-        "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side.": (
-            lambda run, moment: moment.sent == (0.0, 0.0)
-        ),
-        "Copy the driver's linear.x and angular.z as they are.": lambda run, moment: True,
-    },
-)
+@guard.check(4, after=stands_between, hints={
+    "There was a fault before, but now all is well again: then the commands should pass again.": _had_a_fault,
+    "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.":
+        lambda run, moment: moment.sent is None,
+    "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
+    "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side.":
+        lambda run, moment: moment.sent == (0.0, 0.0),
+    "Copy the driver's linear.x and angular.z as they are.": lambda run, moment: True,
+})
 def lets_through(run: Recording) -> list[Moment]:
     """What is harmless passes: while all is well and 1 m is free ahead, the robot does as the driver asks."""
     moments = list(_moments(run))

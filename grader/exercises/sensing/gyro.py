@@ -90,39 +90,30 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
     return bias and 50.0 < abs(drift / bias) < 200.0 and {"times": abs(drift / bias)}
 
 
-@gyro.check(
-    4,
-    after=sums_up,
-    hints={
-        "It stays 0 all the time: collect the first 200 rates, and add up from then on.": (
-            lambda run, headings: _largest(headings) == 0.0
-        ),
-        "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01.": (
-            lambda run, headings: _largest(headings) < 2.0
-        ),
-        "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up.": (
-            lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0
-        ),
-        "{value} is not a heading: something was divided by zero, or a sum began with no number.": _no_number,
-        "The sign is wrong: a positive angular_velocity.z is a turn to the left, and so is the heading.": (
-            lambda run, headings: -1.2 < _ratio(run, headings) < -0.8
-        ),
-        "That is the angle in radians: math.degrees(...) turns it into degrees.": (
-            lambda run, headings: 0.01 < _ratio(run, headings) < 0.025
-        ),
-        "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
-        "comes only once, where it is published.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
-        "That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the time "
-        "since the last one, 0.01 s: add rate * 0.01.": _times_too_far,
-        "The heading begins at {begin:.3g} s, and the robot sets off at {leaving:g} s: the mean of the rates "
-        "until then has its turn in it, too. Take the mean over the first 2 s only.": _begins_late,
-        "The heading comes to rest on a multiple of {step:.2g} degrees, or 0.01 rad: is the sum rounded at "
-        "each step? Then small steps are lost. Round only what you print.": _is_rounded,
-        "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, and counts for the "
-        "0.01 s since the last message, not for a whole second: (rate - bias) * 0.01.": _drifts_by_the_bias,
-        BIAS: lambda run, headings: True,
-    },
-)
+@gyro.check(4, after=sums_up, hints={
+    "It stays 0 all the time: collect the first 200 rates, and add up from then on.":
+        lambda run, headings: _largest(headings) == 0.0,
+    "It stays near 0 all the time: each message adds its step, self.yaw += (rate - bias) * 0.01.":
+        lambda run, headings: _largest(headings) < 2.0,
+    "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up.":
+        lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0,
+    "{value} is not a heading: something was divided by zero, or a sum began with no number.": _no_number,
+    "The sign is wrong: a positive angular_velocity.z is a turn to the left, and so is the heading.":
+        lambda run, headings: -1.2 < _ratio(run, headings) < -0.8,
+    "That is the angle in radians: math.degrees(...) turns it into degrees.":
+        lambda run, headings: 0.01 < _ratio(run, headings) < 0.025,
+    "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
+    "comes only once, where it is published.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
+    "That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the time "
+    "since the last one, 0.01 s: add rate * 0.01.": _times_too_far,
+    "The heading begins at {begin:.3g} s, and the robot sets off at {leaving:g} s: the mean of the rates "
+    "until then has its turn in it, too. Take the mean over the first 2 s only.": _begins_late,
+    "The heading comes to rest on a multiple of {step:.2g} degrees, or 0.01 rad: is the sum rounded at "
+    "each step? Then small steps are lost. Round only what you print.": _is_rounded,
+    "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, and counts for the "
+    "0.01 s since the last message, not for a whole second: (rate - bias) * 0.01.": _drifts_by_the_bias,
+    BIAS: lambda run, headings: True,
+})
 def ends_right(run: Recording, headings: Headings) -> Headings:
     """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
     stamp, value = headings[-1]

@@ -47,29 +47,20 @@ def _yaws(run: Recording, stamp: Seconds) -> list[float]:
     return [yaw_at(run, stamp - lag) for lag in LAGS]
 
 
-@heading.check(
-    4,
-    after=publishes_a_heading,
-    hints={
-        "That is the angle in radians: math.degrees(...) turns it into degrees.": _all_are(lambda yaw: yaw),
-        "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).": (
-            _all_are(lambda yaw: math.sin(yaw / 2))
-        ),
-        "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).": (
-            _all_are(lambda yaw: math.degrees(math.sin(yaw / 2)))
-        ),
-        "That is half of it: a quaternion holds half the angle. yaw = 2 * atan2(z, w).": (
-            _all_are(lambda yaw: math.degrees(yaw / 2))
-        ),
-        "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).": (
-            _all_are(lambda yaw: math.degrees(-yaw))
-        ),
-        "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
-        "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": (
-            lambda run, wrong: True
-        ),
-    },
-)
+@heading.check(4, after=publishes_a_heading, hints={
+    "That is the angle in radians: math.degrees(...) turns it into degrees.": _all_are(lambda yaw: yaw),
+    "That is orientation.z. The numbers of a quaternion are not angles: yaw = 2 * atan2(z, w).":
+        _all_are(lambda yaw: math.sin(yaw / 2)),
+    "orientation.z is the sine of half the angle: yaw = 2 * atan2(z, w).":
+        _all_are(lambda yaw: math.degrees(math.sin(yaw / 2))),
+    "That is half of it: a quaternion holds half the angle. yaw = 2 * atan2(z, w).":
+        _all_are(lambda yaw: math.degrees(yaw / 2)),
+    "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).":
+        _all_are(lambda yaw: math.degrees(-yaw)),
+    "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
+    "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).":
+        lambda run, wrong: True,
+})
 def heading_is_right(run: Recording, headings: Headings) -> Headings:
     """It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right."""
 

@@ -37,14 +37,10 @@ class SectorValue(NamedTuple):
         return self.value is not None and any(sector.fits(self.value) for sector in sectors)
 
 
-sectors = Exercise(
-    "sectors",
-    "Ahead, left and right",
-    scenarios=[
-        Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
-        Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
-    ],
-)
+sectors = Exercise("sectors", "Ahead, left and right", scenarios=[
+    Scenario(world=furnished_room, seconds=6, seed=1, companions=[Circling]),
+    Scenario(seconds=12, seed=2, companions=[StrangeLidar]),
+])
 
 
 @sectors.check(3)
@@ -87,38 +83,26 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
     return bool(sides) and all(answer.value in answer.sector.beside for answer in sides)
 
 
-@sectors.check(
-    5,
-    after=publishes_three_distances,
-    hints={
-        "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it.": (
-            _all(lambda answer: answer.value == answer.sector.middle)
-        ),
-        "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?": (
-            _returns_in_the_loop
-        ),
-        "That is the greatest distance. min(...) finds the least one.": _all(
-            lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()
-        ),
-        "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
-        "makes degrees of radians.": _is_nearest_around,
-        "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "
-        "each, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
-        "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides.": (
-            _is_within
-        ),
-        "That is too far to the side: only the rays up to 30 degrees from the middle count.": (
-            _is_too_far_aside
-        ),
-        "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at -10. "
-        "Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180.": (
-            lambda run, wrong: wrong[0].topic == "/front"
-        ),
-        "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right.": (
-            lambda run, wrong: True
-        ),
-    },
-)
+@sectors.check(5, after=publishes_three_distances, hints={
+    "That is one ray only. Take the least of all rays up to 30 degrees to both sides of it.":
+        _all(lambda answer: answer.value == answer.sector.middle),
+    "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?":
+        _returns_in_the_loop,
+    "That is the greatest distance. min(...) finds the least one.": _all(
+        lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()
+    ),
+    "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
+    "makes degrees of radians.": _is_nearest_around,
+    "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "
+    "each, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
+    "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides.": _is_within,
+    "That is too far to the side: only the rays up to 30 degrees from the middle count.": _is_too_far_aside,
+    "Ahead lies at both ends of this lidar's ranges: a ray at 350 degrees is the same as one at -10. "
+    "Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180.":
+        lambda run, wrong: wrong[0].topic == "/front",
+    "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right.":
+        lambda run, wrong: True,
+})
 def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[SectorValue]:
     """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
     _all_right(answers, "plain")
@@ -127,32 +111,21 @@ def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[Sec
     return answers
 
 
-@sectors.check(
-    4,
-    after=knows_the_directions,
-    hints={
-        "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False.": (
-            lambda run, wrong: True
-        )
-    },
-)
+@sectors.check(4, after=knows_the_directions, hints={
+    "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False.":
+        lambda run, wrong: True
+})
 def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
     """Rays that got lost (nan) change nothing."""
     _all_right(answers, "lost")
 
 
-@sectors.check(
-    3,
-    after=knows_the_directions,
-    hints={
-        "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is.": (
-            lambda run, wrong: wrong[0].sector.kind == "near"
-        ),
-        "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default.": (
-            lambda run, wrong: True
-        ),
-    },
-)
+@sectors.check(3, after=knows_the_directions, hints={
+    "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is.":
+        lambda run, wrong: wrong[0].sector.kind == "near",
+    "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default.":
+        lambda run, wrong: True,
+})
 def knows_near_and_far(run: Recording, answers: list[SectorValue]) -> None:
     """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""
     _all_right(answers, "near")

@@ -16,22 +16,17 @@ def _any(run: Recording, field: str) -> bool:
     return any(value for _, value in series(run, "/cmd_vel", field))
 
 
-@stop.check(
-    2,
-    hints={
-        "linear.x is negative: that is backwards.": lambda run, far: any(
-            speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")
-        ),
-        "The commands stop too early, or come too rarely: publish one in every callback.": (
-            lambda run, far: _any(run, "linear.x")
-        ),
-        "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.": (
-            lambda run, far: _any(run, "angular.z")
-        ),
-        "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line say "
-        "then?": otherwise,
-    },
-)
+@stop.check(2, hints={
+    "linear.x is negative: that is backwards.": lambda run, far: any(
+        speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")
+    ),
+    "The commands stop too early, or come too rarely: publish one in every callback.":
+        lambda run, far: _any(run, "linear.x"),
+    "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.":
+        lambda run, far: _any(run, "angular.z"),
+    "linear.x is 0 in all commands. At the start the nearest wall is 2 m away: what does your line say "
+    "then?": otherwise,
+})
 def sets_off(run: Recording) -> None:
     """The robot drives ahead, with commands on /cmd_vel."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
@@ -45,19 +40,13 @@ def sets_off(run: Recording) -> None:
         )
 
 
-@stop.check(
-    4,
-    after=sets_off,
-    hints={
-        "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": (
-            lambda run, gap: gap > STOP_AT
-        ),
-        "That is late for a robot at 0.3 m/s: is a zero sent at once, in the same callback?": (
-            lambda run, gap: gap > STOP_AT - 0.25
-        ),
-        "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": otherwise,
-    },
-)
+@stop.check(4, after=sets_off, hints={
+    "It stops too early. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).":
+        lambda run, gap: gap > STOP_AT,
+    "That is late for a robot at 0.3 m/s: is a zero sent at once, in the same callback?":
+        lambda run, gap: gap > STOP_AT - 0.25,
+    "It stops too late. Compare the nearest distance, min(msg.ranges), with 1.0 (metres).": otherwise,
+})
 def stops_in_time(run: Recording) -> None:
     """It stops when the wall is nearer than 1 m, and at once."""
     gap = run.world.bounds[2] - run.path[-1].x

@@ -52,26 +52,19 @@ def leaves_the_start(run: Recording) -> None:
         raise Missed("a robot that drives", f"a way of {travelled(run):.2f} m", picture="path")
 
 
-@wall.check(
-    4,
-    after=leaves_the_start,
-    hints={
-        "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.": _infinite,
-        "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
-        "0.6 m, stop and turn left until it is free again.": (
-            lambda run: run.contacts and run.contacts[0]._asdict()
-        ),
-        "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.": _usual_gap,
-        "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].": (
-            _goes_the_other_way
-        ),
-        "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.": (
-            lambda run: travelled(run) < 10.0
-        ),
-        "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays at "
-        "0.5 m.": lambda run: True,
-    },
-)
+@wall.check(4, after=leaves_the_start, hints={
+    "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.": _infinite,
+    "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
+    "0.6 m, stop and turn left until it is free again.":
+        lambda run: run.contacts and run.contacts[0]._asdict(),
+    "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.": _usual_gap,
+    "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].":
+        _goes_the_other_way,
+    "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.":
+        lambda run: travelled(run) < 10.0,
+    "Two rules: turn left when the wall ahead is near; else steer so that the wall on the right stays at "
+    "0.5 m.": lambda run: True,
+})
 def goes_round(run: Recording) -> None:
     """It goes round the room, with the wall on its right: past all four corners, within 90 s."""
     left, low, right, top = run.world.bounds
@@ -93,19 +86,13 @@ def goes_round(run: Recording) -> None:
         ) from None
 
 
-@wall.check(
-    8,
-    after=goes_round,
-    hints={
-        "Look to the right, at ranges[270], and steer by what is there.": (
-            lambda run, left, near, far: left > 0.5
-        ),
-        "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before it is "
-        "0.3 m: is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
-        "Turn a little to the right when the wall on the right is further than 0.5 m: it must not get "
-        "lost.": lambda run, left, near, far: True,
-    },
-)
+@wall.check(8, after=goes_round, hints={
+    "Look to the right, at ranges[270], and steer by what is there.": lambda run, left, near, far: left > 0.5,
+    "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before it is "
+    "0.3 m: is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
+    "Turn a little to the right when the wall on the right is further than 0.5 m: it must not get "
+    "lost.": lambda run, left, near, far: True,
+})
 def keeps_the_distance(run: Recording) -> None:
     """It keeps 30 cm to 80 cm from the wall on its right, for nine tenths of the time or more."""
     rows = [(pose.yaw, *_nearest_wall(run, pose)) for pose in run.path if pose.stamp >= SETTLED]

@@ -44,19 +44,14 @@ def offers_to_arm(run: Recording) -> None:
     offers(run, ARM, "std_srvs/srv/SetBool")
 
 
-@arming.check(
-    3,
-    after=offers_to_arm,
-    guess={
-        INVERTED: lambda run, call: _is_inverted(run),
-        "success says whether the call went well, and here it always does. The message says the rest.": (
-            lambda run, call: _words(call) == [_word(call)]
-        ),
-        'The message says how things are after this call: "armed" if self.armed else "disarmed".': (
-            lambda run, call: is_success(call)
-        ),
-    },
-)
+@arming.check(3, after=offers_to_arm, guess={
+    INVERTED: lambda run, call: _is_inverted(run),
+    "success says whether the call went well, and here it always does. The message says the rest.":
+        lambda run, call: _words(call) == [_word(call)],
+    'The message says how things are after this call: "armed" if self.armed else "disarmed".': (
+        lambda run, call: is_success(call)
+    ),
+})
 def reports_its_state(run: Recording) -> None:
     """Every call is answered with success, and with the message `armed` or `disarmed`."""
     for call in course_calls(run, ARM, CALLS):
@@ -64,29 +59,19 @@ def reports_its_state(run: Recording) -> None:
             raise wrong_response(f"success=True, message={_word(call)!r} for {call_text(call)}", call)
 
 
-@arming.check(
-    4,
-    after=offers_to_arm,
-    hints={
-        "Nothing was published on /cmd_vel: publish a Twist in drive, each time.": (
-            lambda run, call: not run.messages("/cmd_vel")
-        ),
-        INVERTED: lambda run, call: _is_inverted(run),
-        "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.": (
-            lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z")
-        ),
-        "All commands were 0: does arm set self.armed (with self), and does drive look at it?": (
-            lambda run, call: not _commands(run, "linear.x")
-        ),
-        SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
-        "A second data=True must not switch it off again: write self.armed = request.data.": (
-            lambda run, call: any(other.request.data for other in _before(run, call)[-1:])
-        ),
-        f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": (
-            otherwise
-        ),
-    },
-)
+@arming.check(4, after=offers_to_arm, hints={
+    "Nothing was published on /cmd_vel: publish a Twist in drive, each time.":
+        lambda run, call: not run.messages("/cmd_vel"),
+    INVERTED: lambda run, call: _is_inverted(run),
+    "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.":
+        lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z"),
+    "All commands were 0: does arm set self.armed (with self), and does drive look at it?":
+        lambda run, call: not _commands(run, "linear.x"),
+    SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
+    "A second data=True must not switch it off again: write self.armed = request.data.":
+        lambda run, call: any(other.request.data for other in _before(run, call)[-1:]),
+    f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": otherwise,
+})
 def drives_while_armed(run: Recording) -> None:
     """While it is armed, the robot drives ahead at 0.3 m/s."""
     first = course_calls(run, ARM, CALLS)[0]

@@ -16,9 +16,7 @@ WAITING = (
 )
 OPEN = "/door/open"
 
-door = Exercise(
-    "door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2)
-)
+door = Exercise("door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2))
 
 
 @door.check(4)

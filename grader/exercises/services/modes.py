@@ -27,9 +27,7 @@ DRIVE = (
 BUMPED = "In on_bumper, when the robot has just bumped: self.armed = False and self.bumped = True."
 UNARMED = "Only arming makes the robot drive: look at self.armed in drive, and send zeros without it."
 
-modes = Exercise(
-    "modes", "A mode manager", world="room", seconds=40, companions=[Operator], seeds=(1, 2)
-)
+modes = Exercise("modes", "A mode manager", world="room", seconds=40, companions=[Operator], seeds=(1, 2))
 
 
 @modes.check(3)

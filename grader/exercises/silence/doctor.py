@@ -55,26 +55,19 @@ def answers_complaints(run: Recording) -> None:
         publishes(run, "/diagnosis", STRING)
 
 
-@doctor.check(
-    10,
-    after=answers_complaints,
-    hints={
-        "One message for each complaint: return as soon as the fault is found.": lambda run, one: (
-            len(one.words) > 1
-        ),
-        "The words are {faults}.": lambda run, one: (
-            not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)}
-        ),
-        "Publish the topic of the complaint, a colon and the word; `hear` does it if examine returns.": (
-            lambda run, one: not one.words
-        ),
-        "Settings that differ may fit: a sensor may offer more than the display asks for. "
-        "Here it is this: {why}": (
-            lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]}
-        ),
-        "{why}": lambda run, *about: about and {"why": WHY[about[0].case.fault]},
-    },
-)
+@doctor.check(10, after=answers_complaints, hints={
+    "One message for each complaint: return as soon as the fault is found.": lambda run, one: (
+        len(one.words) > 1
+    ),
+    "The words are {faults}.": lambda run, one: (
+        not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)}
+    ),
+    "Publish the topic of the complaint, a colon and the word; `hear` does it if examine returns.":
+        lambda run, one: not one.words,
+    "Settings that differ may fit: a sensor may offer more than the display asks for. "
+    "Here it is this: {why}": lambda run, one: set(one.words) <= SETTINGS and {"why": WHY[one.case.fault]},
+    "{why}": lambda run, *about: about and {"why": WHY[about[0].case.fault]},
+})
 def names_the_faults(run: Recording) -> None:
     """For each complaint it names the fault, in one message and within a second: “/kitchen/speech: name”."""
     systems = _systems(run)

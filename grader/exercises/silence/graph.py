@@ -17,27 +17,21 @@ LATELY = 0.3  # s; each publisher of the course publishes every 0.2 s
 NOBODY = "nobody"
 
 WRONG = {
-    "Publish once in the callback, all names in one message: ', '.join(names).": (
-        lambda run, one: len(one.answers) > 1
-    ),
-    "The callback is called with each question: publish in it, whatever the answer is.": (
-        lambda run, one: not one.answers
-    ),
-    "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).": (
-        lambda run, one: _names_subscribers(run, one)
-    ),
+    "Publish once in the callback, all names in one message: ', '.join(names).":
+        lambda run, one: len(one.answers) > 1,
+    "The callback is called with each question: publish in it, whatever the answer is.":
+        lambda run, one: not one.answers,
+    "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).":
+        lambda run, one: _names_subscribers(run, one),
     f"An empty list of names gives an empty text: publish “{NOBODY}” then.": lambda run, one: not _names(one),
-    "A node with two publishers is in the list twice: make a set of the names first.": (
-        lambda run, one: len(_names(one)) > len(set(_names(one)))
-    ),
-    "The names are right, and their order isn't: sorted(...) puts them in order.": (
-        lambda run, one: set(_names(one)) == set(one.speakers)
-    ),
+    "A node with two publishers is in the list twice: make a set of the names first.":
+        lambda run, one: len(_names(one)) > len(set(_names(one))),
+    "The names are right, and their order isn't: sorted(...) puts them in order.":
+        lambda run, one: set(_names(one)) == set(one.speakers),
     "The full name begins with the namespace: node_namespace, a slash, node_name. In the namespace / itself "
     "there is only one slash.": lambda run, one: _bare(_names(one)) == _bare(one.speakers),
-    "Somebody is missing. Ask ROS anew at each question, for nodes come and go; and take all of them.": (
-        lambda run, one: set(_names(one)) < set(one.speakers)
-    ),
+    "Somebody is missing. Ask ROS anew at each question, for nodes come and go; and take all of them.":
+        lambda run, one: set(_names(one)) < set(one.speakers),
     "Ask about the topic that the question names: msg.data.": otherwise,
 }
 

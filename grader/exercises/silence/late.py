@@ -21,22 +21,15 @@ def subscribes_to_the_map(run: Recording) -> None:
         subscribes(run, "/map", GRID)
 
 
-@late.check(
-    5,
-    after=subscribes_to_the_map,
-    hints={
-        "That is how many cells are known. A free cell is 0.": (
-            lambda run, count: count == sum(cell >= 0 for cell in _cells(run))
-        ),
-        "That is how many are occupied, 100. A free cell is 0.": (
-            lambda run, count: count == sum(cell > 0 for cell in _cells(run))
-        ),
-        "That is how many cells there are. A free one is 0, an occupied one 100, an unknown one -1.": (
-            lambda run, count: count == len(_cells(run))
-        ),
-        "Count the cells of msg.data that are 0; -1 means that nothing is known there.": otherwise,
-    },
-)
+@late.check(5, after=subscribes_to_the_map, hints={
+    "That is how many cells are known. A free cell is 0.":
+        lambda run, count: count == sum(cell >= 0 for cell in _cells(run)),
+    "That is how many are occupied, 100. A free cell is 0.":
+        lambda run, count: count == sum(cell > 0 for cell in _cells(run)),
+    "That is how many cells there are. A free one is 0, an occupied one 100, an unknown one -1.":
+        lambda run, count: count == len(_cells(run)),
+    "Count the cells of msg.data that are 0; -1 means that nothing is known there.": otherwise,
+})
 def receives_the_latched_map(run: Recording) -> None:
     """It hears the map that was published before it began: its free cells (Int32) are on /free at once."""
     free, first = _truth(run)[0], publishes(run.during(0.0, run.ended.stamp), "/free", COUNT)[0]

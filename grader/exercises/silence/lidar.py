@@ -49,29 +49,20 @@ def receives_every_scan(run: Recording) -> list[Counted]:
         return _counted(run)
 
 
-@lidar.check(
-    8,
-    after=receives_every_scan,
-    hints={
-        "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost.": (
-            lambda run, counted: not any(one.count for one in counted)
-        ),
-        "Each gap counts as one, but in a long gap several got lost: gap / scan_time - 1.": (
-            lambda run, counted: counted[-1].count == _gaps(counted)
-        ),
-        "Two scans in a row are one scan_time apart, and nothing got lost: take 1 away from each.": (
-            lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1
-        ),
-        "That is how many came. Lost are those that should have come in between.": (
-            lambda run, counted: counted[-1].count in (len(counted), len(counted) - 1)
-        ),
-        "That is what was lost before the last scan alone: add it up, self.missed += ...": (
-            lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost
-        ),
-        "How many scans fit into a gap is its seconds divided by scan.scan_time, rounded. The gap is that "
-        "between the two header stamps: scans also come early or late.": otherwise,
-    },
-)
+@lidar.check(8, after=receives_every_scan, hints={
+    "It stays 0. Two stamps in a row are further apart than scan_time where a scan got lost.":
+        lambda run, counted: not any(one.count for one in counted),
+    "Each gap counts as one, but in a long gap several got lost: gap / scan_time - 1.":
+        lambda run, counted: counted[-1].count == _gaps(counted),
+    "Two scans in a row are one scan_time apart, and nothing got lost: take 1 away from each.":
+        lambda run, counted: counted[-1].count == counted[-1].lost + len(counted) - 1,
+    "That is how many came. Lost are those that should have come in between.":
+        lambda run, counted: counted[-1].count in (len(counted), len(counted) - 1),
+    "That is what was lost before the last scan alone: add it up, self.missed += ...":
+        lambda run, counted: counted[-1].count == counted[-1].lost - counted[-2].lost,
+    "How many scans fit into a gap is its seconds divided by scan.scan_time, rounded. The gap is that "
+    "between the two header stamps: scans also come early or late.": otherwise,
+})
 def counts_all(run: Recording, counted: list[Counted]) -> None:
     """At the end the count is how many scans have got lost since the first one."""
     last = counted[-1]

@@ -30,26 +30,17 @@ def subscribes_to_all_three(run: Recording) -> None:
             raise
 
 
-@chatters.check(
-    8,
-    after=subscribes_to_all_three,
-    hints={
-        "A callback with two parameters gets such details as the second. "
-        "Give it the topic: partial(self.hear, topic=topic).": lambda run, row: _has_details(run, row),
-        "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
-        "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial.": (
-            lambda run, row: row.topic != "/chatter2" and _is_logged(run, row, "/chatter2")
-        ),
-        "Nothing is logged at all. Debug lines are hidden: use self.get_logger().info(...).": (
-            lambda run, row: not run.logs
-        ),
-        "False is a value like any other, but `if msg.data:` lets only True pass: "
-        "log each message, whatever it says.": (
-            lambda run, row: _ignores_false(run, row)
-        ),
-    },
-    guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").',
-)
+@chatters.check(8, after=subscribes_to_all_three, hints={
+    "A callback with two parameters gets such details as the second. "
+    "Give it the topic: partial(self.hear, topic=topic).": lambda run, row: _has_details(run, row),
+    "Every message is said to come from /chatter2. A lambda made in a loop reads the variable when "
+    "it is called, after the loop. Write `lambda msg, topic=topic: ...`, or use partial.":
+        lambda run, row: row.topic != "/chatter2" and _is_logged(run, row, "/chatter2"),
+    "Nothing is logged at all. Debug lines are hidden: use self.get_logger().info(...).":
+        lambda run, row: not run.logs,
+    "False is a value like any other, but `if msg.data:` lets only True pass: "
+    "log each message, whatever it says.": lambda run, row: _ignores_false(run, row),
+}, guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").')
 def knows_the_topic(run: Recording) -> None:
     """Each message is logged at info level as `chatter0: word`: its topic, a colon, a space and its value."""
     missing = [row for topic in CHATTERS if (row := _first_not_logged(run, topic))]

@@ -22,16 +22,11 @@ def subscribes_to_commands(run: Recording) -> None:
     subscribes(run, COMMAND, "std_msgs/msg/String")
 
 
-@commands.check(
-    6,
-    after=subscribes_to_commands,
-    guess={
-        PRINTED: lambda run: run.prints,
-        "The word is in msg.data. Compare it with ==, and log with self.get_logger().info(...).": (
-            lambda run: True
-        ),
-    },
-)
+@commands.check(6, after=subscribes_to_commands, guess={
+    PRINTED: lambda run: run.prints,
+    "The word is in msg.data. Compare it with ==, and log with self.get_logger().info(...).":
+        lambda run: True,
+})
 def obeys(run: Recording) -> None:
     """`stand`, `walk` and `stop` are answered at info level with standing, walking or stopping."""
     _are_answered(run, lambda row: DOING[row.message.data], "INFO", where=_is_command)
@@ -46,14 +41,10 @@ def obeys(run: Recording) -> None:
         )
 
 
-@commands.check(
-    4,
-    after=subscribes_to_commands,
-    guess={
-        PRINTED: lambda run: run.prints,
-        "In an else: self.get_logger().warning(...), with the word msg.data in the text.": lambda run: True,
-    },
-)
+@commands.check(4, after=subscribes_to_commands, guess={
+    PRINTED: lambda run: run.prints,
+    "In an else: self.get_logger().warning(...), with the word msg.data in the text.": lambda run: True,
+})
 def warns(run: Recording) -> None:
     """Any other word is answered with a warning that names the word."""
     _are_answered(run, lambda row: row.message.data, "WARN", where=lambda row: not _is_command(row))

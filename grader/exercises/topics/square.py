@@ -31,27 +31,18 @@ def sends_velocities(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
 
 
-@square.check(
-    8,
-    after=sends_velocities,
-    guess={
-        "angular.z was {fastest:.3g}: its unit is rad/s, and a quarter turn is pi/2 = 1.57 rad.": (
-            lambda run: _too_fast(run)
-        ),
-        "This robot can't move sideways, so it ignores linear.y: turn, then drive ahead with linear.x.": (
-            lambda run: any(value for _, value in series(run, "/cmd_vel", "linear.y"))
-        ),
-        "The robot stops by itself 0.5 s after the last command: repeat it at 10 Hz, from a timer.": (
-            lambda run: any(b - a > TIMEOUT for a, b in itertools.pairwise(stamps(run.messages("/cmd_vel"))))
-        ),
-        "The robot turned right. A positive angular.z turns left.": (
-            lambda run: closest(run.path, (1.0, -1.0))[0] < NEAR
-        ),
-        "Speed times seconds is the way: 1 m for a side, pi/2 rad for a corner. The picture shows yours.": (
-            lambda run: True
-        ),
-    },
-)
+@square.check(8, after=sends_velocities, guess={
+    "angular.z was {fastest:.3g}: its unit is rad/s, and a quarter turn is pi/2 = 1.57 rad.":
+        lambda run: _too_fast(run),
+    "This robot can't move sideways, so it ignores linear.y: turn, then drive ahead with linear.x.":
+        lambda run: any(value for _, value in series(run, "/cmd_vel", "linear.y")),
+    "The robot stops by itself 0.5 s after the last command: repeat it at 10 Hz, from a timer.":
+        lambda run: any(b - a > TIMEOUT for a, b in itertools.pairwise(stamps(run.messages("/cmd_vel")))),
+    "The robot turned right. A positive angular.z turns left.":
+        lambda run: closest(run.path, (1.0, -1.0))[0] < NEAR,
+    "Speed times seconds is the way: 1 m for a side, pi/2 rad for a corner. The picture shows yours.":
+        lambda run: True,
+})
 def passes_the_corners(run: Recording) -> None:
     """The robot passes (1, 0), (1, 1), (0, 1) and (0, 0), in this order."""
     passes(run, [*CORNERS, START], tolerance=NEAR)
