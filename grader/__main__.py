@@ -1,4 +1,4 @@
-"""The commands of the course: `python -m grader mark`, `league`, `certificate` and `confirm`; see --help.
+"""The commands of the course: `python -m grader mark`, `league` and so on; see --help.
 
 Students have `league` only.
 """
@@ -9,6 +9,8 @@ import sys
 COMMANDS = {  # module, function and arguments
     "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),
+    "collect": ("grader.marking.extras.learning_platform.cli", "collect", "ARCHIVE.zip"),
+    "grades": ("grader.marking.extras.learning_platform.cli", "grades", "ASSIGNMENT"),
     "certificate": ("grader.marking.extras.certificate.cli", "certificate", "--issuer TEXT"),
     "confirm": ("grader.marking.extras.certificate.cli", "confirm", "PAGE"),
 }

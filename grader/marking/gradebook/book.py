@@ -51,6 +51,16 @@ class GradebookMark:
     needs_look: bool
 
 
+@dataclass(frozen=True)
+class GradebookStudent:
+    """A student of the class, with what the gradebook knows of the name."""
+
+    student: str
+    first: str
+    last: str
+    mail: str
+
+
 class Book:
     """The gradebook of a course, open for one command. Raises GradebookError."""
 
@@ -94,6 +104,12 @@ class Book:
         with self._transaction() as book:
             submissions = [found for each in book.assignments for found in each.submissions]
             return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
+
+    def students(self) -> list[GradebookStudent]:
+        """Everyone in the gradebook."""
+        with self._transaction() as book:
+            every = [(each.id, each.first_name, each.last_name, each.email) for each in book.students]
+        return [GradebookStudent(*(text or "" for text in each)) for each in every]
 
     def write(self, result: Result, pages: Mapping[str, NotebookNode], timestamp: datetime | None) -> None:
         """Write a result: all of it, or nothing if this raises.

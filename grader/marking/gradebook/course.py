@@ -80,6 +80,10 @@ class Course:
         """The folder of certificates and their receipt."""
         return (self.root / self.directory.autograded_directory).parent / "certificates"
 
+    def platform_files(self) -> Path:
+        """The folder with what is known of a learning platform's uploads."""
+        return (self.root / self.directory.autograded_directory).parent / "platform"
+
     def assignments(self) -> list[str]:
         """The names of all assignments that are released."""
         return sorted({notebook.parent.name for notebook in self.release("*").parent.glob("*/*.ipynb")})

@@ -28,7 +28,7 @@ INCLUDED = (
 )
 MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py"),
-    *("extras/certificate", "extras/dask_cluster"),
+    *("extras/certificate", "extras/dask_cluster", "extras/learning_platform"),
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
