@@ -9,6 +9,17 @@ from collections.abc import Callable
 
 # Package -> program -> arguments of `python`. {domain} is replaced by ROS_DOMAIN_ID.
 PROGRAMS: dict[str, dict[str, tuple[str, ...]]] = {
+    "demo_nodes_py": {
+        **{
+            name: ("-m", f"demo_nodes_py.topics.{name}")
+            for name in ("listener", "listener_qos", "listener_serialized", "talker", "talker_qos")
+        },
+        **{
+            name: ("-m", f"demo_nodes_py.services.{name}")
+            for name in ("add_two_ints_client", "add_two_ints_client_async", "add_two_ints_server")
+        },
+        "set_parameters_callback": ("-m", "demo_nodes_py.parameters.set_parameters_callback"),
+    },
     "tf2_ros": {
         "static_transform_publisher": ("-m", "tf2_ros.static_transform_publisher"),
         "tf2_echo": ("-m", "tf2_ros.tf2_echo"),
