@@ -61,13 +61,9 @@ def turns_by_the_angle(run: Recording) -> None:
         target = goal.request.target_yaw
         turned = _turned(run, goal)(math.inf if goal.ended is None else goal.ended + SETTLING)
         if goal.status != "succeeded" or abs(turned - target) > NEAR:
-            raise Missed(
-                f"{_text(goal)} succeeded, the robot turned by {target:.2f} rad, within {NEAR:g}",
-                f"{state(goal)}; turned by {turned:.2f} rad",
-                credit=number / 4,
-                picture="path",
-                about=(goal, turned),
-            )
+            expected = f"{_text(goal)} succeeded, the robot turned by {target:.2f} rad, within {NEAR:g}"
+            saw = f"{state(goal)}; turned by {turned:.2f} rad"
+            raise Missed(expected, saw, credit=number / 4, picture="path", about=(goal, turned))
     if len(goals) < 3:
         raise Missed("three goals that succeed", f"{len(goals)}")
 
@@ -119,13 +115,9 @@ def stops_when_canceled(run: Recording) -> Goal:
     turned_by = _turned(run, goal)
     moved = turned_by(requested + 2.0) - turned_by(requested + 0.8)
     if abs(moved) > 0.05:
-        raise Missed(
-            f"a robot that stands still 0.8 s after it was asked to stop, at {requested:.3g} s",
-            f"it turned {abs(moved):.2f} rad further",
-            "Canceled isn't stopped: send a Twist() of zeros before you call canceled().",
-            picture="path",
-            unsafe=True,
-        )
+        expected = f"a robot that stands still 0.8 s after it was asked to stop, at {requested:.3g} s"
+        hint = "Canceled isn't stopped: send a Twist() of zeros before you call canceled()."
+        raise Missed(expected, f"it turned {abs(moved):.2f} rad further", hint, picture="path", unsafe=True)
     return goal
 
 

@@ -67,11 +67,9 @@ def publishes_refusals(run: Recording) -> None:
         if reason and seen.values() != [reason]:
             age = seen.stamp - _measured(seen)
             what = f"{seen.value.header.frame_id}, {age:.1f} s old"
-            raise Missed(
-                f"{reason} for the sighting at {seen.stamp:.3g} s ({what})",
-                ", ".join(seen.values()) or "nothing",
-                "type(error).__name__ is the name of its class; TransformException catches all of them.",
-            )
+            expected = f"{reason} for the sighting at {seen.stamp:.3g} s ({what})"
+            hint = "type(error).__name__ is the name of its class; TransformException catches all of them."
+            raise Missed(expected, ", ".join(seen.values()) or "nothing", hint)
 
 
 @lookup.check(3, after=publishes_refusals)

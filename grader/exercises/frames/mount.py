@@ -39,13 +39,10 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
         known = [
             same(saw, right, NEAR) and abs(right) / 2 > NEAR for saw, right in ((found.x, x), (found.y, y))
         ]
-        raise Missed(
-            f"x {x:.2f} m, y {y:.2f} m",
-            f"x {found.x:.2f} m, y {found.y:.2f} m",
-            "translation.x is msg.x, and translation.y is msg.y.",
-            credit=PART if any(known) else 0.0,
-            measured=sent,
-        )
+        expected = f"x {x:.2f} m, y {y:.2f} m"
+        saw = f"x {found.x:.2f} m, y {found.y:.2f} m"
+        hint = "translation.x is msg.x, and translation.y is msg.y."
+        raise Missed(expected, saw, hint, credit=PART if any(known) else 0.0, measured=sent)
     return sent
 
 

@@ -60,26 +60,22 @@ def _require_no_waiting(run: Recording) -> None:
     waits = [line for line in run.logs if not line.from_course and line.level == "WARN" and line.stamp > 1.0]
     if waits:
         is_watcher = all(line.text.startswith(WAITING) for line in waits)
-        raise Missed(
-            "no warning after 1 s",
-            f"“{waits[0].text}” at {waits[0].stamp:.3g} s",
-            "The log says which frame it waits for. Which robots are there? `target` is a parameter.",
-            credit=HALF if is_watcher and _publishers(run, OUT) else 0.0,
-        )
+        expected = "no warning after 1 s"
+        saw = f"“{waits[0].text}” at {waits[0].stamp:.3g} s"
+        hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
+        raise Missed(expected, saw, hint, credit=HALF if is_watcher and _publishers(run, OUT) else 0.0)
 
 
 def _require_own_commands(run: Recording) -> None:
     """Raise Missed where all commands go to another robot."""
     strange = _publishers(run, STRANGER)
     if strange and not _publishers(run, OUT):
-        raise Missed(
-            f"commands on {OUT}",
-            f"{strange[0].node} publishes on {STRANGER}",
+        expected = f"commands on {OUT}"
+        hint = (
             "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
-            "from cmd_vel to the tower's own topic, sends it there.",
-            credit=HALF,
-            unsafe=True,
+            "from cmd_vel to the tower's own topic, sends it there."
         )
+        raise Missed(expected, f"{strange[0].node} publishes on {STRANGER}", hint, credit=HALF, unsafe=True)
 
 
 def _publishers(run: Recording, topic: str) -> list[Endpoint]:

@@ -112,11 +112,8 @@ def frees_what_is_stuck(run: Recording) -> None:
     for row in run.messages(COMMANDS):
         expected = row in in_place_of_refusals or _is_requested(run, row)
         if not expected and not _holds_a_jam(run, row, REACTION + SOON):
-            raise Missed(
-                "commands only for what is wanted, and where the lift is stuck",
-                f"{row.message.data:.3g} at {row.stamp:.3g} s",
-                about=(None, []),
-            )
+            expected = "commands only for what is wanted, and where the lift is stuck"
+            raise Missed(expected, f"{row.message.data:.3g} at {row.stamp:.3g} s", about=(None, []))
 
 
 def _limits(run: Recording) -> JointLimits:

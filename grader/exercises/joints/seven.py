@@ -46,11 +46,8 @@ def every_two_seconds(run: Recording) -> None:
     stamps = [row.stamp for row in run.messages(COMMANDS)]
     for number, (before, stamp) in enumerate(itertools.pairwise([0.0, *stamps]), start=1):
         if abs(stamp - before - PERIOD) > 0.05:
-            raise Missed(
-                f"position {number} at {PERIOD * number:g} s",
-                f"it at {stamp:.3g} s",
-                "One timer with a period of 2.0 s calls send(), and each call publishes one position.",
-            )
+            hint = "One timer with a period of 2.0 s calls send(), and each call publishes one position."
+            raise Missed(f"position {number} at {PERIOD * number:g} s", f"it at {stamp:.3g} s", hint)
 
 
 @seven.check(3, after=sends_all_seven)

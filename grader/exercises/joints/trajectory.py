@@ -91,11 +91,8 @@ def at_the_speed(run: Recording, lessons: list[Lesson]) -> None:
         for part in parts:
             if not part.needed - 0.01 <= part.end - part.begin <= SLOW * part.needed + REST:
                 where = f"on the way to point {part.point} of the goal at {goal.requested:.3g} s"
-                raise Missed(
-                    f"{part.needed:.3g} s or a little more {where}",
-                    f"{part.end - part.begin:.3g} s (time_from_start is {part.end:.3g} s)",
-                    about=(parts, part),
-                )
+                saw = f"{part.end - part.begin:.3g} s (time_from_start is {part.end:.3g} s)"
+                raise Missed(f"{part.needed:.3g} s or a little more {where}", saw, about=(parts, part))
 
 
 @trajectory.check(4, after=by_their_names)

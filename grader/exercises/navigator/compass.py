@@ -112,12 +112,9 @@ def _agrees(answers: list[Value], right: Formula, tolerance: float, unit: str, c
     if wrong:
         stamp, value, poses = wrong[0]
         x, y, yaw = poses[-1]
-        raise Missed(
-            f"{right(poses[-1]):.3g} {unit} from ({x:.2f}, {y:.2f}) m with yaw {yaw:.2f} rad",
-            f"{value:.3g} at {stamp:.3g} s; {len(wrong)} of {len(answers)} are wrong",
-            credit=credit,
-            about=(answers,),
-        )
+        expected = f"{right(poses[-1]):.3g} {unit} from ({x:.2f}, {y:.2f}) m with yaw {yaw:.2f} rad"
+        saw = f"{value:.3g} at {stamp:.3g} s; {len(wrong)} of {len(answers)} are wrong"
+        raise Missed(expected, saw, credit=credit, about=(answers,))
 
 
 def _is_right_but_for_turns(answers: list[Value]) -> bool:

@@ -107,12 +107,9 @@ def drives_along(run: Recording) -> None:
     covered, whole = _covered(run)
     if whole - covered > NEAR:
         end = run.path[-1]
-        raise Missed(
-            f"the whole path, {whole:.1f} m",
-            f"{covered:.1f} m of it; the robot ends at ({end.x:.2f}, {end.y:.2f}) m",
-            credit=tenths(0.8 * covered / whole),
-            picture="path",
-        )
+        expected = f"the whole path, {whole:.1f} m"
+        saw = f"{covered:.1f} m of it; the robot ends at ({end.x:.2f}, {end.y:.2f}) m"
+        raise Missed(expected, saw, credit=tenths(0.8 * covered / whole), picture="path")
 
 
 @follow.check(4, after=drives_along)

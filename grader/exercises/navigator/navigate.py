@@ -217,13 +217,9 @@ def _succeeds(run: Recording) -> None:
     state = goal.status or "not answered"
     if left > NEAR:
         came = 1 - to_go(world, end) / to_go(world, run.path[0])
-        raise Missed(
-            f"the robot within {NEAR} m of ({world.goal[0]:.2f}, {world.goal[1]:.2f}) m",
-            f"({end.x:.2f}, {end.y:.2f}) m, {left:.2f} m away; the goal is {state}",
-            credit=tenths(0.6 * came),
-            picture="path",
-            about=(goal, left),
-        )
+        expected = f"the robot within {NEAR} m of ({world.goal[0]:.2f}, {world.goal[1]:.2f}) m"
+        saw = f"({end.x:.2f}, {end.y:.2f}) m, {left:.2f} m away; the goal is {state}"
+        raise Missed(expected, saw, credit=tenths(0.6 * came), picture="path", about=(goal, left))
     if goal.status != "succeeded":
         moment = "the end" if goal.ended is None else f"{goal.ended:.3g} s"
         saw = f"{state} at {moment}, though the robot is there"

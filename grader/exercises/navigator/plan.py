@@ -50,11 +50,8 @@ def answers_a_goal(run: Recording) -> list[Point]:
             "from?",
         )
     if path.header.frame_id != "map":
-        raise Missed(
-            "the frame “map” in the path's header",
-            f"“{path.header.frame_id}”",
-            'Without a frame nobody knows where the points lie: path.header.frame_id = "map".',
-        )
+        hint = 'Without a frame nobody knows where the points lie: path.header.frame_id = "map".'
+        raise Missed("the frame “map” in the path's header", f"“{path.header.frame_id}”", hint)
     return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
 
 
@@ -79,20 +76,14 @@ def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
         ("ends at the goal", points[-1], end),
     ):
         if not math.dist(point, right) <= GAP:  # so that NaN fails
-            raise Missed(
-                f"a path that {words}, ({right[0]:.2f}, {right[1]:.2f}) m",
-                f"({point[0]:.2f}, {point[1]:.2f}) m, which is {math.dist(point, right):.2f} m away",
-                about=(points,),
-            )
+            saw = f"({point[0]:.2f}, {point[1]:.2f}) m, which is {math.dist(point, right):.2f} m away"
+            raise Missed(f"a path that {words}, ({right[0]:.2f}, {right[1]:.2f}) m", saw, about=(points,))
     gap, near = max(_gaps(points))
     if gap > GAP:
-        raise Missed(
-            f"points {GAP} m apart or less",
-            f"{gap:.2f} m after ({near[0]:.2f}, {near[1]:.2f}) m",
-            "Every cell of the way belongs in the path.",
-            credit=0.5 if math.isfinite(gap) else 0.0,
-            measured=points,
-        )
+        expected = f"points {GAP} m apart or less"
+        saw = f"{gap:.2f} m after ({near[0]:.2f}, {near[1]:.2f}) m"
+        hint = "Every cell of the way belongs in the path."
+        raise Missed(expected, saw, hint, credit=0.5 if math.isfinite(gap) else 0.0, measured=points)
     return points
 
 
@@ -130,11 +121,9 @@ def admits_that_there_is_no_way(run: Recording) -> None:
     """A goal inside a wall is answered with a Path without poses."""
     _, path = _answer(run, 1)
     if path is None or path.poses:
-        raise Missed(
-            "a path without poses, for the goal inside a wall",
-            "no path" if path is None else f"a path of {len(path.poses)} poses",
-            guess="Once the queue is empty there is no way: return [], and publish that.",
-        )
+        saw = "no path" if path is None else f"a path of {len(path.poses)} poses"
+        guess = "Once the queue is empty there is no way: return [], and publish that."
+        raise Missed("a path without poses, for the goal inside a wall", saw, guess=guess)
 
 
 def _answer(run: Recording, number: int) -> tuple[Seconds, Any]:

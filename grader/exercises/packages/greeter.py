@@ -35,11 +35,8 @@ def counts(run: PackageRun) -> None:
     """The greetings are hello 1, hello 2, hello 3 and so on."""
     for number, row in enumerate(run.messages(TOPIC), 1):
         if row.message.data != f"hello {number}":
-            raise Missed(
-                f"“hello {number}”",
-                f"“{row.message.data[:60]}” at {row.stamp:g} s",
-                "Count in the node: a number that is 1 at first, and 1 more after each message.",
-            )
+            hint = "Count in the node: a number that is 1 at first, and 1 more after each message."
+            raise Missed(f"“hello {number}”", f"“{row.message.data[:60]}” at {row.stamp:g} s", hint)
 
 
 @greeter.check(3)

@@ -58,8 +58,5 @@ def has_these_commands(run: PackageRun) -> None:
     found = sorted(path.rpartition("/")[2] for path in programs if path.startswith("lib/station/"))
     others = [name for name in found if name not in COMMANDS]
     if others or len(found) != len(COMMANDS):
-        raise Missed(
-            f"the commands {' and '.join(COMMANDS)}",
-            ", ".join(found) or "none",
-            "One line in 'console_scripts' for each command, and none for what isn't one.",
-        )
+        hint = "One line in 'console_scripts' for each command, and none for what isn't one."
+        raise Missed(f"the commands {' and '.join(COMMANDS)}", ", ".join(found) or "none", hint)

@@ -92,13 +92,11 @@ def lets_through(run: Recording) -> list[Moment]:
         raise Missed(expected, saw, hint, picture="path")
     if len(wrong) > 0.05 * len(fine):
         first = wrong[0]
-        raise Missed(
+        expected = (
             f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver asks: {first.ahead:.2f} m are "
-            "free ahead",
-            _text(first.sent),
-            picture="topics",
-            about=(first,),
+            "free ahead"
         )
+        raise Missed(expected, _text(first.sent), picture="topics", about=(first,))
     lasts(run, OUT)
     return moments
 
@@ -119,11 +117,9 @@ def lets_turn(run: Recording, moments: list[Moment]) -> None:
     for moment in moments:
         turn = moment.requested[1] if moment.requested and moment.ahead < BLOCKED else 0.0
         if turn and not (moment.sent and same(moment.sent[1], turn, 0.05)):
-            raise Missed(
-                f"a turn of {turn:g} rad/s at {moment.stamp:.3g} s, as the driver asks",
-                _text(moment.sent),
-                "Set linear.x to 0, and leave angular.z as it is: a turn on the spot hits nothing.",
-            )
+            expected = f"a turn of {turn:g} rad/s at {moment.stamp:.3g} s, as the driver asks"
+            hint = "Set linear.x to 0, and leave angular.z as it is: a turn on the spot hits nothing."
+            raise Missed(expected, _text(moment.sent), hint)
 
 
 @guard.check(3, after=lets_through)
@@ -162,13 +158,9 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsa
         path = Window(begin + SETTLING, end).rows(run.path)
         fastest = max(speeds(path), key=lambda speed: (speed.linear, speed.stamp), default=None)
         if fastest and fastest.linear > STANDING:
-            raise Missed(
-                f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)",
-                f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s",
-                hint,
-                picture="topics",
-                unsafe=unsafe,
-            )
+            expected = f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)"
+            saw = f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s"
+            raise Missed(expected, saw, hint, picture="topics", unsafe=unsafe)
 
 
 def _text(command: Command | None) -> str:

@@ -38,11 +38,9 @@ def sums_up(run: Recording) -> Headings:
     sent = publishes(run, HEADING, "std_msgs/msg/Float64", at_least=50)
     pause = max(after.stamp - before.stamp for before, after in itertools.pairwise(sent))
     if pause > 1.0 or sent[0].stamp > LEAVING or sent[-1].stamp < run.ended.stamp - 1.0:
-        raise Missed(
-            "a heading all the time, from 3 s on at the latest",
-            f"messages from {sent[0].stamp:.3g} s to {sent[-1].stamp:.3g} s, with a pause of {pause:.3g} s",
-            "Publish in every callback. Before the bias is known, the heading is 0.0.",
-        )
+        saw = f"messages from {sent[0].stamp:.3g} s to {sent[-1].stamp:.3g} s, with a pause of {pause:.3g} s"
+        hint = "Publish in every callback. Before the bias is known, the heading is 0.0."
+        raise Missed("a heading all the time, from 3 s on at the latest", saw, hint)
     return series(run, HEADING, "data")
 
 
@@ -147,12 +145,10 @@ def does_not_drift(run: Recording, headings: Headings) -> None:
     (first, before), (last, after) = resting[0], resting[-1]
     drift = turn_between(after, before)
     if abs(drift) >= 1.0:
-        raise Missed(
-            f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot stands",
-            f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second",
-            "It comes to the right heading too late: publish the sum as it is, without smoothing.",
-            picture="topics",
-        )
+        expected = f"less than 1 degree of change from {first:.3g} s to {last:.3g} s, while the robot stands"
+        saw = f"{drift:.3g} degrees, which is {drift / (last - first):.3g} degrees a second"
+        hint = "It comes to the right heading too late: publish the sum as it is, without smoothing."
+        raise Missed(expected, saw, hint, picture="topics")
 
 
 @gyro.check(3, after=ends_right)
@@ -160,11 +156,8 @@ def is_right_all_the_time(run: Recording, headings: Headings) -> None:
     """It is right on the way, too, within 5 degrees."""
     for stamp, value in headings:
         if least_turn(value, [_turned(run, stamp - lag) for lag in (0.0, 0.05, 0.1)]) >= 5.0:
-            raise Missed(
-                f"{_turned(run, stamp):.1f} degrees at {stamp:.3g} s",
-                f"{value:.4g} degrees",
-                "A heading is the sum of rate times time step, with each reading as it comes.",
-            )
+            hint = "A heading is the sum of rate times time step, with each reading as it comes."
+            raise Missed(f"{_turned(run, stamp):.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees", hint)
 
 
 def _turned(run: Recording, stamp: Seconds) -> float:

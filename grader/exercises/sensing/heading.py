@@ -78,8 +78,5 @@ def heading_is_in_range(run: Recording, headings: Headings) -> None:
     """It is always from -180 to 180 degrees."""
     for stamp, value in headings:
         if not abs(value) <= 180.0 + 1e-6:
-            raise Missed(
-                "degrees from -180 to 180",
-                f"{value:.4g} at {stamp:.3g} s",
-                "math.atan2 gives an angle in this range. Don't add 360, and don't use % 360 alone.",
-            )
+            hint = "math.atan2 gives an angle in this range. Don't add 360, and don't use % 360 alone."
+            raise Missed("degrees from -180 to 180", f"{value:.4g} at {stamp:.3g} s", hint)

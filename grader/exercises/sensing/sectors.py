@@ -137,11 +137,8 @@ def _all_right(answers: list[SectorValue], kind: str) -> None:
     wrong = [answer for answer in answers if answer.sector.kind == kind and not answer.right]
     if wrong:
         stamp, topic, value, sector, _ = wrong[0]
-        raise Missed(
-            f"{sector.nearest:.3g} m on {topic} at {stamp:.3g} s{sector.text}",
-            "nothing" if value is None else f"{value:.3g} m",
-            about=(wrong,),
-        )
+        expected = f"{sector.nearest:.3g} m on {topic} at {stamp:.3g} s{sector.text}"
+        raise Missed(expected, "nothing" if value is None else f"{value:.3g} m", about=(wrong,))
 
 
 def _answers(run: Recording) -> Iterator[SectorValue]:

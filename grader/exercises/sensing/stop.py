@@ -32,12 +32,8 @@ def sets_off(run: Recording) -> None:
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
     far = max(pose.x for pose in run.path)
     if far < 0.5:
-        raise Missed(
-            "a robot that drives ahead while nothing is nearer than 1 m",
-            f"it comes {far:.2f} m far",
-            picture="path",
-            about=(far,),
-        )
+        expected = "a robot that drives ahead while nothing is nearer than 1 m"
+        raise Missed(expected, f"it comes {far:.2f} m far", picture="path", about=(far,))
 
 
 @stop.check(4, after=sets_off, hints={
@@ -51,21 +47,17 @@ def stops_in_time(run: Recording) -> None:
     """It stops when the wall is nearer than 1 m, and at once."""
     gap = run.world.bounds[2] - run.path[-1].x
     if run.contacts:
-        raise Missed(
-            "a stop before the wall",
-            f"the robot drove into it at {run.contacts[0].stamp:.3g} s",
+        saw = f"the robot drove into it at {run.contacts[0].stamp:.3g} s"
+        hint = (
             "Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
-            "comparison the right way round?",
-            picture="path",
-            unsafe=True,
+            "comparison the right way round?"
         )
+        raise Missed("a stop before the wall", saw, hint, picture="path", unsafe=True)
     if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
-        raise Missed(
-            "a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few centimetres",
-            f"it ends {gap:.2f} m before the wall",
-            picture="path",
-            about=(gap,),
+        expected = (
+            "a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few centimetres"
         )
+        raise Missed(expected, f"it ends {gap:.2f} m before the wall", picture="path", about=(gap,))
 
 
 @stop.check(2, after=stops_in_time)
@@ -74,10 +66,9 @@ def publishes_a_stop(run: Recording) -> None:
     stands_still(run)
     stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
     if speed or run.ended.stamp - stamp > 0.5:
-        raise Missed(
-            "zeros on /cmd_vel as long as the wall is near",
-            f"{speed:g} m/s as the last command, at {stamp:.3g} s",
+        expected = "zeros on /cmd_vel as long as the wall is near"
+        hint = (
             "It stood still only because the robot stops by itself without commands. Publish in every "
-            "callback, a Twist() of zeros, too.",
-            picture="topics",
+            "callback, a Twist() of zeros, too."
         )
+        raise Missed(expected, f"{speed:g} m/s as the last command, at {stamp:.3g} s", hint, picture="topics")

@@ -62,12 +62,9 @@ def gyro_reads_zero(run: Recording) -> None:
             expected = f"each reading of {RAW} minus the bias, after {call_text(it.call)}"
             raise Missed(expected, f"{it.unrelated:.3g} rad/s, which is none of them", hint, picture="topics")
         if abs(it.rate) > 0.01:
-            raise Missed(
-                f"a mean of 0 rad/s, within 0.01, in the second after {call_text(it.call)}",
-                f"{it.rate:.3g} rad/s",
-                _bias_hint(it, first=number == 0),
-                picture="topics",
-            )
+            expected = f"a mean of 0 rad/s, within 0.01, in the second after {call_text(it.call)}"
+            saw = f"{it.rate:.3g} rad/s"
+            raise Missed(expected, saw, _bias_hint(it, first=number == 0), picture="topics")
 
 
 @calibrate.check(3, after=offers_to_calibrate)

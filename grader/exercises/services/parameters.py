@@ -32,10 +32,8 @@ def declares_speed(run: Recording) -> float:
     named(run, "/cruiser")
     given = response_fields(course_calls(run, GET)[0])
     if not isinstance(given.get("value"), float):
-        raise Missed(
-            "a parameter `speed` of /cruiser with a value such as 0.2",
-            "no such parameter, or one of another kind" if given else "no answer",
-        )
+        expected = "a parameter `speed` of /cruiser with a value such as 0.2"
+        raise Missed(expected, "no such parameter, or one of another kind" if given else "no answer")
     return given["value"]
 
 

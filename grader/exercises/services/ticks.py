@@ -41,11 +41,9 @@ def publishes_the_totals(run: Recording, made: list[Call]) -> None:
         sent = Window.after(call.answered, 0.2).rows(run.messages(TOTAL))
         sums = [row.message.data for row in sent]
         if total not in sums:
-            raise Missed(
-                f"{total} on {TOTAL}, the answer of {call.answered:.3g} s",
-                f"{', '.join(map(str, sums)) or 'no message'} in the 0.2 s after it",
-                guess="Publish the sum of the answer itself, once it is there: answer.sum.",
-            )
+            saw = f"{', '.join(map(str, sums)) or 'no message'} in the 0.2 s after it"
+            guess = "Publish the sum of the answer itself, once it is there: answer.sum."
+            raise Missed(f"{total} on {TOTAL}, the answer of {call.answered:.3g} s", saw, guess=guess)
 
 
 @ticks.check(2, after=calls_every_second)

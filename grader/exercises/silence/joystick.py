@@ -50,13 +50,12 @@ def stops_when_it_falls_silent(run: Recording) -> None:
         speed = top_speed(run.during(begin + STOPPED, end).path).linear
         for moment, sent in _looks(run, begin + SOON, end):
             if sent != (0.0, 0.0):
-                raise Missed(
-                    f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)",
-                    f"{_text(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s",
-                    _why_not_zero(run, begin + STOPPED, end),
-                    picture="topics",
-                    unsafe=speed > STANDING,
+                expected = (
+                    f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)"
                 )
+                saw = f"{_text(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s"
+                hint = _why_not_zero(run, begin + STOPPED, end)
+                raise Missed(expected, saw, hint, picture="topics", unsafe=speed > STANDING)
 
 
 @joystick.check(5, after=stops_when_it_falls_silent)

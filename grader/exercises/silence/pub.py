@@ -38,12 +38,10 @@ def comes_often_enough(run: Recording) -> None:
     """The commands come so often, from start to end, that the robot never stops between two."""
     pause, since = longest_pause(stamps(run.messages(COMMANDS)))
     if pause > TIMEOUT or len(run.messages(COMMANDS)) < 2:
-        raise Missed(
-            f"a command every {TIMEOUT:g} s or more often: without one the robot stops",
-            f"{pause:.3g} s without one, from {since:.3g} s on" if pause else "one command",
-            "Without --rate a message goes out once a second, with --once a single time. Give --rate 10.",
-            picture="topics",
-        )
+        expected = f"a command every {TIMEOUT:g} s or more often: without one the robot stops"
+        saw = f"{pause:.3g} s without one, from {since:.3g} s on" if pause else "one command"
+        hint = "Without --rate a message goes out once a second, with --once a single time. Give --rate 10."
+        raise Missed(expected, saw, hint, picture="topics")
     lasts(run, COMMANDS)
 
 

@@ -59,12 +59,11 @@ def uses_one_callback(run: Recording) -> None:
     nodes = {end.node for topic in CHATTERS for end in run.graph.subscriptions(topic)}
     names = {ran.callback for ran in run.callbacks if ran.kind == "subscription" and ran.node in nodes}
     if len(names) > 1:
-        raise Missed(
-            "one callback for the three topics",
-            ", ".join(sorted(names)),
+        hint = (
             "Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the topic "
-            "with a lambda or functools.partial.",
+            "with a lambda or functools.partial."
         )
+        raise Missed("one callback for the three topics", ", ".join(sorted(names)), hint)
 
 
 def _first_not_logged(run: Recording, topic: str) -> Message | None:

@@ -34,11 +34,9 @@ def obeys(run: Recording) -> None:
     wrong = [(row, line) for row in sent if (line := _first_contradiction(run, row, "INFO"))]
     if len(wrong) > len(sent) / 2:
         row, line = wrong[0]
-        raise Missed(
-            f"only “{DOING[row.message.data]}” after “{row.message.data}”",
-            f"“{line.text[:60]}” at {row.stamp:.3g} s",
-            "To say everything is to answer nothing. With if, elif, else exactly one branch runs.",
-        )
+        expected = f"only “{DOING[row.message.data]}” after “{row.message.data}”"
+        hint = "To say everything is to answer nothing. With if, elif, else exactly one branch runs."
+        raise Missed(expected, f"“{line.text[:60]}” at {row.stamp:.3g} s", hint)
 
 
 @commands.check(4, after=subscribes_to_commands, guess={
@@ -56,11 +54,9 @@ def logs_nothing_else(run: Recording) -> None:
     for row in run.messages(COMMAND):
         if line := _first_contradiction(run, row):
             answer = f"“{DOING[row.message.data]}”" if _is_command(row) else "a warning"
-            raise Missed(
-                f"only {answer} after “{row.message.data}”",
-                f"“{line.text}” ({line.level}) at {line.stamp:.3g} s",
-                "Compare whole words with ==, and use if, elif, else: then exactly one branch runs.",
-            )
+            expected = f"only {answer} after “{row.message.data}”"
+            hint = "Compare whole words with ==, and use if, elif, else: then exactly one branch runs."
+            raise Missed(expected, f"“{line.text}” ({line.level}) at {line.stamp:.3g} s", hint)
 
 
 def _are_answered(run: Recording, pattern: Any, level: str, where: Any) -> None:

@@ -43,11 +43,9 @@ def imu_is_stamped(run: Recording, sent: list[Message]) -> None:
     for row in sent:
         stamp = row.message.header.stamp
         if abs(since_start(stamp) - row.stamp) > 0.02:
-            raise Missed(
-                f"a stamp of {row.stamp:.3f} s after the start in the message sent then",
-                stamp_words(stamp),
-                "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg().",
-            )
+            expected = f"a stamp of {row.stamp:.3f} s after the start in the message sent then"
+            hint = "In the timer's callback: msg.header.stamp = self.get_clock().now().to_msg()."
+            raise Missed(expected, stamp_words(stamp), hint)
 
 
 @imu.check(2, after=imu_is_published, guess="msg.linear_acceleration.z = 9.81; upwards is positive.")
@@ -63,18 +61,15 @@ def imu_looks_left(run: Recording, sent: list[Message]) -> None:
         q = row.message.orientation
         length = math.hypot(q.x, q.y, q.z, q.w)
         if not abs(length - 1.0) < 0.01:
-            raise Missed(
-                "a quaternion of length 1",
-                f"length {length:.3g} at {row.stamp:.3g} s: {_text(q)}",
-                "A quaternion holds no angles: z = math.sin(yaw / 2), w = math.cos(yaw / 2), x = y = 0.",
-            )
+            expected = "a quaternion of length 1"
+            hint = "A quaternion holds no angles: z = math.sin(yaw / 2), w = math.cos(yaw / 2), x = y = 0."
+            raise Missed(expected, f"length {length:.3g} at {row.stamp:.3g} s: {_text(q)}", hint)
         if abs(q.z * LEFT + q.w * LEFT) < 0.999:  # 1 for the same rotation, with either sign
-            raise Missed(
-                f"the quaternion {_text(type(q)(z=LEFT, w=LEFT))}",
-                f"{_text(q)} at {row.stamp:.3g} s",
-                "yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in radians.",
-                credit=1 / 3,
+            expected = f"the quaternion {_text(type(q)(z=LEFT, w=LEFT))}"
+            hint = (
+                "yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in radians."
             )
+            raise Missed(expected, f"{_text(q)} at {row.stamp:.3g} s", hint, credit=1 / 3)
 
 
 def _text(quaternion: object) -> str:
