@@ -47,14 +47,7 @@ class EmergencyOperator(TimedNode):
     def __init__(self) -> None:
         super().__init__("operator")
         steps = [
-            (2.0, 3.0),
-            (0.6, 0.9),
-            (0.5, 0.8),
-            (1.0, 1.4),
-            (0.7, 0.9),
-            (1.0, 1.4),
-            (1.5, 2.0),
-            (1.6, 1.9),
+            (2.0, 3.0), (0.6, 0.9), (0.5, 0.8), (1.0, 1.4), (0.7, 0.9), (1.0, 1.4), (1.5, 2.0), (1.6, 1.9),
         ]
         times = list(itertools.accumulate(random.uniform(*step) for step in steps))
         self.press, refused, self.release, self.quiet, accepted, self.speak, self.cut, self.repaired = times
@@ -91,14 +84,7 @@ class Drivers(TimedNode):
         super().__init__("drivers")
         self.turns = itertools.cycle((JOY, NAV))
         steps = [
-            (1.8, 2.4),
-            (0.7, 1.0),
-            (0.9, 1.3),
-            (1.6, 2.0),
-            (1.0, 1.4),
-            (0.9, 1.2),
-            (1.8, 2.2),
-            (1.4, 1.8),
+            (1.8, 2.4), (0.7, 1.0), (0.9, 1.3), (1.6, 2.0), (1.0, 1.4), (0.9, 1.2), (1.8, 2.2), (1.4, 1.8),
         ]
         joy, moves, rests, again, falls, ends, back, last = itertools.accumulate(
             random.uniform(*one) for one in steps

@@ -1,7 +1,5 @@
 """Angles in degrees: turns between directions."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Sectors of a LaserScan: the rays of one direction, and what they show."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 
@@ -61,10 +59,6 @@ def sector_of(message: Any, middle: float) -> Sector:
     angles = np.degrees(message.angle_min + np.arange(len(ranges)) * message.angle_increment)
     off = np.abs((angles - middle + 180.0) % 360.0 - 180.0)
     return Sector(
-        ranges[off <= HALF + EDGE],
-        ranges[off <= HALF - EDGE],
-        float(ranges[off.argmin()]),
-        ranges[(off > HALF) & (off <= BESIDE)],
-        max(0.0, _least(ranges)),
-        np.flatnonzero(off <= HALF + EDGE),
+        ranges[off <= HALF + EDGE], ranges[off <= HALF - EDGE], float(ranges[off.argmin()]),
+        ranges[(off > HALF) & (off <= BESIDE)], max(0.0, _least(ranges)), np.flatnonzero(off <= HALF + EDGE),
     )

@@ -10,20 +10,6 @@ from grader.responses.stimuli import Stimuli, Stimulus, from_course, last_before
 from grader.responses.window import EDGE, Window
 
 __all__ = [
-    "EDGE",
-    "Speed",
-    "Stimuli",
-    "Stimulus",
-    "Window",
-    "closest",
-    "from_course",
-    "last_before",
-    "listed",
-    "matches",
-    "requests_from_course",
-    "require_standing",
-    "same",
-    "speeds",
-    "text_of",
-    "top_speed",
+    "EDGE", "Speed", "Stimuli", "Stimulus", "Window", "closest", "from_course", "last_before", "listed",
+    "matches", "requests_from_course", "require_standing", "same", "speeds", "text_of", "top_speed",
 ]

@@ -20,10 +20,8 @@ def joint_of(seed: int) -> World:
     """Return the world joint with a motor that may be slow or quick, and limits of its own."""
     draw = random.Random(f"joint {seed}")
     model = JointModel(
-        lower=-_between(draw, 1.2, 2.0),
-        upper=_between(draw, 1.2, 2.0),
-        max_velocity=draw.choice((0.4, 0.5, 0.6, 0.7)),
-        max_acceleration=3.0,
+        lower=-_between(draw, 1.2, 2.0), upper=_between(draw, 1.2, 2.0),
+        max_velocity=draw.choice((0.4, 0.5, 0.6, 0.7)), max_acceleration=3.0,
     )
     return replace(World.load("joint"), machine=model, name=f"joint_{seed}")
 

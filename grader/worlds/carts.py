@@ -33,12 +33,8 @@ def pushed_cart(seed: int) -> World:
         for when, side in zip(PUSHES, sides, strict=True)
     )
     model = CartPoleModel(
-        cart_mass=cart,
-        pole_mass=pole,
-        pole_length=draw.uniform(0.25, 0.5),
-        angle_noise=NOISE,
-        track_length=3.0,
-        pushes=pushes,
+        cart_mass=cart, pole_mass=pole, pole_length=draw.uniform(0.25, 0.5), angle_noise=NOISE,
+        track_length=3.0, pushes=pushes,
     )
     return _cart("pushed_cart", seed, model)
 

@@ -14,12 +14,8 @@ CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 NEAR = 0.15  # metres
 
 square = Exercise(
-    "square_by_actions",
-    "A square out of actions",
-    world="yard",
-    seconds=50,
-    companions=[DriveServer, SpinServer],
-    may_end=True,
+    "square_by_actions", "A square out of actions", world="yard", seconds=50,
+    companions=[DriveServer, SpinServer], may_end=True,
 )
 
 

@@ -14,12 +14,8 @@ HALF = 0.2  # of the points, where one of the two faults is corrected: with the 
 SETTLED, BAND, STILL = 5.0, 0.3, 0.05  # s, rad, m
 
 watch = Exercise(
-    "watch",
-    "The tower that does not watch",
-    world=square,
-    seconds=9,
-    companions=lambda seed: localization(square(seed)),
-    seeds=(1, 2),
+    "watch", "The tower that does not watch", world=square, seconds=9,
+    companions=lambda seed: localization(square(seed)), seeds=(1, 2),
 )
 
 

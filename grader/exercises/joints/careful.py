@@ -74,11 +74,7 @@ def refuses(run: Recording) -> None:
 def logs_refusals(run: Recording) -> None:
     """Each refusal is logged as a warning."""
     answers(
-        run,
-        WANTED,
-        level="WARN",
-        within=SOON,
-        where=lambda row: not _is_within(run, row.message),
+        run, WANTED, level="WARN", within=SOON, where=lambda row: not _is_within(run, row.message),
         what="positions that can't be gone to",
     )
 
@@ -110,8 +106,8 @@ def frees_what_is_stuck(run: Recording) -> None:
             )
     in_place_of_refusals = [row for request in _refused(run) for row in request.responses]
     for row in run.messages(COMMANDS):
-        expected = row in in_place_of_refusals or _is_requested(run, row)
-        if not expected and not _holds_a_jam(run, row, REACTION + SOON):
+        is_right = row in in_place_of_refusals or _is_requested(run, row)
+        if not is_right and not _holds_a_jam(run, row, REACTION + SOON):
             expected = "commands only for what is wanted, and where the lift is stuck"
             raise Missed(expected, f"{row.message.data:.3g} at {row.stamp:.3g} s", about=(None, []))
 

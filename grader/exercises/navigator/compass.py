@@ -1,7 +1,5 @@
 """How far the goal is, and in which direction, from the odometry."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import NamedTuple

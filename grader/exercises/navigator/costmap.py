@@ -1,7 +1,5 @@
 """Cells and metres of a map, and walls that are made thicker by the robot's size."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Drive to a goal without a map."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Drive along a path with pure pursuit."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

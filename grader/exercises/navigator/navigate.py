@@ -1,7 +1,5 @@
 """The whole navigator: an action server for every client of Nav2's NavigateToPose."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable

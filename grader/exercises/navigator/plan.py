@@ -1,7 +1,5 @@
 """Plan the shortest path over the free cells of a map."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

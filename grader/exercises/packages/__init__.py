@@ -11,16 +11,6 @@ from grader.exercises.packages.station import station
 from grader.trial import see
 
 __all__ = [
-    "LANES",
-    "VoltageProbe",
-    "WeatherStation",
-    "broken",
-    "convoy",
-    "crates",
-    "gauge",
-    "greeter",
-    "patrol",
-    "repaired",
-    "see",
-    "station",
+    "LANES", "VoltageProbe", "WeatherStation", "broken", "convoy", "crates", "gauge", "greeter", "patrol",
+    "repaired", "see", "station",
 ]

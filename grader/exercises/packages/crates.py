@@ -25,11 +25,7 @@ NEEDS = {  # what package.xml names, and in which tags: one of these, or both of
 }
 
 crates = Exercise(
-    "crates",
-    "A message, a service and an action of your own",
-    package=NAME,
-    build_type=CMAKE,
-    seconds=0,
+    "crates", "A message, a service and an action of your own", package=NAME, build_type=CMAKE, seconds=0,
 )
 
 Read = Mapping[str, Mapping[str, InterfacePart]]

@@ -11,9 +11,7 @@ from grader.workspace.package import PackageRun
 TOPIC = "/greeting"
 
 greeter = Exercise(
-    "greeter",
-    "A package from nothing",
-    package="greeter",
+    "greeter", "A package from nothing", package="greeter",
     scenarios=[Scenario(seconds=6, prepare=functools.partial(installation.ros2_run, "greeter", "hello"))],
 )
 

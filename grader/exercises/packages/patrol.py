@@ -14,9 +14,7 @@ ALONE, LAUNCHED = 0.2, 0.15  # m/s
 
 patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=[
     Scenario(
-        seconds=3,
-        name="program",
-        prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
+        seconds=3, name="program", prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
     ),
     Scenario(
         seconds=4,

@@ -17,14 +17,10 @@ SOON = 0.3  # s
 
 station = Exercise("station", "Names for two programs", package="station", scenarios=[
     Scenario(
-        seconds=4,
-        name="sensor",
-        prepare=functools.partial(installation.ros2_run, "station", "sensor"),
+        seconds=4, name="sensor", prepare=functools.partial(installation.ros2_run, "station", "sensor"),
     ),
     Scenario(
-        seconds=5,
-        name="display",
-        prepare=functools.partial(installation.ros2_run, "station", "display"),
+        seconds=5, name="display", prepare=functools.partial(installation.ros2_run, "station", "display"),
         companions=lambda seed: [functools.partial(WeatherStation, seed)],
     ),
 ])

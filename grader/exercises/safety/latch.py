@@ -19,11 +19,7 @@ LATCH = (
 )
 
 latch = Exercise(
-    "latch",
-    "An emergency stop that stays",
-    world="yard",
-    seconds=14,
-    companions=[EmergencyOperator],
+    "latch", "An emergency stop that stays", world="yard", seconds=14, companions=[EmergencyOperator],
     seeds=(1, 2),
 )
 
@@ -82,10 +78,8 @@ def stays_stopped(run: Recording) -> None:
     """It stays so when the button is let go, whatever the driver says, until it is reset."""
     when = _times(run)
     require_standing(
-        run,
-        Window(when.release, _granted(run).requested),
-        f"after the button was let go at {when.release:.3g} s",
-        LATCH,
+        run, Window(when.release, _granted(run).requested),
+        f"after the button was let go at {when.release:.3g} s", LATCH,
     )
 
 

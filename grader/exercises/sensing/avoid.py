@@ -1,7 +1,5 @@
 """Turn away from what is in the way."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

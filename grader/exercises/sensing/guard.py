@@ -1,7 +1,5 @@
 """The project: a safety node between a careless driver and the robot."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """A heading from a gyro that has a bias."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

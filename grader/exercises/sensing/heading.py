@@ -1,7 +1,5 @@
 """A compass from odometry."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The nearest thing ahead, to the left and to the right, from any lidar's scans."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 import math

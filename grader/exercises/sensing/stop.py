@@ -1,7 +1,5 @@
 """Stop before a wall."""
 
-from __future__ import annotations
-
 from grader.checks import Missed, otherwise, publishes, series, stands_still
 from grader.exercise import Exercise
 from grader.worlds.rooms import hall

@@ -1,7 +1,5 @@
 """Follow the wall round a room."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import statistics

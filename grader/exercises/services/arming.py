@@ -29,11 +29,7 @@ NO_MORE = "request.data says what is wanted: self.armed = request.data. While it
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
 
 arming = Exercise(
-    "arming",
-    "A robot that drives only when it is armed",
-    world="yard",
-    seconds=17,
-    companions=[Pilot],
+    "arming", "A robot that drives only when it is armed", world="yard", seconds=17, companions=[Pilot],
     seeds=(1, 2),
 )
 

@@ -18,11 +18,7 @@ Signal = list[tuple[Seconds, float]]
 ENOUGH = f"It refused with {READINGS} readings. Refuse only below that: if len(self.readings) < {READINGS}."
 
 calibrate = Exercise(
-    "calibrate",
-    "A gyro that can be calibrated",
-    seconds=10,
-    companions=[RawGyro, Technician],
-    seeds=(1, 2),
+    "calibrate", "A gyro that can be calibrated", seconds=10, companions=[RawGyro, Technician], seeds=(1, 2),
 )
 
 

@@ -19,11 +19,7 @@ STEP, STANDING = 0.05, 0.02  # s, m/s
 PROFILE = "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline."
 
 joystick = Exercise(
-    "joystick",
-    "A joystick that falls silent",
-    world="yard",
-    seconds=10,
-    companions=[SilentJoystick],
+    "joystick", "A joystick that falls silent", world="yard", seconds=10, companions=[SilentJoystick],
     seeds=(1, 2),
 )
 
