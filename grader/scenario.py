@@ -63,6 +63,7 @@ class Scenario:
             until=self.until,
             quiet=True,
             network=self.network,
+            expect_error=True,  # the score reports it
         )
         for error in recording.course_errors:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")

@@ -7,6 +7,7 @@ import textwrap
 from grader.diagnosis import find_fault, find_flaw
 from grader.diagnosis.fault import NOT_STARTED
 from sim.evidence import Recording
+from sim.notebook import is_reported, name_cell
 
 WIDTH = 100  # characters: a notebook breaks longer lines within words
 BEGIN = (
@@ -19,16 +20,23 @@ def tell(recording: Recording) -> None:
     """Print the most important fault of a run and what to do about it. It gives no points.
 
     Errors and hanging runs have priority, then causes why something does not work, such as names or QoS that
-    don't match. Without a fault it prints that there is no error.
+    don't match. Without a fault it prints that there is no error. A failure that `run` has shown in the same
+    cell is not repeated.
     """
+    lines = explain_failure(recording)
+    if not lines:
+        _print(find_flaw(recording) or f"No error. {recording.ended.detail}")
+    elif not is_reported(recording):
+        for line in lines:
+            _print(name_cell(line, recording))
+
+
+def explain_failure(recording: Recording) -> list[str]:
+    """The first error in the student's programs, or why they got stuck, and the hint; empty if none."""
     fault = find_fault(recording)
     if fault is None:
-        _print(find_flaw(recording) or f"No error. {recording.ended.detail}")
-    elif fault.sentence == NOT_STARTED:
-        _print(BEGIN)
-    else:
-        _print(fault.saw)
-        _print(f"Hint: {fault.hint}")
+        return []
+    return [BEGIN] if fault.sentence == NOT_STARTED else [fault.saw, f"Hint: {fault.hint}"]
 
 
 def _print(text: str) -> None:

@@ -1,4 +1,7 @@
-"""Runs at the start of every kernel of `make lab`: explains undefined names, even before any import."""
+"""Runs at the start of every kernel of `make lab`: explains undefined names, even before any import.
+
+A cell that uses rclpy finds `sim` imported, so that a spin outside a run can't block the kernel.
+"""
 
 
 def _explain_missing_names() -> None:
@@ -13,5 +16,23 @@ def _explain_missing_names() -> None:
         builtins.get_ipython().set_custom_exc((NameError,), explain)
 
 
+def _import_sim_before_rclpy() -> None:
+    import builtins
+    import sys
+
+    shell = getattr(builtins, "get_ipython", lambda: None)()
+
+    def before(info):
+        if "rclpy" in (info.raw_cell or "") and "sim" not in sys.modules:
+            with shell.builtin_trap:  # get_ipython() is there in cells only
+                import sim  # noqa: F401
+        if "sim" in sys.modules:
+            shell.events.unregister("pre_run_cell", before)
+
+    if shell is not None:
+        shell.events.register("pre_run_cell", before)
+
+
 _explain_missing_names()
-del _explain_missing_names
+_import_sim_before_rclpy()
+del _explain_missing_names, _import_sim_before_rclpy

@@ -7,7 +7,7 @@ from typing import Any
 
 from sim.evidence import Recording
 from sim.network import Network
-from sim.notebook import in_notebook, raise_if_outdated
+from sim.notebook import in_notebook, raise_if_outdated, report_failure
 from sim.ros.play.pacing import Pace
 from sim.ros.play.player import Player
 from sim.ros.session import Session
@@ -23,6 +23,7 @@ def play(
     quiet: bool = False,
     network: Network | None = None,
     speed: float = 1.0,
+    expect_error: bool = False,
 ) -> Player:
     """Run ROS 2 nodes as `run` does, but paced by the wall clock, to watch and drive them.
 
@@ -41,10 +42,12 @@ def play(
             LiveView,  # imported here because it is slow, and scripts don't need Jupyter
         )
 
-        view = LiveView(player.recording.world)
+        view = LiveView(player.recording.world, reports=not expect_error)
         view.show()
         player.show(view)
     player.begin()
+    if player.over and not expect_error:  # it was played without an event loop
+        report_failure(player.recording)
     return player
 
 

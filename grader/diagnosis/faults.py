@@ -8,12 +8,9 @@ from grader.diagnosis.error_advice import advice
 from grader.diagnosis.fault import NOT_STARTED, Fault
 from grader.diagnosis.other_types import words_of
 from grader.diagnosis.situations import advice_here
-from sim.evidence import CallbackError, Ended, Recording
+from sim.evidence import CallbackError, Ended, Recording, first_error, first_line, place_of
 
-# Classes of rclpy that call a student's method inside a callback of their own.
-_RCLPYS_OWN = ("ActionClient.", "ActionServer.", "ParameterService.")
 _THREAD = "thread "
-_UNREADABLE = ("IndentationError", "SyntaxError", "TabError")
 # rclpy's own NotImplementedError, for SetBool() and Spin(), and that of a run for what it can't do: they
 # are no exercise that is not started.
 _NOT_FROM_STUDENT = re.compile(
@@ -44,8 +41,9 @@ _FLOOD = (
 
 def find_fault(recording: Recording) -> Fault | None:
     """The student's first error, or the way the run got stuck; None when it ran as it should."""
-    if recording.errors:
-        return _from_error(recording.errors[0], recording)
+    error = first_error(recording)
+    if error is not None:
+        return _from_error(error, recording)
     ended = recording.ended
     return _from_end(ended) if ended.reason in _HINTS else None
 
@@ -62,7 +60,7 @@ def _from_error(error: CallbackError, recording: Recording) -> Fault:
         )
     return Fault(
         expected="no error",
-        saw=f"{error.type}: {_first_line(error, recording)} ({where(error)})",
+        saw=f"{error.type}: {_first_line(error, recording)} ({place_of(error)})",
         hint=advice_here(error, recording) or advice(error),
         # A thread that crashes at once takes nothing along: main() and its nodes go on.
         before_start=error.stamp <= 0.0 and not error.callback.startswith(_THREAD),
@@ -83,25 +81,5 @@ def _from_end(ended: Ended) -> Fault:
     )
 
 
-def where(error: CallbackError) -> str:
-    """The place of an error in words: "in Talker.tick, line 12, at 0.5 s".
-
-    Of code that Python could not even read it is the line that it stumbled over, not the import of it.
-    """
-    unread = re.search(r"\(([^()]+), line (\d+)\)$", error.text) if error.type in _UNREADABLE else None
-    if unread:
-        return f"in {unread[1]}, line {unread[2]}, at {error.stamp:.3g} s"
-    frames = re.findall(r'File "(.*?)", line (\d+), in (.+)', error.traceback)
-    own = [(line, name) for _, line, name in frames]
-    callback = error.callback or "a callback"
-    if own and callback.startswith(_RCLPYS_OWN):
-        callback = own[0][1]
-    line = f", line {own[-1][0]}" if own else ""
-    return f"in {callback}{line}, at {error.stamp:.3g} s"
-
-
 def _first_line(error: CallbackError, recording: Recording) -> str:
-    text = words_of(error, recording)
-    if error.type in _UNREADABLE:
-        text = re.sub(r" \([^()]+, line \d+\)$", "", text)
-    return text.strip().split("\n")[0] or "no message"
+    return first_line(words_of(error, recording), error.type)

@@ -19,6 +19,7 @@ from sim.evidence.exchanges import (
     Goal,
     is_node_service,
 )
+from sim.evidence.failure import first_error, first_line, frames_of, place_of
 from sim.evidence.graph import Endpoint, Graph, TimerInfo
 from sim.evidence.recording import Recording
 from sim.evidence.rows import (
@@ -62,7 +63,11 @@ __all__ = [
     "Seconds",
     "TimerInfo",
     "UndeliveredMessage",
+    "first_error",
+    "first_line",
+    "frames_of",
     "is_node_service",
+    "place_of",
     "rate",
     "since_start",
     "stamps",

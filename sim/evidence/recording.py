@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 from sim.evidence.by_topic import ByTopic
 from sim.evidence.digest import digest_of
 from sim.evidence.exchanges import Call, Goal, is_node_service
+from sim.evidence.failure import failure_of
 from sim.evidence.rows import (
     INFRASTRUCTURE_TOPICS,
     Message,
@@ -142,6 +143,11 @@ class Recording(RunData):
         ]
 
     @property
+    def failure(self) -> str:
+        """The first error in the user's programs, or why the run got stuck, in a line; "" if neither."""
+        return failure_of(self)
+
+    @property
     def topics(self) -> dict[str, str]:
         """Topic name to type, for every topic with a publisher, sorted by name."""
         return dict(sorted({e.name: e.type for e in self.graph.publishers()}.items()))
@@ -174,5 +180,6 @@ class Recording(RunData):
     def __repr__(self) -> str:
         return (
             f"<Recording of {self.stamp:g} s: {len(self.published)} messages on {len(self.topics)} topics, "
-            f"{len(self.logs)} log lines, {len(self.errors)} errors, ended: {self.ended.reason}>"
+            f"{len(self.logs)} log lines, {len(self.errors)} errors, ended: {self.ended.reason}"
+            f"{'; ' if self.failure else ''}{self.failure}>"
         )

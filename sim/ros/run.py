@@ -9,7 +9,7 @@ import rosidl_generator_py  # noqa: F401  (rclpy imports it with the first messa
 
 from sim.evidence import Ended, Recording
 from sim.network import Network
-from sim.notebook import interrupt_error, raise_if_outdated
+from sim.notebook import interrupt_error, raise_if_outdated, report_failure
 from sim.ros.engine.program import Process
 from sim.ros.latest import latest
 from sim.ros.session import Session
@@ -25,6 +25,7 @@ def run(
     until: Callable[[Recording], bool] | None = None,
     quiet: bool = False,
     network: Network | None = None,
+    expect_error: bool = False,
 ) -> Recording:
     """Run ROS 2 nodes in simulated time, and return the evidence of what they did.
 
@@ -40,6 +41,8 @@ def run(
     network: what lies between programs of different hosts, such as Network(loss=0.2, delay=0.05); None for
         nothing. The robot and companions are on "robot", and all else is on "laptop", unless `Process` says
         so.
+    expect_error: the programs fail on purpose. Otherwise the first error in them, or why they got stuck, is
+        shown at the end in a notebook or a terminal, also with `quiet`.
 
     Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
     can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
@@ -51,6 +54,8 @@ def run(
     session.advance()
     if session.interrupted:
         raise interrupt_error()
+    if not expect_error:
+        report_failure(session.recording)
     return session.recording
 
 

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 from sim.evidence import Pose, Recording
 from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, index_at
 from sim.view.path_plot import moving_tracks, world_figure
-from sim.view.plot import KINDS, PATH, TURTLES
+from sim.view.plot import KINDS, PATH, TURTLES, note_failure
 from sim.view.strokes import hexadecimal
 from sim.world import Body
 from sim.world.obstacles import placed
@@ -33,7 +33,10 @@ class MovingPicture:
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         recording = self._recording
-        return bytes(self), {"alt": f"The run in the world {recording.world.name}, {recording.stamp:g} s"}
+        failure = f"; {recording.failure}" if recording.failure else ""
+        return bytes(self), {
+            "alt": f"The run in the world {recording.world.name}, {recording.stamp:g} s{failure}"
+        }
 
     def __bytes__(self) -> bytes:
         renderer, speed, rate = _FrameRenderer(self._recording), self._speed, self._rate
@@ -75,6 +78,7 @@ class _FrameRenderer:
 
     def __init__(self, recording: Recording) -> None:
         figure, self.axes = world_figure(recording)
+        note_failure(figure, recording)
         figure.set_dpi(figure.dpi * SMOOTH * 0.75)
         figure.canvas.draw()
         self.background = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")

@@ -55,12 +55,12 @@ def plot_frames(recording: Recording) -> GraphPlot:
             diagram.add_arrow(_key(parent), _key(child), gap)
     roots = [frame for frame in dict.fromkeys(one.parent for one in transforms) if frame not in parents]
     if len(roots) > 1:
-        names = ' and '.join(roots)
+        names = " and ".join(roots)
         diagram.reasons.append(f"There are {len(roots)} trees, and no way leads between {names}.")
     if not transforms:
         diagram.rows.append("No node told of a frame.")
         diagram.boxes[_key("")] = GraphBox("rest", ("no frames",))
-    return draw_diagram(diagram)
+    return draw_diagram(diagram, recording.failure)
 
 
 def _key(frame: str) -> Key:

@@ -11,7 +11,7 @@ from matplotlib.path import Path
 from sim.evidence import Recording
 from sim.view.graph_diagram import GraphDiagram, graph_diagram
 from sim.view.graph_layout import FONT, LINE, PlacedArrow, PlacedBox, lay_out
-from sim.view.plot import MUTED, PATH, SOLID, WARNING, Plot, plot
+from sim.view.plot import FAILURE, MUTED, PATH, SOLID, WARNING, Plot, plot
 
 MARGIN = 0.12  # inches
 MIN_WIDTH, MAX_WIDTH = 3.6, 8.0  # inches
@@ -46,14 +46,14 @@ def plot_graph(recording: Recording) -> GraphPlot:
 
     The `description` of the returned plot has the same as text.
     """
-    return draw_diagram(graph_diagram(recording))
+    return draw_diagram(graph_diagram(recording), recording.failure)
 
 
-def draw_diagram(diagram: GraphDiagram) -> GraphPlot:
-    """Plot boxes and arrows, with the reasons for missing connections below."""
+def draw_diagram(diagram: GraphDiagram, failure: str = "") -> GraphPlot:
+    """Plot boxes and arrows; below them the reasons for missing connections, and the failure of the run."""
     layout = lay_out(diagram, MAX_WIDTH)
     width, height = max(layout.width + 2 * MARGIN, MIN_WIDTH), layout.height
-    lines = _wrapped(diagram, width)
+    lines = _wrapped(diagram, width, failure)
     below = (len(lines) + 1) * LINE if lines else 0.0
     figure, axes = _canvas(width, height + 2 * MARGIN, below)
     for arrow in layout.arrows:
@@ -63,7 +63,7 @@ def draw_diagram(diagram: GraphDiagram) -> GraphPlot:
     for line, style in lines:
         height += LINE
         axes.text(0, height, line, fontsize=FONT, va="center", parse_math=False, **style)
-    figure.text = diagram.text
+    figure.text = "\n".join(filter(None, (diagram.text, failure)))
     return figure
 
 
@@ -77,14 +77,15 @@ def _canvas(width: float, height: float, below: float) -> tuple[GraphPlot, Axes]
     return figure, axes
 
 
-def _wrapped(diagram: GraphDiagram, width: float) -> list[tuple[str, dict[str, str]]]:
+def _wrapped(diagram: GraphDiagram, width: float, failure: str) -> list[tuple[str, dict[str, str]]]:
     """The lines below the graph, each with its text properties."""
     red, grey, most = {"color": WARNING, "fontweight": "bold"}, {"color": SOLID}, int(width * CHARACTERS)
     lines = []
     for number, reason in enumerate(diagram.reasons, 1):
         wrapped = textwrap.wrap(f"{number}  {reason}", most, subsequent_indent="    ")
         lines += [(line, red) for line in wrapped]
-    return lines + [(line, grey) for line in textwrap.wrap(diagram.omitted, most)]
+    lines += [(line, grey) for line in textwrap.wrap(diagram.omitted, most)]
+    return lines + [(line, {"color": FAILURE}) for line in textwrap.wrap(failure, most)]
 
 
 def _draw_box(axes: Axes, placed: PlacedBox) -> None:

@@ -6,7 +6,7 @@ import itertools
 import statistics
 
 from sim.evidence import Recording, Seconds, rate, stamps
-from sim.view.plot import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, plot
+from sim.view.plot import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, note_failure, plot
 
 
 def plot_jitter(
@@ -46,7 +46,7 @@ def plot_jitter(
     axes.set_ylim(bottom=0.0)
     axes.grid(color=GRID)
     legend_beside(axes)
-    return figure
+    return note_failure(figure, recording)
 
 
 def _title(

@@ -14,7 +14,7 @@ import traitlets
 from IPython.display import HTML, DisplayHandle, display
 
 from sim.evidence import Recording
-from sim.notebook import notebook_page
+from sim.notebook import failure_html, failure_lines, notebook_page
 from sim.view.graph_data import graph_data
 from sim.view.javascript import script
 from sim.view.replay import replay
@@ -45,9 +45,10 @@ class LiveView(anywidget.AnyWidget):
     status = traitlets.Dict().tag(sync=True)
     graph = traitlets.Dict().tag(sync=True)  # empty until the page requests it
 
-    def __init__(self, world: World | None) -> None:
+    def __init__(self, world: World | None, *, reports: bool = True) -> None:
         super().__init__(world=world and world_data(world))
         self.on_command: Callable[[Command], None] | None = None
+        self._reports = reports  # whether the end shows the failure of the run
         self._display: DisplayHandle | None = None
         self.on_msg(self._on_message)
 
@@ -78,7 +79,9 @@ class LiveView(anywidget.AnyWidget):
     def finish(self, recording: Recording) -> None:
         """Replace the view by the replay of the finished run, and close the view."""
         try:
-            self._replace_output(replay(recording))
+            ending = replay(recording)
+            ending.above = failure_html(failure_lines(recording)) if self._reports else ""
+            self._replace_output(ending)
         finally:
             self.close()
 

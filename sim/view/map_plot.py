@@ -12,7 +12,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 
 from sim.evidence import Recording
-from sim.view.plot import CAUTION, PATH, WARNING, Plot, legend_beside, plot
+from sim.view.plot import CAUTION, PATH, WARNING, Plot, legend_beside, note_failure, plot
 
 UNKNOWN, FREE, OCCUPIED = "#b9c4c2", "#ffffff", "#23292f"
 RADIUS = 0.1  # of the robot's marker, m
@@ -49,7 +49,7 @@ def plot_map(grid: Any, path: Any = None, *, robot: Any = None, drive: Recording
         legend_beside(axes)
     axes.set(aspect="equal", xlabel="x (m)", ylabel="y (m)")
     axes.set_title(f"{info.width} by {info.height} cells of {info.resolution:.3g} m")
-    return figure
+    return figure if drive is None else note_failure(figure, drive)
 
 
 def _draw_cells(axes: Axes, grid: Any) -> None:

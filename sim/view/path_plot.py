@@ -23,6 +23,7 @@ from sim.view.plot import (
     WARNING,
     Plot,
     legend_beside,
+    note_failure,
     plot,
 )
 from sim.view.strokes import draw_ground, draw_strokes
@@ -69,7 +70,7 @@ def plot_path(recording: Recording) -> Plot:
         points = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*points.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
     legend_beside(axes)
-    return figure
+    return note_failure(figure, recording)
 
 
 def moving_tracks(recording: Recording) -> list[list[Pose]]:

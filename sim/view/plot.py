@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import textwrap
 from typing import TypeVar
 
 import numpy as np
@@ -11,12 +12,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from sim.evidence import Recording
+
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and further ones
 KINDS = {"box": "#d9b991", "person": "#f08a5d", "link": "#3d9aa1", "cart": "#7d8fa3"}  # of bodies
 TURTLES = ("#7bc96f", "#f2b84b", "#e8807f", "#d9a5e8")  # on a pond's background
 STYLES, MARKERS = ("-", "--", ":", "-."), (".", "x", "+", "v")  # lines differ in more than colour
 GRID = "#e6e9ec"
+FAILURE = "#b3261e"  # 6.5 to 1 on white
+CHARACTERS, LINE = 14, 0.18  # of a note: per inch, and inches
 DPI = 100
 COLOURS = 48  # of a small picture
 
@@ -24,15 +29,17 @@ COLOURS = 48  # of a small picture
 class Plot(Figure):
     """A figure that Jupyter displays without pyplot, with a description as alt text."""
 
+    failure = ""  # of the run that it shows
+
     @property
     def description(self) -> str:
-        """The title, the axes, and the entries of the legend or the rows."""
+        """The title, the axes, the entries of the legend or the rows, and the failure of the run."""
         (axes,) = self.axes
         _, named = axes.get_legend_handles_labels()
         rows = [label.get_text().replace("\n", " ") for label in axes.get_yticklabels()]
         named = named or [row for row in rows if row[-1:].isalpha() or " " in row]
         parts = (axes.get_title(), " over ".join(filter(None, (axes.get_ylabel(), axes.get_xlabel()))))
-        return f"Plot: {'; '.join(filter(None, (*parts, ', '.join(named))))}"
+        return f"Plot: {'; '.join(filter(None, (*parts, ', '.join(named), self.failure)))}"
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         return png(self), {"alt": self.description}
@@ -51,6 +58,17 @@ def plot(width: float, height: float, kind: type[P] = Plot) -> tuple[P, Axes]:
 def legend_beside(axes: Axes) -> None:
     """Add a legend to the right of the axes."""
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+
+
+def note_failure(figure: P, recording: Recording) -> P:
+    """Write the failure of a run below its plot, in red; nothing for a run that did not fail."""
+    if recording.failure:
+        figure.failure = recording.failure
+        width = int(CHARACTERS * figure.get_size_inches()[0])
+        text = textwrap.fill(recording.failure, width)
+        figure.set_figheight(figure.get_figheight() + LINE * (text.count("\n") + 1))
+        figure.supxlabel(text, x=0.01, ha="left", fontsize=9, color=FAILURE)
+    return figure
 
 
 def png(figure: Figure) -> bytes:

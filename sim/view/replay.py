@@ -23,7 +23,9 @@ PLAYER_SCRIPT = f'(() => {{\n"use strict";\n{script("replay.js")}\n}})();'
 
 
 class Replay:
-    """A replay for Jupyter; see `replay`."""
+    """A replay for Jupyter; see `replay`. `above` is HTML to show above it."""
+
+    above = ""
 
     def __init__(self, recording: Recording, speed: float) -> None:
         self._data = pack(recording, speed)
@@ -35,7 +37,7 @@ class Replay:
         """The HTML, for use in other pages."""
         image = f'<img src="data:image/png;base64,{self._picture}" alt="{html.escape(self._title)}">'
         return (
-            f'<div class="ros2-replay" data-replay="{self._data}">{image}</div>'
+            f'{self.above}<div class="ros2-replay" data-replay="{self._data}">{image}</div>'
             f"<script>{PLAYER_SCRIPT}</script>"
         )
 

@@ -24,6 +24,7 @@ from sim.view.plot import (
     WARNING,
     Plot,
     legend_beside,
+    note_failure,
     plot,
 )
 from sim.view.units import unit_of
@@ -55,7 +56,7 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
     for height, (_, moments, colour) in enumerate(rows):
         axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
     _along_time(recording, axes, [label for label, _, _ in rows])
-    return figure
+    return note_failure(figure, recording)
 
 
 def _exchanges(recording: Recording) -> list[tuple[str, list[float], str]]:
@@ -90,7 +91,7 @@ def plot_logs(recording: Recording) -> Plot:
     _along_time(recording, axes, names)
     if names:
         legend_beside(axes)
-    return figure
+    return note_failure(figure, recording)
 
 
 def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
@@ -130,7 +131,7 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
     axes.grid(color=GRID)
     axes.legend(framealpha=0.9, edgecolor="none")  # legible even on top of a line
-    return figure
+    return note_failure(figure, recording)
 
 
 def _broken(moments: Sequence[float], values: Sequence[float]) -> tuple[list[float], list[float]]:

@@ -17,6 +17,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     services,
     threads,
     time_and_random,
+    wall_clock_spin,
 )
 from sim.ros.hooks.table import HOOKS, Hook
 from sim.ros.hooks.verify import check_arguments, check_internals, original_of

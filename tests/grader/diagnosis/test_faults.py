@@ -5,9 +5,8 @@ from std_srvs.srv import Trigger
 
 from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
-from grader.diagnosis.faults import where
 from sim import run
-from sim.evidence import CallbackError, Ended, Recording
+from sim.evidence import CallbackError, Ended, Recording, place_of
 from tests.students import misfits, mistakes
 from tests.students.engine import own_clocks, waitables
 
@@ -127,6 +126,6 @@ def test_an_error_that_left_nothing_but_its_end_is_told():
 def test_an_error_in_a_package_that_was_installed_names_the_line_there():
     file = "/home/ada/ws/install/my_pkg/lib/python3.12/site-packages/my_pkg/talker.py"
     trace = f'  File "{file}", line 12, in tick\n    1 / 0\nZeroDivisionError: division by zero\n'
-    assert where(
+    assert place_of(
         CallbackError(0.5, "/talker", "Talker.tick", "ZeroDivisionError", "division by zero", trace)
     ) == ("in Talker.tick, line 12, at 0.5 s")

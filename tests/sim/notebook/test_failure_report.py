@@ -1,0 +1,121 @@
+"""What a run shows at its end when a program of the user has failed."""
+
+import io
+import logging
+
+import pytest
+
+from sim import Recording, run
+from sim.evidence import CallbackError, Ended
+from sim.notebook import failure_report, report_failure
+from tests.sim.notebook.test_kernel import Kernel
+
+CELLS = """
+from rclpy.node import Node
+from grader import tell
+from sim import run
+class B(Node):
+    def __init__(self):
+        super().__init__("b")
+        self.create_timer(0.5, self.tick)
+    def tick(self):
+        1 / 0
+"""
+SAW = "ZeroDivisionError: division by zero (in B.tick, cell [1], line 9, at 0.5 s)"
+HINT = "Hint: The number after `/`, `//` or `%` in that line is 0 at that moment."
+
+
+class Crash(Exception):
+    pass
+
+
+class Screen(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.fixture(scope="module")
+def kernel(tmp_path_factory):
+    kernel = Kernel(tmp_path_factory.mktemp("failure") / "failure.ipynb")
+    kernel.run(CELLS, "setup")
+    yield kernel
+    kernel.client.stop_channels()
+    kernel.manager.shutdown_kernel(now=True)
+
+
+@pytest.fixture
+def failed() -> Recording:
+    trace = '  File "<cell>", line 7, in tick\n'
+    error = CallbackError(1.0, "/talker", "Talker.tick", "ValueError", "x < 0 & y", trace)
+    return Recording(seconds=3.0, errors=[error], ended=Ended("error", 1.0, ""))
+
+
+@pytest.mark.parametrize("quiet", ["", ", quiet=True"])
+def test_a_cell_ends_with_the_error_its_cell_and_line_and_a_hint(kernel, quiet):
+    shown = kernel.run(f"recording = run(B{quiet})", "use").strip()
+    assert shown.startswith(f"{SAW}\n{HINT}")
+
+
+def test_a_hanging_program_is_reported_too(kernel):
+    kernel.run("def main():\n    while True: pass", "main")
+    shown = kernel.run("recording = run(main)", "use").strip()
+    assert (
+        shown.startswith("main() at t = 0 s computed for") and "Hint: A main() that loops by itself" in shown
+    )
+
+
+def test_a_run_that_fails_on_purpose_says_so_and_shows_nothing(kernel):
+    assert kernel.run("recording = run(B, expect_error=True)", "use").strip() == ""
+
+
+def test_tell_does_not_repeat_what_run_has_shown_in_the_same_cell(kernel):
+    assert kernel.run("recording = run(B)\ntell(recording)", "use").count("ZeroDivisionError") == 1
+    code = (
+        "import contextlib, io\nwith contextlib.redirect_stdout(io.StringIO()) as out: tell(recording)\nout"
+    )
+    assert SAW in kernel.run(code.replace("\nout", "\nout.getvalue()"), "later")
+
+
+def test_the_report_is_red_and_legible_without_a_style_sheet(failed):
+    page = failure_report.failure_html(failure_report.failure_lines(failed))
+    assert page.startswith('<div class="ros2-failure" style="color: #8c1d18; background-color: #fdecea;')
+    assert "<strong>ValueError: x &lt; 0 &amp; y (in Talker.tick, line 7, at 1 s)</strong><br>Hint: " in page
+
+
+def test_a_terminal_shows_it_in_red_and_a_file_does_not(failed, monkeypatch, capsys):
+    monkeypatch.setattr("sys.stderr", Screen())
+    report_failure(failed)
+    import sys
+
+    assert sys.stderr.getvalue().startswith(
+        "\x1b[31mValueError: x < 0 & y (in Talker.tick, line 7, at 1 s)\n"
+    )
+    monkeypatch.undo()
+    report_failure(failed)
+    assert capsys.readouterr().err == ""
+
+
+def test_without_an_explanation_the_error_remains(failed, monkeypatch, caplog):
+    class Missing:
+        value = "nowhere:explain"
+
+        def load(self):
+            raise ImportError("no nowhere")
+
+    monkeypatch.setattr(failure_report, "entry_points", lambda group: [Missing()])
+    with caplog.at_level(logging.WARNING):
+        assert failure_report.failure_lines(failed) == [failed.failure]
+    assert caplog.messages == ["nowhere:explain can't be loaded: no nowhere"]
+
+
+def test_a_failure_of_the_course_is_not_one_of_the_user(failed):
+    failed.course_errors = list(failed.errors)
+    assert failed.failure == "" and failure_report.failure_lines(failed) == []
+
+
+def test_a_program_outside_a_notebook_shows_nothing(capfd):
+    def main():
+        raise Crash("here")
+
+    assert run(main, quiet=True).failure.startswith("Crash: here (in main, line ")
+    assert capfd.readouterr() == ("", "")
