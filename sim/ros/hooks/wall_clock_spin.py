@@ -11,7 +11,7 @@ import rclpy
 from rclpy.executors import Executor
 from rclpy.node import Node
 
-from sim.notebook import wall_clock_spin
+from sim.notebook import spin_outside_run
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
@@ -19,7 +19,7 @@ from sim.ros.hooks.table import hook
 @hook(rclpy, "spin", "in a notebook it waits without end on the wall clock, where no robot is")
 def spin(original: Callable) -> Callable:
     def spin(node: Node, executor: Executor | None = None) -> None:
-        if engine() is not None or not wall_clock_spin.is_limited():
+        if engine() is not None or not spin_outside_run.is_limited():
             return original(node, executor)
         executor = rclpy.get_global_executor() if executor is None else executor
         executor.add_node(node)
@@ -33,7 +33,7 @@ def spin(original: Callable) -> Callable:
 @hook(Executor, "spin", "in a notebook it waits without end on the wall clock, where no robot is")
 def executor_spin(original: Callable) -> Callable:
     def spin(self: Executor) -> None:
-        if engine() is not None or not wall_clock_spin.is_limited():
+        if engine() is not None or not spin_outside_run.is_limited():
             return original(self)
         with _cleaned_up():
             return _spin_for_a_while(self, "executor.spin()", None)
@@ -45,22 +45,22 @@ def executor_spin(original: Callable) -> Callable:
 def executor_spin_until(original: Callable) -> Callable:
     def spin_until_future_complete(self: Executor, future: Any, timeout_sec: float | None = None) -> None:
         endless = timeout_sec is None or timeout_sec < 0
-        if not endless or engine() is not None or not wall_clock_spin.is_limited():
+        if not endless or engine() is not None or not spin_outside_run.is_limited():
             return original(self, future, timeout_sec)
         with _cleaned_up():
-            original(self, future, wall_clock_spin.LIMIT)
+            original(self, future, spin_outside_run.LIMIT)
             if not future.done() and self.context.ok():
-                raise wall_clock_spin.spin_error("spin_until_future_complete()")
+                raise spin_outside_run.spin_error("spin_until_future_complete()")
 
     return spin_until_future_complete
 
 
 def _spin_for_a_while(executor: Executor, what: str, node: Node | None) -> None:
     clock = time.monotonic
-    end = clock() + wall_clock_spin.LIMIT
+    end = clock() + spin_outside_run.LIMIT
     while executor.context.ok() and not executor._is_shutdown:
         if clock() >= end:
-            raise wall_clock_spin.spin_error(what, node)
+            raise spin_outside_run.spin_error(what, node)
         executor.spin_once(timeout_sec=max(end - clock(), 0.0))
 
 
@@ -73,7 +73,7 @@ def _cleaned_up() -> Iterator[None]:
     try:
         yield
     except BaseException:
-        wall_clock_spin.after_cell(_shut_down)
+        spin_outside_run.after_cell(_shut_down)
         raise
 
 
