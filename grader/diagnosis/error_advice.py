@@ -12,6 +12,7 @@ from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
 from sim.evidence import CallbackError
 from sim.notebook import explain_missing_name
+from sim.ros.absent_names import explain_absent_name
 from sim.suggestions import closest_match
 
 _HOMES = {
@@ -47,6 +48,9 @@ def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
         return _unknown_name(error)
+    absent = explain_absent_name(error.type, error.text)
+    if absent:
+        return absent
     for rule in (*PACKAGE_RULES, *SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES, *PYTHON_RULES):
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:

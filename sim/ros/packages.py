@@ -7,14 +7,14 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from xml.etree import ElementTree
 
+from sim.absent_packages import explain
+from sim.ros import workspaces
 from sim.ros.bundled_programs import PROGRAMS, alternative, command, module_in_a_run
+from sim.ros.workspaces import INDEX, LAYOUT
 from sim.suggestions import closest_match
 
-INDEX = "share/ament_index/resource_index"
 BUILT_HERE = "share/colcon-core/packages"  # in an install prefix that colcon has written
-LAYOUT = ".colcon_install_layout"  # in install/
 
 
 class PackageNotFound(LookupError):
@@ -175,35 +175,13 @@ def _first_line(file: Path) -> bytes:
 
 
 def _why_no_package(package: str) -> str:
-    for folder in (Path.cwd(), *sorted(Path.cwd().iterdir()), *Path.cwd().parents):
-        if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
-            return f"it is built, and not sourced. Say source('{_shown(folder)}/install/setup.bash')."
-        if any(_name_in(file) == package for file in _descriptions(folder / "src")):
-            return f"it is in {_shown(folder)}/src, and not built. Say colcon build in {_shown(folder)}."
+    reason = workspaces.why_unavailable(package) or explain(package)
+    if reason:
+        return reason
     near = closest_match(package, packages())
     if near:
         return f"did you mean {near}?"
     return "no package.xml has that name in a workspace here, and no workspace that has it was sourced."
-
-
-def _is_installed(install: Path, package: str) -> bool:
-    prefixes = (install / package, install)
-    return any((prefix / INDEX / "packages" / package).is_file() for prefix in prefixes)
-
-
-def _descriptions(sources: Path) -> Iterator[Path]:
-    yield from (*sources.glob("*/package.xml"), *sources.glob("*/*/package.xml"))
-
-
-def _name_in(file: Path) -> str:
-    try:
-        return (ElementTree.parse(file).findtext("name") or "").strip()
-    except ElementTree.ParseError:
-        return ""
-
-
-def _shown(folder: Path) -> str:
-    return os.path.relpath(folder)
 
 
 def _why_no_program(prefix: Path, package: str, name: str, programs: list[str]) -> str:

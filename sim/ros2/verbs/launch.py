@@ -6,6 +6,7 @@ import os
 import sys
 from argparse import Namespace
 
+from sim.ros.absent_names import explain_absent_name
 from sim.ros.launching import files
 from sim.ros.packages import bundled_command, packages
 from sim.ros2.environment import environment_before, require_terminal
@@ -59,7 +60,11 @@ def launch_(output: Output, options: Namespace) -> None:
     service.context.process_starter = SystemProcessStarter(bundled_command)
     service.context.replace_environment(environment_before())
     service.include_launch_description(description)
-    raise SystemExit(service.run())
+    status = service.run()
+    hint = explain_absent_name(type(service.failure).__name__, str(service.failure))
+    if hint:
+        print(hint, file=sys.stderr)
+    raise SystemExit(status)
 
 
 def _description(path: str) -> str:

@@ -132,7 +132,7 @@ def test_a_missing_package_is_explained(workspace, tmp_path, monkeypatch):
     monkeypatch.chdir(workspace.parent)
     monkeypatch.setenv("AMENT_PREFIX_PATH", sys.prefix)
     at = workspace.name
-    here = f"it is built, and not sourced. Say source('{at}/install/setup.bash')."
+    here = f"it is built, and not sourced: source('{at}/install/setup.bash') does that."
     assert reason("my_pkg") == f"Package 'my_pkg' not found: {here}"
 
 
@@ -141,7 +141,7 @@ def test_a_package_that_was_not_built_is_found_by_its_package_xml(tmp_path, monk
     for name, text in {"fresh": "<package><name>fresh</name></package>", "broken": "<package>"}.items():
         (tmp_path / "ws/src" / name).mkdir(parents=True)
         (tmp_path / "ws/src" / name / "package.xml").write_text(text)
-    what = "it is in ws/src, and not built. Say colcon build in ws."
+    what = "it is in ws/src, and not built: run colcon build in ws."
     assert reason("fresh") == f"Package 'fresh' not found: {what}"
 
 
