@@ -3,6 +3,7 @@
 import difflib
 from collections.abc import Iterable
 
+MAX_EDITS = 3  # differences of two texts that a sentence names, and characters of one
 NAME_CUTOFF = 0.75  # least similarity of two topic or service names to take one for a typo of the other
 
 
@@ -41,6 +42,28 @@ def describe_difference(found: str, wanted: str) -> str:
             "without the slash the node's namespace is put before it."
         )
     return f"Is {found} a typing slip? Did you mean {wanted}?"
+
+
+def describe_text_difference(found: str, wanted: str) -> str:
+    """A sentence that says in which characters the text `found` differs from `wanted`."""
+    if found.casefold() == wanted.casefold():
+        return f"Capital letters count: write “{wanted}”."
+    edits = [
+        edit
+        for edit in difflib.SequenceMatcher(None, found, wanted, autojunk=False).get_opcodes()
+        if edit[0] != "equal"
+    ]
+    if len(edits) > MAX_EDITS or any(max(b - a, d - c) > MAX_EDITS for _, a, b, c, d in edits):
+        return "Compare the two texts letter by letter."
+    parts = [_describe_edit(found[a:b], wanted[c:d], found[:a]) for _, a, b, c, d in edits]
+    return f"Compare the two texts: {'; '.join(parts)}."
+
+
+def _describe_edit(found: str, wanted: str, before: str) -> str:
+    place = f"after “{before.split(' ')[-1] or before}”" if before.strip() else "at the beginning"
+    if not found:
+        return f"“{wanted}” is missing {place}"
+    return f"“{found}” {place} is too much" if not wanted else f"write “{wanted}” for “{found}” {place}"
 
 
 def _base_name(name: str) -> str:

@@ -12,7 +12,7 @@ from grader.checks.no_data import no_data
 from grader.checks.work import worked_until
 from grader.diagnosis.activity import slow_callback
 from sim.evidence import LogLine, Message, Recording, Seconds
-from sim.suggestions import closest_match
+from sim.suggestions import closest_match, describe_text_difference
 
 FLOOD = 10.0  # times as many answers as were asked for earn nothing
 
@@ -67,7 +67,7 @@ def _nearest(
         return f"“{unfilled}”", 'Put an f before the quotes: f"..." fills in what stands in braces.'
     similar = _most_similar(recording, example)
     if similar:
-        return f"“{similar}”", "Compare the two texts letter by letter."
+        return f"“{similar}”", describe_text_difference(similar, example)
     if recording.logs:
         return f"no such line; the first line is “{recording.logs[0].text}”", ""
     return "no log line at all", ""

@@ -5,6 +5,7 @@ from grader.diagnosis import (
     activity,
     connections,
     driving,
+    first_attempts,
     names,
     owners,
     parameters,
@@ -53,6 +54,8 @@ GUESSES = (
     radio.lost_on_the_network,
     radio.late_on_the_network,
 )
+# Of `tell` only: more exact than the diagnoses, for programs that have just been begun.
+FIRST_ATTEMPTS = (first_attempts.publish_not_reached, first_attempts.long_period)
 # What no check need ask for.
 FLAWS = (
     activity.busy_listener,
@@ -73,4 +76,6 @@ def explain(recording: Recording) -> str:
 def find_flaw(recording: Recording) -> str:
     """What is certainly wrong in a run without an error, the most important first; "" when nothing is."""
     certain = [diagnose for diagnose in DIAGNOSES if diagnose not in GUESSES]
-    return next((sentence for diagnose in (*certain, *FLAWS) if (sentence := diagnose(recording))), "")
+    unused = certain.index(activity.unused_publisher)  # what is likelier comes before
+    ordered = (*certain[:unused], *FIRST_ATTEMPTS, *certain[unused:], *FLAWS)
+    return next((sentence for diagnose in ordered if (sentence := diagnose(recording))), "")

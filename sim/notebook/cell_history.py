@@ -11,6 +11,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from sim.notebook.name_analysis import bound_names, defined_names, is_same_code, looked_up_names
+from sim.suggestions import NAME_CUTOFF, closest_match
+
+MIN_LENGTH = 4  # of a name: shorter ones are similar by chance
 
 
 @dataclass(frozen=True)
@@ -104,6 +107,12 @@ class CellHistory:
             f"A cell above defines `{name}`, and it has not run: "
             "choose Run > Run All Above Selected Cell, then run this cell again."
         )
+
+    def suggest(self, name: str) -> str:
+        """The defined name that an undefined one is likely a typo of, as a sentence; "" if there is none."""
+        defined = [other for other in self._definition if other in self._namespace]
+        near = closest_match(name, defined, NAME_CUTOFF) if len(name) >= MIN_LENGTH else ""
+        return f"There is no `{name}`. Did you mean `{near}`?" if near else ""
 
     def _names(self, cell: str, source: str) -> set[str]:
         """The names that a cell defines now, and those that it defined when it was last executed."""

@@ -86,8 +86,10 @@ def raise_if_outdated(nodes: Iterable[Any]) -> None:
 
 
 def explain_missing_name(name: str) -> str:
-    """How to define an undefined name that a cell above defines; "" if none does."""
-    return _history.explain_missing(name, *_file()) if _history is not None and name else ""
+    """How to define an undefined name that a cell above defines, or a defined name like it; "" if none."""
+    if _history is None or not name:
+        return ""
+    return _history.explain_missing(name, *_file()) or _history.suggest(name)
 
 
 def show_error(

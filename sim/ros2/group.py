@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, NoReturn
@@ -14,6 +15,9 @@ VerbFunction = Callable[[System, argparse.Namespace], None]  # gets an Output if
 # Returns completions of an argument, from the system (None if without_system) and the arguments before it.
 Completer = Callable[[Any, argparse.Namespace], list[str]]
 USAGE_ERROR = 2  # exit status, as argparse's
+# Values without quotes, which the shell splits at their spaces: {linear: {x: 0.5}}, or data: Hello
+UNQUOTED = re.compile(r"unrecognized arguments: (.*\}|[^-]\S*)$")
+QUOTES = '\nA value with spaces needs quotes around it: "{linear: {x: 0.5}}".'
 
 
 class Argument(NamedTuple):
@@ -74,7 +78,8 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """As `ArgumentParser.error`, but raises `UsageError`."""
-        raise UsageError(f"{self.format_usage()}{self.prog}: error: {message}")
+        quotes = QUOTES if UNQUOTED.match(message) else ""
+        raise UsageError(f"{self.format_usage()}{self.prog}: error: {message}{quotes}")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:

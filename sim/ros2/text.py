@@ -118,12 +118,39 @@ def _describe_type(value: Any, kind: Any) -> str:
     return f"<sequence type: {name}{bound}, length: {len(value)}>"
 
 
+UNBALANCED = "Each { needs its }, and the whole value is in quotes: \"{linear: {x: 0.5}}\"."
+
+
 def read_values(text: str) -> Any:
     """The values in a YAML text. Raises CliError for invalid YAML."""
     try:
-        return yaml.safe_load(text)
+        values = yaml.safe_load(text)
     except yaml.YAMLError as error:
-        raise CliError(f"{text!r} is not YAML, such as '{{x: 1.0, y: 2.0}}': {error}") from None
+        more = f"\n{UNBALANCED}" if text.count("{") != text.count("}") else ""
+        raise CliError(f"{text!r} is not YAML, such as '{{x: 1.0, y: 2.0}}': {error}{more}") from None
+    without_space = _key_with_colon(values)
+    if without_space:
+        name, _, rest = without_space.partition(":")
+        raise CliError(
+            f"{text!r} is not what it looks like: YAML needs a space after each colon. "
+            f"Write {name}: {rest}, not {without_space}."
+        )
+    return values
+
+
+def _key_with_colon(values: Any) -> str:
+    """The first key without a value that contains a colon, as in {data:Hello}; "" if there is none."""
+    if isinstance(values, list):
+        return next(filter(None, map(_key_with_colon, values)), "")
+    if not isinstance(values, dict):
+        return ""
+    for key, value in values.items():
+        if value is None and isinstance(key, str) and ":" in key.strip(":"):
+            return key
+        inner = _key_with_colon(value)
+        if inner:
+            return inner
+    return ""
 
 
 def fill(message: Any, values: Any, failed: str = "Failed to populate field: {}") -> list[TimeSetter]:

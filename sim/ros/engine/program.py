@@ -63,6 +63,10 @@ def as_process(target: Any, caller: str = "run") -> Process:
         )
     if isinstance(inner, type) and not issubclass(inner, Node):
         raise TypeError(f"{inner.__name__} is not a ROS node: write `class {inner.__name__}(Node):`.")
+    if isinstance(inner, str) and inner.isidentifier():
+        raise TypeError(f"{caller}() takes the class itself: write {caller}({inner}), without quotes.")
+    if isinstance(inner, list | tuple):
+        raise TypeError(f"{caller}() takes programs one by one: write {caller}(A, B), without a list.")
     if not callable(inner):
         raise TypeError(
             f"{caller}() takes Node classes, functions that return a node, or main() functions;"

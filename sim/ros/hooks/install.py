@@ -11,6 +11,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     event_loops,
     executors,
     graph,
+    node_in_cell,
     parameters,
     processes,
     ros_time,

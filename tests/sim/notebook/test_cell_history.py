@@ -114,6 +114,11 @@ def test_a_missing_name_that_a_cell_above_defines_is_explained(notebook):
     assert fresh.explain_missing("later") == fresh.explain_missing("nowhere") == ""
 
 
+def test_a_name_that_is_nearly_a_defined_one_is_suggested(notebook):
+    assert notebook.cells.suggest("Robbot") == "There is no `Robbot`. Did you mean `Robot`?"
+    assert notebook.cells.suggest("Rob") == notebook.cells.suggest("elsewhere") == ""
+
+
 def test_without_a_page_the_notebooks_file_is_read(notebook):
     fresh = CellHistory({})
     assert fresh.explain_missing("turns") == ""

@@ -83,6 +83,17 @@ sim.suggestions.unknown_name("a", "b", ["c"])"""
     assert "mine" in own and "You interrupted" not in own
 
 
+def test_a_misspelt_class_and_an_object_for_a_class_are_named_in_one_line(kernel):
+    for cell, code in {"setup": SETUP, "answer": ROBOT}.items():
+        kernel.run(code, cell)
+    shown = kernel.run("run(Robbot, seconds=1)", "use").strip()
+    assert shown == "NameError: There is no `Robbot`. Did you mean `Robot`?"
+    assert kernel.run("run(Robot(), seconds=1)", "use").strip() == (
+        "NotInitializedException: Robot() creates the node here, outside a run. Hand over the class, "
+        "without parentheses: run(Robot), not run(Robot()); the run creates the node."
+    )
+
+
 def test_outside_a_notebook_nothing_is_watched():
     values = "n.in_notebook(), n.find_outdated([n]), n.explain_missing_name('n') == ''"
     code = f"from sim import notebook as n; print({values})"

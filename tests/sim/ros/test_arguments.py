@@ -34,6 +34,12 @@ def refused(kind, *arguments, **keywords):
 
 
 def test_an_object_is_not_a_class(a_node):
+    with pytest.raises(TypeError) as caught:
+        run("Counter")
+    assert str(caught.value) == "run() takes the class itself: write run(Counter), without quotes."
+    with pytest.raises(TypeError) as caught:
+        run([mains.Counter, mains.Counter])
+    assert str(caught.value) == "run() takes programs one by one: write run(A, B), without a list."
     words = "run() takes the class, not an object of it: write run(Counter), not run(Counter())."
     assert refused(TypeError, a_node) == words
 
@@ -42,7 +48,7 @@ def test_a_class_must_be_a_node():
     assert refused(TypeError, NotANode) == "NotANode is not a ROS node: write `class NotANode(Node):`."
 
 
-@pytest.mark.parametrize("thing", [None, 3, "talker"])
+@pytest.mark.parametrize("thing", [None, 3, "two words"])
 def test_nothing_else_can_be_run(thing):
     words = "run() takes Node classes, functions that return a node, or main() functions; this is {!r}."
     assert refused(TypeError, thing) == words.format(thing)
