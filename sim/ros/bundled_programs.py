@@ -20,6 +20,12 @@ PROGRAMS: dict[str, dict[str, tuple[str, ...]]] = {
         },
         "set_parameters_callback": ("-m", "demo_nodes_py.parameters.set_parameters_callback"),
     },
+    "joint_state_publisher": {
+        "joint_state_publisher": ("-m", "joint_state_publisher.joint_state_publisher"),
+    },
+    "robot_state_publisher": {
+        "robot_state_publisher": ("-m", "robot_state_publisher.robot_state_publisher"),
+    },
     "tf2_ros": {
         "static_transform_publisher": ("-m", "tf2_ros.static_transform_publisher"),
         "tf2_echo": ("-m", "tf2_ros.tf2_echo"),

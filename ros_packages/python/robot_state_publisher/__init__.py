@@ -1,0 +1,1 @@
+"""Publishes the frames of a robot that a URDF describes. Names, parameters and messages are upstream's."""
