@@ -11,8 +11,8 @@ COMMANDS = {  # module, function and arguments
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),
     "collect": ("grader.marking.extras.learning_platform.cli", "collect", "ARCHIVE.zip"),
     "grades": ("grader.marking.extras.learning_platform.cli", "grades", "ASSIGNMENT"),
-    "certificate": ("grader.marking.extras.certificate.cli", "certificate", "--issuer TEXT"),
-    "confirm": ("grader.marking.extras.certificate.cli", "confirm", "PAGE"),
+    "receipts": ("grader.marking.extras.receipts.cli", "receipts", "--issuer TEXT"),
+    "verify": ("grader.marking.extras.receipts.cli", "verify", "RECEIPT"),
 }
 
 

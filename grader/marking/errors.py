@@ -11,7 +11,7 @@
     ├── Unusable                a submission can't be marked; the student reads what to do
     ├── StudentProcessGone      a student's process can't be used any further; its notebook ends there
     ├── NotMarked               one submission could not be marked; the instructor has to look
-    ├── NotConfirmed            a certificate does not agree with the receipt
+    ├── NotConfirmed            a receipt does not agree with its signature or what it names
     └── ResultError             data that is not a result
 """
 
@@ -61,7 +61,7 @@ class NotMarked(MarkingError):
 
 
 class NotConfirmed(MarkingError):
-    """A certificate can't be confirmed. The text says what does not agree, without a full stop."""
+    """A receipt can't be confirmed. The text says what does not agree, without a full stop."""
 
 
 class ResultError(MarkingError):

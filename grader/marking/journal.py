@@ -10,7 +10,7 @@ import json
 import os
 import uuid
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,10 +25,14 @@ LOCK = ".lock"
 
 @dataclass(frozen=True)
 class JournalEntry:
-    """A result in the journal. `id` identifies this marking: the notebooks made from it have it, too."""
+    """A result in the journal. `id` identifies this marking: the notebooks made from it have it, too.
+
+    evidence: what the mark was given for; see `grader.marking.mark_evidence`.
+    """
 
     id: str
     result: Result
+    evidence: dict[str, str] = field(default_factory=dict)
 
 
 class Journal:
@@ -53,11 +57,11 @@ class Journal:
             file.flush()
             yield
 
-    def save(self, result: Result) -> JournalEntry:
+    def save(self, result: Result, evidence: dict[str, str] | None = None) -> JournalEntry:
         """Store a result in place of the student's last one. Raises OSError."""
-        entry = JournalEntry(uuid.uuid4().hex, result)
+        entry = JournalEntry(uuid.uuid4().hex, result, evidence or {})
         body = result.to_json()
-        head = json.dumps({"id": entry.id, "sha256": _digest(body)})
+        head = json.dumps({"id": entry.id, "sha256": _digest(body), "evidence": entry.evidence})
         write_atomically(self._file(result.student), f"{head}\n{body}\n", mode=0o600)
         return entry
 
@@ -73,7 +77,7 @@ class Journal:
             known = json.loads(head)
             if known["sha256"] != _digest(body):
                 return None
-            entry = JournalEntry(str(known["id"]), Result.from_json(body))
+            entry = JournalEntry(str(known["id"]), Result.from_json(body), known.get("evidence", {}))
         except (OSError, ValueError, KeyError, TypeError, ResultError):
             return None
         result = entry.result

@@ -10,6 +10,7 @@ from sim.distro import RCLPY_DISTRIBUTION
 
 CODE = Path(__file__).parents[2]
 PACKAGES = ("grader", "sim", "ros_packages")  # the last has tf2_ros and launch
+LOCK = "requirements.lock"  # the file with the version of every library
 LIBRARIES = (RCLPY_DISTRIBUTION, "numpy", "pymunk", "ipython", "matplotlib")
 
 
@@ -22,6 +23,11 @@ def code_version() -> str:
         for part in (str(path.relative_to(CODE)).encode(), path.read_bytes()):
             digest.update(len(part).to_bytes(8) + part)
     return digest.hexdigest()
+
+
+def lock_digest() -> str:
+    """SHA-256 of the lock file."""
+    return hashlib.sha256((CODE / LOCK).read_bytes()).hexdigest()
 
 
 def versions() -> dict[str, str]:

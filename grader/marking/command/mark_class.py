@@ -20,6 +20,7 @@ from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
 from grader.marking.journal import Journal, JournalEntry
+from grader.marking.mark_evidence import evidence
 from grader.marking.progress_line import ProgressLine
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release, load_release
@@ -81,7 +82,7 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
             journal.save_settings(asdict(replace(settings, force=False)))  # --resume does not repeat that
         outcome = Outcome({}, worth or {}, len(submissions))
         release = load_release(course.release(assignment))
-        run = _ClassRun(course, book, journal, outcome, release)
+        run = _ClassRun(course, book, journal, outcome, release, key)
         tasks = itertools.starmap(TaskReader(release, key).read, submissions.items())  # read when requested
         try:
             run.mark(tasks, lambda: open_pool(settings, key))
@@ -101,16 +102,16 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
 class _ClassRun:
     """The run of a class: each submission is read once, and its result is either found or made by a pool.
 
-    waiting: keys of the submissions that the pool has. late: keys of results that are in the journal, but not
-    in the gradebook. Both by student.
+    waiting: keys and evidence of the submissions that the pool has. late: keys of results that are in the
+    journal, but not in the gradebook. Both by student.
     """
 
     def __init__(
-        self, course: Course, book: Book, journal: Journal, outcome: Outcome, release: Release
+        self, course: Course, book: Book, journal: Journal, outcome: Outcome, release: Release, secret: str
     ) -> None:
         self.course, self.book, self.journal, self.outcome = course, book, journal, outcome
-        self.release = release
-        self.waiting: dict[str, str] = {}
+        self.release, self.secret = release, secret
+        self.waiting: dict[str, tuple[str, dict[str, str]]] = {}
         self.late: dict[str, str] = {}
 
     def mark(
@@ -123,8 +124,7 @@ class _ClassRun:
             if first is not None:
                 with open_pool() as pool:
                     for result in pool.mark(itertools.chain([first], unmarked)):
-                        self._check(result)
-                        self.file(self.journal.save(result))
+                        self.file(self.journal.save(result, self._evidence(result)))
                         self.outcome.fresh.append(result.student)
                         progress.add_result(result)
 
@@ -139,14 +139,15 @@ class _ClassRun:
             progress.skip()
 
         for task in self.journal.unmarked(tasks, found):
-            self.waiting[task.student] = task.key
+            self.waiting[task.student] = task.key, evidence(task, self.secret)
             yield task
 
-    def _check(self, result: Result) -> None:
-        """Raise RuntimeError for a result of another task."""
-        expected = (self.release.assignment, self.waiting.pop(result.student, None))
-        if (result.assignment, result.key) != expected:
+    def _evidence(self, result: Result) -> dict[str, str]:
+        """The evidence of a result's task. Raises RuntimeError for a result of another task."""
+        key, found = self.waiting.pop(result.student, ("", {}))
+        if (result.assignment, result.key) != (self.release.assignment, key):
             raise RuntimeError(f"the pool returned a result for {result.student} that was not requested")
+        return found
 
     def file(self, entry: JournalEntry) -> None:
         """Add a result to the outcome, and update gradebook and notebooks."""

@@ -76,9 +76,9 @@ class Course:
         """The folder in which marking stores its results, beside nbgrader's."""
         return (self.root / self.directory.autograded_directory).parent / "marking" / assignment
 
-    def certificates(self) -> Path:
-        """The folder of certificates and their receipt."""
-        return (self.root / self.directory.autograded_directory).parent / "certificates"
+    def receipts(self) -> Path:
+        """The folder of receipts and certificates."""
+        return (self.root / self.directory.autograded_directory).parent / "receipts"
 
     def platform_files(self) -> Path:
         """The folder with what is known of a learning platform's uploads."""

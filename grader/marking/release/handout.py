@@ -28,7 +28,7 @@ INCLUDED = (
 )
 MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py"),
-    *("extras/certificate", "extras/dask_cluster", "extras/learning_platform"),
+    *("extras/dask_cluster", "extras/learning_platform", "extras/receipts"),
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),

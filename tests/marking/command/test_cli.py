@@ -135,8 +135,8 @@ def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
         "       python -m grader collect ARCHIVE.zip [--help]\n"
         "       python -m grader grades ASSIGNMENT [--help]\n"
-        "       python -m grader certificate --issuer TEXT [--help]\n"
-        "       python -m grader confirm PAGE [--help]\n"
+        "       python -m grader receipts --issuer TEXT [--help]\n"
+        "       python -m grader verify RECEIPT [--help]\n"
     )
     assert (command_line(["--help"]), capsys.readouterr()) == (0, (usage, ""))
     command = [sys.executable, "-m", "grader", "grade"]

@@ -1,1 +1,0 @@
-"""Certificates: a page of what a student passed, and the receipt with which the instructor confirms it."""

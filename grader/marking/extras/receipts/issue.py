@@ -1,0 +1,97 @@
+"""The receipts of a class: of all marks on which gradebook and journal agree."""
+import hmac
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field, replace
+from datetime import date
+
+import nbformat
+
+from grader.exercise import Exercise
+from grader.marking import secret
+from grader.marking.extras.receipts.receipt import MarkReceipt, ReceiptCell, seal_of
+from grader.marking.gradebook.book import Book, GradebookMark
+from grader.marking.gradebook.course import Course
+from grader.marking.journal import Journal, JournalEntry
+from grader.marking.judge.testcells import exercise_names, find_exercise
+from grader.marking.mark_evidence import fingerprint
+from grader.marking.progress_line import printable
+from grader.marking.version import LOCK
+from grader.seeds import secret_of_student
+
+MAX_NAME_CHARS = 100
+DIGESTS = ("submission", "release", LOCK)  # in the evidence; the rest are versions
+
+
+@dataclass
+class ClassReceipts:
+    """The receipts by student and assignment, and a sentence for each mark that has none."""
+
+    receipts: dict[str, list[MarkReceipt]] = field(default_factory=dict)
+    doubts: list[str] = field(default_factory=list)
+
+
+def make_receipts(course: Course, issuer: str, students: Collection[str], reveal: bool) -> ClassReceipts:
+    """Receipts of all marks, or of those of these students. Raises CourseError, OSError."""
+    with Book(course) as book:
+        marks = [mark for mark in book.marks() if not students or mark.student in students]
+    made, key = ClassReceipts(), secret.read(course.root)
+    exercises = {name: dict(_exercises(course, name)) for name in {mark.assignment for mark in marks}}
+    for mark in sorted(marks, key=lambda mark: (mark.student, mark.assignment)):
+        entry = Journal(course.journal(mark.assignment)).last(mark.student)
+        doubt = _doubt(mark, entry, key)
+        if entry is None or doubt:
+            made.doubts.append(f"{mark.student}: {mark.assignment} {doubt}")
+            continue
+        receipt = _receipt(mark, entry, issuer)
+        if key:
+            own = secret_of_student(key, mark.student)
+            nonce = hmac.new(own.encode(), f"receipt of {mark.assignment}".encode(), "sha256").hexdigest()
+            tests = exercises[mark.assignment]
+            seeds = {name: [seed for _, seed in each.runs(own)] for name, each in tests.items()}
+            opened = {"nonce": nonce, "seeds": seeds} if reveal else {}
+            receipt = replace(receipt, seal=seal_of(nonce, seeds), **opened)
+        made.receipts.setdefault(mark.student, []).append(receipt)
+    return made
+
+
+def _receipt(mark: GradebookMark, entry: JournalEntry, issuer: str) -> MarkReceipt:
+    cells = (
+        ReceiptCell(f"{note.name}/{cell.cell}", cell.exercise, cell.points, cell.max, tuple(cell.digests))
+        for note in entry.result.notebooks
+        for cell in note.cells
+    )
+    return MarkReceipt(
+        student=mark.student,
+        name=printable(mark.name)[:MAX_NAME_CHARS],
+        assignment=mark.assignment,
+        points=mark.points,
+        most=mark.most,
+        issuer=issuer,
+        issued=date.today().isoformat(),
+        cells=tuple(cells),
+        digests={name: entry.evidence[name] for name in DIGESTS},
+        versions={name: text for name, text in entry.evidence.items() if name not in (*DIGESTS, "secret")},
+    )
+
+
+def _doubt(mark: GradebookMark, entry: JournalEntry | None, key: str) -> str:
+    """Why a mark has no receipt, or ""."""
+    if entry is None:
+        return f"was not marked by `python -m grader mark {mark.assignment}`"
+    again = f"mark {mark.assignment} again"
+    if not entry.evidence:
+        return f"was marked before there were receipts: {again}, with --force"
+    if entry.evidence["secret"] != fingerprint(key):
+        return f"was marked with another secret than the one in .secret: {again}"
+    earned = {(note.name, cell.cell): cell.points for note in entry.result.notebooks for cell in note.cells}
+    if any(mark.by_marking.get(cell) != points for cell, points in earned.items()):
+        return f"has other points in the gradebook than marking gave: {again}"
+    return "still needs a look in the formgrader" if mark.needs_look else ""
+
+
+def _exercises(course: Course, assignment: str) -> Iterator[tuple[str, Exercise]]:
+    """The exercises of an assignment by name."""
+    for path in sorted(course.release(assignment).glob("*.ipynb")):
+        for name in exercise_names(nbformat.read(path, 4)).values():
+            found = find_exercise(name)
+            yield found.name, found
