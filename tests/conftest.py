@@ -16,6 +16,7 @@ import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 from grader.marking.errors import SandboxMissing
+from tests.patience import PATIENCE
 
 if not shutil.which("bwrap"):
     # A stranger's build is good enough for tests; who marks a class installs the system's own.
@@ -71,7 +72,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def sandboxes_can_be_made() -> bool:
     """Whether this system lets bubblewrap make a sandbox; many containers don't."""
     command = ["bwrap", "--unshare-user", "--unshare-pid", "--ro-bind", "/", "/", "--proc", "/proc", "true"]
-    return subprocess.run(command, capture_output=True, check=False, timeout=60).returncode == 0
+    return subprocess.run(command, capture_output=True, check=False, timeout=PATIENCE).returncode == 0
 
 
 def _skipped_without_a_sandbox() -> Generator[None, object, object]:

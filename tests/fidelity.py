@@ -24,9 +24,9 @@ import pytest
 from _pytest.runner import runtestprotocol
 
 from tests.bench.report import table
+from tests.patience import PATIENCE
 
 SECONDS = 600  # simulated ones that a test may take
-PATIENCE = 120  # wall seconds that a file may take
 OPTIONS = ["-s", "-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:threadexception", "-W", "ignore"]
 OURS = f"{Path(__file__).parents[1] / 'sim'}{os.sep}"
 OUTCOMES = "passed", "skipped", "refused", "differs"

@@ -11,6 +11,7 @@ from grader.marking.release.samples import SHARES, submit_samples
 from tests.browser.lab import ROOT, Lab, copy_for_students, server
 from tests.browser.pictures import CHROMIUM, COUNT_FRAMES, chromium
 from tests.marking.tiny import tiny
+from tests.patience import PATIENCE
 
 WINDOW = {"width": 1280, "height": 900}
 
@@ -33,6 +34,7 @@ def browser() -> Iterator[Browser]:
 def tab(browser) -> Iterator[Page]:
     """A tab without network. To open one takes four times what it takes to load a page into it."""
     context = browser.new_context(offline=True)
+    context.set_default_timeout(PATIENCE * 1000)
     page = context.new_page()
     page.on("pageerror", lambda error: page.faults.append(str(error)))
     yield page

@@ -5,7 +5,6 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 import uuid
 from collections.abc import Iterator
@@ -16,10 +15,11 @@ from typing import Any
 import nbformat
 from playwright.sync_api import Locator, Page
 
+from tests.patience import PATIENCE, until
+
 ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
-START_SECONDS = CELL_SECONDS = 300  # only against hanging: a busy machine is slow
 SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # Lab may still hold one that a test before has closed
 # The notebook that shows: beside it may be the panel with its robot, which then is Lab's current widget.
 NOTEBOOK = """window.notebook = () => [...window.jupyterapp.shell.widgets('main')].find(
@@ -53,9 +53,15 @@ ALL_CELLS_DONE = """() => {
     }
     return true;
 }"""
+# Of the cells that are on the page. What an output contains is drawn later than the output itself.
+ALL_OUTPUTS_DRAWN = """() => window.notebook().content.widgets.every(cell =>
+    !cell.outputArea || cell.isPlaceholder?.() || !cell.isAttached
+    || cell.outputArea.widgets.length >= cell.model.outputs.length
+    && [...cell.node.querySelectorAll('.jp-OutputArea-output')].every(output => output.hasChildNodes()))"""
 
 RUN_CELL = """index => {
     const panel = window.notebook();
+    panel.content.model.cells.get(index).executionCount = null;  // that of the run before
     panel.content.activeCellIndex = index;
     panel.content.deselectAll();
     window.jupyterapp.commands.execute('notebook:run-cell');
@@ -128,24 +134,25 @@ def server(folder: Path, *more: str, settings: str = "jupyter") -> Iterator[str]
             yield address
         finally:
             process.terminate()
-            process.wait(60)
+            process.wait(PATIENCE)
 
 
 def _wait_until_up(url: str, process: subprocess.Popen, log: Path) -> None:
-    deadline = time.monotonic() + START_SECONDS
-    while time.monotonic() < deadline and process.poll() is None:
-        with suppress(OSError), urllib.request.urlopen(url, timeout=5):
-            return
-        time.sleep(0.2)
-    raise RuntimeError(f"JupyterLab did not answer at {url} within {START_SECONDS} s; its last words:\n"
-                       + log.read_text()[-2000:])
+    until(lambda: process.poll() is not None or _answers(url), f"JupyterLab at {url}")
+    assert process.poll() is None, f"JupyterLab has ended; its last lines:\n{log.read_text()[-2000:]}"
+
+
+def _answers(url: str) -> bool:
+    with suppress(OSError), urllib.request.urlopen(url, timeout=PATIENCE):
+        return True
+    return False
 
 
 class Lab:
     """A browser tab with JupyterLab in it."""
 
     def __init__(self, page: Page, address: str):
-        page.set_default_timeout(CELL_SECONDS * 1000)
+        page.set_default_timeout(PATIENCE * 1000)
         page.add_init_script(NOTEBOOK)
         self.page = page
         self.address = address
@@ -187,11 +194,8 @@ class Lab:
     def run_all(self) -> None:
         """Run all cells of the notebook, and wait until they are done or one has failed."""
         self.page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
-        deadline = time.monotonic() + CELL_SECONDS
-        while not self.page.evaluate(ALL_CELLS_DONE):
-            assert time.monotonic() < deadline, f"the cells were not done within {CELL_SECONDS} s"
-            self.page.wait_for_timeout(100)
-        self.page.wait_for_timeout(500)  # the last output is drawn after its message has come
+        self.page.wait_for_function(ALL_CELLS_DONE)
+        self.page.wait_for_function(ALL_OUTPUTS_DRAWN)
 
     def run_cell(self, index: int, *, wait: bool = True) -> None:
         """Run a cell, and wait until the kernel is done with it."""
@@ -259,8 +263,10 @@ class Lab:
 
     def shut_down(self) -> None:
         """Shut down all kernels of the server, so that what a test leaves playing ends here."""
-        for session in self.page.request.get(f"{self.address}/api/sessions").json():
-            self.page.request.delete(f"{self.address}/api/sessions/{session['id']}", headers=self._token())
+        sessions = f"{self.address}/api/sessions"
+        for session in self.page.request.get(sessions, timeout=PATIENCE * 1000).json():
+            address = f"{sessions}/{session['id']}"
+            self.page.request.delete(address, headers=self._token(), timeout=PATIENCE * 1000)
 
     def _token(self) -> dict[str, str]:
         """Return what the server wants to see in a request that changes something."""

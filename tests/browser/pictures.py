@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from playwright.sync_api import Browser, Locator, Page, sync_playwright
 
 from tests.browser.lab import ARTIFACTS
+from tests.patience import PATIENCE
 
 CHROMIUM = shutil.which("chromium")
 # A frame counts when something was drawn on a canvas before the browser painted next.
@@ -34,7 +35,6 @@ COLOURS = """canvas => {
     }
     return Object.keys(counts).filter((colour) => counts[colour] > 15);
 }"""
-SECONDS = 300  # only against hanging: a busy machine is slow
 
 
 @contextmanager
@@ -42,14 +42,16 @@ def chromium() -> Iterator[Browser]:
     """Start Chromium. Not for a whole session: as long as playwright lives, this thread has an event loop."""
     with sync_playwright() as playwright:
         # Chromium's own sandbox does not run as root, the ordinary user in a container.
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        browser = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox"], timeout=PATIENCE * 1000
+        )
         yield browser
         browser.close()
 
 
 def watch(page: Page) -> list[str]:
     """Note the address of whatever the page asks for from now on; and be patient with it."""
-    page.set_default_timeout(SECONDS * 1000)
+    page.set_default_timeout(PATIENCE * 1000)
     requests: list[str] = []
     page.on("request", lambda request: requests.append(request.url))
     return requests
@@ -87,7 +89,7 @@ class Picture:
         self.page.wait_for_function(
             f"([root, argument]) => ({condition})(root, argument)",
             arg=[self.root.element_handle(), argument],
-            timeout=SECONDS * 1000,
+            timeout=PATIENCE * 1000,
         )
 
     def wait_for_time(self, stamp: float) -> None:
@@ -104,8 +106,7 @@ class Picture:
         self.scrub(0.0)
         begin, first = self.time(), self.pixels()
         self.click("Play")
-        self.wait_for_time(begin + 0.5)
-        self.click("Pause")
+        self.wait_for_time(begin + 0.5)  # a short one may have come to its end, where nothing is to be paused
         assert self.pixels() != first
         self.scrub(1.0)
         last = self.pixels()

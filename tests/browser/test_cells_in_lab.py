@@ -3,6 +3,7 @@
 import pytest
 
 from tests.browser.lab import write_notebook
+from tests.patience import until
 
 pytestmark = pytest.mark.browser
 SETUP = """
@@ -103,14 +104,13 @@ def test_a_restarted_kernel_is_told_to_run_what_is_above(greeter):
     assert "8 of 8 points" in says(lab, 3)
 
 
-def test_an_interrupted_run_says_so_in_one_line(greeter):
+def test_an_interrupted_run_says_so_in_one_line(greeter, students_folder):
     lab = greeter
     lab.run_cell(0)
     lab.run_cell(1)
-    lab.page.evaluate(EDIT, [2, "run(Greeter, seconds=100_000)"])
+    lab.page.evaluate(EDIT, [2, "run(Greeter, seconds=100_000, until=lambda _: open('begun', 'w').close())"])
     lab.run_cell(2, wait=False)
-    lab.page.wait_for_function("() => window.notebook().sessionContext.session.kernel.status === 'busy'")
-    lab.page.wait_for_timeout(1000)
+    until((students_folder / "cells" / "begun").exists, "the run")
     lab.page.evaluate("window.notebook().sessionContext.session.kernel.interrupt()")
     lab.wait_for_cell(2)
     (output,) = lab.outputs(2)

@@ -23,7 +23,7 @@ def test_lab_starts_with_the_map_of_the_course_and_leads_on_and_back(lab, studen
     lab.wait_for_kernel()
     way(lab, "Course").click()
     lab.page.locator(".jp-OutputArea-output caption", has_text="Your points so far: 0 of").wait_for()
-    lab.page.wait_for_timeout(1000)
+    lab.wait_for_kernel()
     assert (students_folder / "course/start.ipynb").read_bytes() == before
 
 

@@ -7,6 +7,8 @@ import pytest
 from nbclient import NotebookClient
 from nbgrader.utils import determine_grade
 
+from tests.patience import PATIENCE
+
 SETUP = """
     import logging, os, sys, warnings
     logging.basicConfig(level=logging.INFO)          # its handler keeps the kernel's own stderr
@@ -53,7 +55,7 @@ def cells():
     sources = [textwrap.dedent(SETUP), *CASES]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in sources])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    NotebookClient(notebook, timeout=60).execute()
+    NotebookClient(notebook, timeout=PATIENCE, startup_timeout=PATIENCE).execute()
     return {cell.source: cell for cell in notebook.cells}
 
 

@@ -5,10 +5,12 @@ import subprocess
 import sys
 
 from sim.world import world
+from tests.patience import PATIENCE
 
 LOOK = """
 import sys
 from pathlib import Path
+
 from sim.world import World, world
 world._FOLDER = Path(sys.argv[1])
 import grader.marking.preload
@@ -28,7 +30,11 @@ def test_worlds_and_messages_are_made_before_and_a_broken_world_holds_up_only_wh
     shutil.copy(world._FOLDER / "room.toml", tmp_path)
     (tmp_path / "mine.toml").write_text("walls = 3")
     looked = subprocess.run(
-        [sys.executable, "-c", LOOK, str(tmp_path)], capture_output=True, text=True, check=False, timeout=300
+        [sys.executable, "-c", LOOK, str(tmp_path)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE,
     )
     assert looked.returncode == 0, looked.stderr
     made, reason = looked.stdout.splitlines()

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE
+
 INTERFACES = Path(__file__).resolve().parents[2] / "ros_packages" / "interfaces"
 sys.path.append(str(INTERFACES))
 
@@ -14,8 +16,10 @@ ALONE = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "FASTDDS_BUILTIN_TRANSPORTS": "
 
 def run_round_trip(python: str | Path, environment: dict[str, str]) -> dict:
     """Run round_trip.py with this Python and return what it printed."""
-    command = [str(python), str(Path(__file__).with_name("round_trip.py"))]
-    done = subprocess.run(command, env={**environment, **ALONE}, capture_output=True, text=True, timeout=120)
+    command = [str(python), str(Path(__file__).with_name("round_trip.py")), str(PATIENCE)]
+    done = subprocess.run(
+        command, env={**environment, **ALONE}, capture_output=True, text=True, timeout=PATIENCE
+    )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 

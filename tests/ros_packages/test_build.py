@@ -13,6 +13,8 @@ from build_tools.compile import compiling, link
 from build_tools.generate import Package, generate
 from build_tools.toolchain import BuildError, require_compilers, ros_prefix
 
+from tests.patience import PATIENCE
+
 NO_WHEELS = (
     "Building the ROS interfaces needs the ROS wheels, but rosidl_generator_c is missing: "
     "run `pip install 'ros-jazzy-rclpy[fastrtps]' ros-jazzy-common-interfaces` and try again."
@@ -107,7 +109,9 @@ def test_a_package_may_use_one_that_is_built_before_it(tmp_path):
     second = package(tmp_path / "second", Numbers="try_msgs/Number[] all\n")
     later = Package("use_msgs", second.source, first.output)
     library = compiled(later)
-    used = subprocess.run(["ldd", library], capture_output=True, text=True, check=True, timeout=60).stdout
+    used = subprocess.run(
+        ["ldd", library], capture_output=True, text=True, check=True, timeout=PATIENCE
+    ).stdout
     assert str(library.parent / ".." / "try_msgs" / first.library.name) in used
 
 
@@ -172,7 +176,7 @@ def build(definitions: Path, output: Path) -> subprocess.CompletedProcess:
     """Build all packages of a folder, as setup.py does."""
     words = [sys.executable, "-m", "build_tools", str(definitions), str(output)]
     tools, seeded = Path(toolchain.__file__).parents[1], {**os.environ, "PYTHONHASHSEED": "0"}
-    return subprocess.run(words, cwd=tools, env=seeded, capture_output=True, text=True, timeout=120)
+    return subprocess.run(words, cwd=tools, env=seeded, capture_output=True, text=True, timeout=PATIENCE)
 
 
 @pytest.mark.parametrize("name", ["try_msgs", pytest.param("tf2_msgs", marks=pytest.mark.soak)])
@@ -199,7 +203,12 @@ def written(source: Path, output: Path, before: str = "") -> dict[Path, bytes]:
     )
     tools, seeded = Path(toolchain.__file__).parents[1], {**os.environ, "PYTHONHASHSEED": "0"}
     subprocess.run(
-        [sys.executable, "-c", words], cwd=tools, env=seeded, check=True, capture_output=True, timeout=120
+        [sys.executable, "-c", words],
+        cwd=tools,
+        env=seeded,
+        check=True,
+        capture_output=True,
+        timeout=PATIENCE,
     )
     files = {file: file.read_bytes() for file in output.rglob("*.*") if file.is_file()}
     shutil.rmtree(output)

@@ -25,12 +25,14 @@ from launch.utilities import text_of
 from launch_ros.actions import Node, SetParameter
 from launch_ros.substitutions import ExecutableInPackage
 
+from tests.patience import PATIENCE
+
 SAYS = "import sys; print('out'); print('err', file=sys.stderr); sys.exit(int(sys.argv[1]))"
 STAYS = """
 import signal, time
 for each in ({}): signal.signal(each, signal.SIG_IGN)
 print('ready', flush=True)
-time.sleep(300)
+time.sleep({})
 """
 
 
@@ -178,7 +180,7 @@ def test_environment_folder_shell_prefix_and_words_are_the_programs(launched, tm
 
 
 def test_when_all_is_to_end_a_program_gets_sigint_then_sigterm_then_sigkill(launched):
-    text = STAYS.format("signal.SIGINT, signal.SIGTERM")
+    text = STAYS.format("signal.SIGINT, signal.SIGTERM", PATIENCE)
     stays = python(text, output="both", sigterm_timeout="0.1", sigkill_timeout="0.2")
     once = RegisterEventHandler(OnProcessStart(target_action=stays, on_start=[WhenReady(stays)]))
     status, lines = launched(once, stays)
@@ -210,7 +212,7 @@ class WhenReady(TimerAction):
 
 
 def test_one_program_can_be_told_to_end_or_be_given_a_signal(launched):
-    waits = "import time\ntry: time.sleep(300)\nexcept KeyboardInterrupt: pass"
+    waits = f"import time\ntry: time.sleep({PATIENCE})\nexcept KeyboardInterrupt: pass"
     first, second = python("print('ready')\n" + waits, output="both"), python(waits)
     ends = EmitEvent(event=ShutdownProcess(process_matcher=matches_action(first)))
     signalled = EmitEvent(

@@ -9,6 +9,8 @@ from pathlib import Path
 import install
 import pytest
 
+from tests.patience import PATIENCE
+
 UV = shutil.which("uv", path=str(Path(sys.executable).parent))
 
 
@@ -17,7 +19,7 @@ def interpreter(minor: str) -> str | None:
     candidates = [shutil.which(f"python{minor}"), *Path.home().glob(f".pyenv/versions/{minor}.*/bin/python")]
     for candidate in filter(None, candidates):
         command = [str(candidate), "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor[2:]}))"]
-        if subprocess.run(command, capture_output=True, check=False, timeout=120).returncode == 0:
+        if subprocess.run(command, capture_output=True, check=False, timeout=PATIENCE).returncode == 0:
             return str(candidate)
     return None
 
@@ -39,9 +41,9 @@ def environment(python: str, directory: Path) -> Path:
         for name in ("ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces", "numpy")
     ]
     made = directory / "bin" / "python"
-    subprocess.run([UV, "venv", "--quiet", "--python", python, directory], check=True, timeout=60)
+    subprocess.run([UV, "venv", "--quiet", "--python", python, directory], check=True, timeout=PATIENCE)
     command = [UV, "pip", "install", "--quiet", "--python", made, *ros, wheel]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE)
     if done.returncode:
         pytest.skip(f"the ROS wheels could not be installed: {done.stderr.strip()}")
     return made

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE
+
 REPOSITORY = Path(__file__).resolve().parents[2]
 FIND = """
 import os, sys, sim
@@ -22,7 +24,7 @@ def found(package: str, **variables: str) -> list[str]:
     command = [sys.executable, "-c", FIND, package]
     environment = inherited | variables
     return subprocess.check_output(
-        command, cwd=REPOSITORY, env=environment, text=True, timeout=60
+        command, cwd=REPOSITORY, env=environment, text=True, timeout=PATIENCE
     ).splitlines()
 
 
@@ -43,6 +45,6 @@ def test_the_commands_of_the_environment_are_found_once():
     look = "import os, sim; sim.ros_environment.prepare(); print(os.environ['PATH'])"
     command = [sys.executable, "-c", look]
     output = subprocess.check_output(
-        command, cwd=REPOSITORY, env={**os.environ, "PATH": "/usr/bin:/bin"}, text=True, timeout=60
+        command, cwd=REPOSITORY, env={**os.environ, "PATH": "/usr/bin:/bin"}, text=True, timeout=PATIENCE
     )
     assert output == f"{sys.prefix}/bin:/usr/bin:/bin\n"

@@ -15,16 +15,17 @@ import json
 import operator
 import os
 import re
+import select
 import signal
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
+
+from tests.patience import until
 
 ROOT = Path(__file__).resolve().parents[2]
 OURS = ("sim", "grader", "ipywidgets")  # what a robot doesn't have
-PATIENCE = 200.0  # s of wall clock until a program that was told to end counts as hung
 
 
 def definitions(lesson: str) -> str:
@@ -99,17 +100,53 @@ def lesson(name: str) -> dict[str, Any]:
     return found
 
 
-def started(found: dict[str, Any], program: dict[str, Any], errors: Path) -> int:
-    """Fork, and run one program there: a main() or a node class. The process's number."""
-    child = os.fork()
-    if child:
-        return child
+class Program:
+    """A fork that runs a main() or a node class."""
+
+    def __init__(self, found: dict[str, Any], program: dict[str, Any], errors: Path) -> None:
+        self._spins, spins = os.pipe()
+        self.number = os.fork()
+        if not self.number:
+            _run_and_exit(found, program, errors, spins)
+        os.close(spins)
+
+    def wait_until_it_spins(self) -> None:
+        """Or until it has ended without."""
+        self._wait()
+
+    def wait_until_it_ends(self) -> None:
+        """By itself."""
+        while self._wait():
+            pass
+
+    def _wait(self) -> bytes:
+        until(lambda: select.select([self._spins], [], [], 0)[0], "a program of the lesson")
+        return os.read(self._spins, 1)
+
+    def end(self, number: int) -> int | str:
+        """Send it a signal; its exit status, or that it hung."""
+        os.kill(self.number, number)
+        try:
+            return os.waitstatus_to_exitcode(until(self._statuses)[0])
+        except AssertionError:
+            os.kill(self.number, signal.SIGKILL)
+            os.waitpid(self.number, 0)
+            return "hung"
+
+    def _statuses(self) -> list[int]:
+        number, status = os.waitpid(self.number, os.WNOHANG)
+        return [status] if number else []
+
+
+def _run_and_exit(found: dict[str, Any], program: dict[str, Any], errors: Path, spins: int) -> NoReturn:
+    """In the fork. spins: gets a byte when an executor spins; from then on the program handles signals."""
     os.dup2(os.open(errors, os.O_WRONLY | os.O_CREAT | os.O_APPEND), 2)
     os.dup2(2, 1)
     # As in a terminal. What a shell's script starts with `&` ignores it, and so do all its children.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     status = 1
     try:
+        _report_spinning(spins, program.get("subscribers", {}))
         _run(_named(found, program["name"]), program.get("arguments"))
         status = 0
     except BaseException:
@@ -119,6 +156,23 @@ def started(found: dict[str, Any], program: dict[str, Any], errors: Path) -> int
     finally:
         sys.stderr.flush()
         os._exit(status)
+
+
+def _report_spinning(spins: int, subscribers: dict[str, int]) -> None:
+    """Before the first wait of an executor, which is also for so many subscribers of topics."""
+    from rclpy.executors import Executor
+
+    wait = Executor.wait_for_ready_callbacks
+
+    def report_and_wait(executor: Executor, *arguments: Any, **more: Any) -> Any:
+        Executor.wait_for_ready_callbacks = wait
+        os.write(spins, b"x")
+        for topic, count in subscribers.items():
+            (node,) = executor.get_nodes()
+            until(lambda: node.count_subscribers(topic) >= count, f"subscribers of {topic}")  # noqa: B023
+        return wait(executor, *arguments, **more)
+
+    Executor.wait_for_ready_callbacks = report_and_wait
 
 
 def _named(found: dict[str, Any], name: str) -> Any:
@@ -148,20 +202,6 @@ def _run(thing: Any, arguments: list[str] | None) -> None:
         rclpy.try_shutdown()
 
 
-def ended(child: int, number: int) -> int | str:
-    """Tell a process to end; its exit status, or that it hung."""
-    os.kill(child, number)
-    until = time.monotonic() + PATIENCE
-    while time.monotonic() < until:
-        done, status = os.waitpid(child, os.WNOHANG)
-        if done:
-            return os.waitstatus_to_exitcode(status)
-        time.sleep(0.05)
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    return "hung"
-
-
 class Listener:
     """Hears topics, in this process: of each message, one number."""
 
@@ -180,33 +220,33 @@ class Listener:
     def _keep(self, topic: str, number_of: Callable[[Any], float], message: Any) -> None:
         self.heard[topic].append(number_of(message))
 
-    def listen(self, done: Callable[[], bool], seconds: float) -> None:
-        """Until it is done, but no longer than that."""
+    def listen_until(self, condition: str, errors: Path) -> None:
+        """Until a Python expression of what was `heard` and of the text of `errors` is true."""
         import rclpy
 
-        until = time.monotonic() + seconds
-        while time.monotonic() < until and not done():
+        def holds() -> bool:
             rclpy.spin_once(self._node, timeout_sec=0.05)
+            return eval(condition, {"heard": self.heard, "errors": errors.read_text(encoding="utf-8")})
 
-    def drain(self) -> None:
-        """Take what has arrived: counted, not timed, for a busy machine."""
-        import rclpy
-
-        for _ in range(20):  # a queue holds 10
-            rclpy.spin_once(self._node, timeout_sec=0.05)
+        until(holds, condition)
 
 
 def together(spec: dict[str, Any]) -> dict[str, Any]:
-    """Run programs side by side; how each of them ended, what they complained of, and what was heard."""
+    """Run programs side by side; how each of them ended, what they complained of, and what was heard.
+
+    They get their signal when all of them spin, every topic was heard and the condition `until` is true; what
+    is heard afterwards makes `at_end` true. alone: they are to end without a signal.
+    """
     found, errors = lesson(spec["lesson"]), Path(spec["errors"])
-    children = [started(found, program, errors) for program in spec["programs"]]
+    errors.touch()
+    programs = [Program(found, program, errors) for program in spec["programs"]]
     listener = Listener(spec["listen"])
-    listener.listen(lambda: all(listener.heard.values()), PATIENCE)
-    listener.listen(lambda: all(words in errors.read_text("utf-8") for words in spec["says"]), PATIENCE)
-    listener.listen(lambda: False, spec["seconds"])
-    number = signal.Signals[spec["signal"]]
-    statuses = [ended(child, number) for child in children]
-    listener.drain()
+    for program in programs:
+        program.wait_until_it_ends() if spec["alone"] else program.wait_until_it_spins()
+    listener.listen_until("all(heard.values())", errors)
+    listener.listen_until(spec["until"], errors)
+    statuses = [program.end(signal.Signals[spec["signal"]]) for program in programs]
+    listener.listen_until(spec["at_end"], errors)
     return {"ended": statuses, "errors": errors.read_text(encoding="utf-8"), "heard": listener.heard}
 
 

@@ -11,6 +11,9 @@ from tests.sim.standalone.programs import REPOSITORY, environment, robot
 from tests.tooling.lesson_programs import ROOT, definitions
 
 COMMANDS = {"/cmd_vel": ("geometry_msgs/msg/Twist", "linear.x")}
+BLINKS = "']: on' in errors and ']: off' in errors"
+STOPPED = "heard['/cmd_vel'][-1] == 0.0"
+A_WHILE = "len(heard['/odom']) > 40"  # where there is nothing to wait for
 BOTH = pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
 
 
@@ -33,12 +36,18 @@ def asked(running, errors, **spec):
     return json.loads(done.stdout)
 
 
-def told(yard, errors, lesson, names, number="SIGINT", seconds=1.0, listen=None, says=(), **arguments):
-    programs = [{"name": name, "arguments": arguments.get(name)} for name in names]
+def told(
+    yard, errors, lesson, programs, number="SIGINT",
+    until="True", at_end="True", alone=False, listen=None, **arguments,
+):  # fmt: skip
+    """As `lesson_programs.together`. programs: names, or dictionaries. arguments: of the one of this name."""
+    programs = [each if isinstance(each, dict) else {"name": each} for each in programs]
+    programs = [each | {"arguments": arguments.get(each["name"])} for each in programs]
     listen = listen or {"/odom": ("nav_msgs/msg/Odometry", "pose.pose.position.x")}
     return asked(
         yard, errors,
-        lesson=lesson, programs=programs, seconds=seconds, signal=number, listen=listen, says=says,
+        lesson=lesson, programs=programs, signal=number, listen=listen,
+        until=until, at_end=at_end, alone=alone,
     )  # fmt: skip
 
 
@@ -49,23 +58,23 @@ def test_what_a_lesson_defines_can_be_taken_out_of_it(lesson):
 
 @BOTH
 def test_the_main_of_lesson_1_ends_quietly(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, says=["]: on", "]: off"])
+    found = told(yard, tmp_path / "errors", "01_nodes", ["main"], number, until=BLINKS)
     assert found["ended"] == [0]
     assert {line.split("]: ")[1] for line in found["errors"].splitlines()} == {"on", "off"}
 
 
 @BOTH
 def test_the_main_of_lesson_2_stops_its_robot(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS)
+    found = told(yard, tmp_path / "errors", "02_topics", ["main"], number, listen=COMMANDS, at_end=STOPPED)
     assert found["ended"] == [0]
     assert found["heard"]["/cmd_vel"][-2:] == [0.3, 0.0]
     assert found["errors"] == ""
 
 
 def test_the_server_of_lesson_4_drives(yard, tmp_path):
-    (tmp_path / "nothing").touch()
-    before = told(yard, tmp_path / "nothing", "04_actions", [], seconds=0)["heard"]["/odom"][-1]
-    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], says=["canceled after"])
+    before = told(yard, tmp_path / "nothing", "04_actions", [])["heard"]["/odom"][-1]
+    until = f"'canceled after' in errors and max(heard['/odom']) > {before}"
+    found = told(yard, tmp_path / "errors", "04_actions", ["whole.main", "Nervous"], until=until)
     assert found["ended"] == [0, 0]
     assert float(re.search(r"canceled after ([\d.]+) m", found["errors"])[1]) > 0
     assert max(found["heard"]["/odom"]) > before
@@ -74,14 +83,15 @@ def test_the_server_of_lesson_4_drives(yard, tmp_path):
 @BOTH
 @pytest.mark.soak
 def test_the_navigator_of_lesson_6_ends_quietly(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "06_navigator", ["whole.main"], number)
+    found = told(yard, tmp_path / "errors", "06_navigator", ["whole.main"], number, until=A_WHILE)
     assert (found["ended"], found["errors"]) == ([0], "")
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize(("listener", "hears"), [("Listener", False), ("EasyListener", True)])
 def test_a_best_effort_publisher_is_heard_with_the_profile_for_sensors_only(yard, tmp_path, listener, hears):
-    found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], seconds=3)
+    until = f"({'I heard: Hello' if hears else 'incompatible QoS'!r} in errors) and {A_WHILE}"
+    found = told(yard, tmp_path / "errors", "02_topics", [listener, "CarelessTalker"], until=until)
     assert found["ended"] == [0, 0]
     assert ("I heard: Hello" in found["errors"]) == hears
     assert ("incompatible QoS" in found["errors"]) == (not hears)
@@ -89,22 +99,21 @@ def test_a_best_effort_publisher_is_heard_with_the_profile_for_sensors_only(yard
 
 @pytest.mark.soak
 def test_between_two_processes_a_wrong_type_is_silence(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "02_topics", ["Listener", "NumberTalker"], seconds=2)
+    found = told(yard, tmp_path / "errors", "02_topics", ["Listener", "NumberTalker"], until=A_WHILE)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
 
 
 @pytest.mark.soak
 def test_two_nodes_of_one_name_start_without_a_warning(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], seconds=2)
+    found = told(yard, tmp_path / "errors", "01_nodes", ["Ticker", "Ticker"], until=A_WHILE)
     assert found["ended"] == [0, 0]
     assert "WARN" not in found["errors"]
 
 
 @pytest.mark.soak
 def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
-    found = told(yard, tmp_path / "one", "03_services", ["Adder", "Awaiting"], seconds=3)
-    assert "1 + 2 + 3 = 6" in found["errors"]
-    found = told(yard, tmp_path / "other", "03_services", ["Adder", "StillFrozen"], seconds=3)
+    told(yard, tmp_path / "one", "03_services", ["Adder", "Awaiting"], until="'1 + 2 + 3 = 6' in errors")
+    found = told(yard, tmp_path / "other", "03_services", ["Adder", "StillFrozen"], until=A_WHILE)
     assert "The sum is" not in found["errors"]
 
 
@@ -116,15 +125,15 @@ def test_what_awaits_needs_a_group_of_its_own(yard, tmp_path):
 ])  # fmt: skip
 def test_a_bad_start_value_is_refused_where_the_check_comes_first(yard, tmp_path, circler, words):
     radius = {circler: ["-p", "radius:=0.0"]}
-    found = told(yard, tmp_path / "errors", "03_services", [circler], seconds=1, **radius)
+    found = told(yard, tmp_path / "errors", "03_services", [circler], alone=True, **radius)
     assert found["ended"] == [1]
     assert words in found["errors"].splitlines()[-1]
 
 
 @pytest.mark.soak
 def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
-    names = ["whole.main", "SpinServer", "Patrol"]
-    found = told(yard, tmp_path / "errors", "04_actions", names, seconds=20)
+    names, until = ["whole.main", "SpinServer", "Patrol"], "errors.count(': done') >= 4"
+    found = told(yard, tmp_path / "errors", "04_actions", names, until=until)
     assert found["ended"] == [0, 0, 0]
     assert found["errors"].count(": done") == 4
 
@@ -132,28 +141,30 @@ def test_the_patrol_of_lesson_4_comes_back(yard, tmp_path):
 @pytest.mark.soak
 def test_the_guard_of_lesson_5_lets_harmless_commands_through(yard, tmp_path):
     raw = {"Blind": ["-r", "/cmd_vel:=/cmd_vel_raw"]}
-    names = ["WholeGuard", "Blind"]
-    found = told(yard, tmp_path / "errors", "05_sensing", names, seconds=2, listen=COMMANDS, **raw)
+    names, until = ["WholeGuard", "Blind"], "heard['/cmd_vel'].count(0.4) > 20"
+    found = told(yard, tmp_path / "errors", "05_sensing", names, until=until, listen=COMMANDS, **raw)
     assert (found["ended"], found["errors"]) == ([0, 0], "")
     assert found["heard"]["/cmd_vel"][-1] == 0.4
 
 
 @pytest.mark.soak
 def test_the_driver_of_lesson_7_stops_when_the_joystick_falls_silent(yard, tmp_path):
+    until = f"max(heard['/cmd_vel']) == 0.4 and 'The joystick is late: stop' in errors and {STOPPED}"
     names = ["Driver", "Joystick"]
-    found = told(yard, tmp_path / "errors", "07_silence", names, seconds=4, listen=COMMANDS)
+    found = told(yard, tmp_path / "errors", "07_silence", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0]
-    assert "The joystick is late: stop" in found["errors"]
-    speeds = found["heard"]["/cmd_vel"]
-    assert max(speeds) == 0.4 and speeds[-1] == 0.0
+    assert max(found["heard"]["/cmd_vel"]) == 0.4
 
 
 @pytest.mark.soak
 def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path):
     with robot("--world", "joint", "--headless") as joint:
         listen = {"/joint_commands": ("std_msgs/msg/Float64", "data")}
-        names = ["JointPublisher", "JointSubscriber"]
-        found = told(joint, tmp_path / "errors", "08_joints", names, seconds=17, listen=listen)
+        publisher = {"name": "JointPublisher", "subscribers": {"/joint_commands": 3}}  # one is the robot's
+        until = "len(heard['/joint_commands']) >= 7 and 'All positions are sent' in errors"
+        until += " and errors.count('Received joint position') >= 7"
+        programs = [publisher, "JointSubscriber"]
+        found = told(joint, tmp_path / "errors", "08_joints", programs, until=until, listen=listen)
     assert found["ended"] == [0, 0]
     assert found["heard"]["/joint_commands"] == [0.0, 0.5, -0.5, 0.0, 1.0, -1.0, 0.0]
     assert found["errors"].count("]: Received joint position: ") == 7
@@ -164,17 +175,16 @@ def test_the_seven_positions_of_lesson_8_are_sent_and_the_program_ends(tmp_path)
 def test_the_arm_of_lesson_8_draws_its_star(tmp_path):
     with robot("--world", "arm", "--headless") as arm:
         listen = {"/joint_states": ("sensor_msgs/msg/JointState", "header.stamp.sec")}
-        says = ["]: The goal was reached."]
-        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, says=says)
+        until = "']: The goal was reached.' in errors"
+        found = told(arm, tmp_path / "errors", "08_joints", ["goal.Artist"], listen=listen, until=until)
     assert found["ended"] == [0]
-    assert "]: The goal was reached." in found["errors"]
 
 
 @pytest.mark.soak
 def test_the_follower_of_lesson_9_drives_after_its_carrot(yard, tmp_path):
-    found = told(yard, tmp_path / "errors", "09_frames", ["Carrot", "Follower"], seconds=4, listen=COMMANDS)
+    names, until = ["Carrot", "Follower"], "max(heard['/cmd_vel']) > 0.2"
+    found = told(yard, tmp_path / "errors", "09_frames", names, until=until, listen=COMMANDS)
     assert found["ended"] == [0, 0]
-    assert max(found["heard"]["/cmd_vel"]) > 0.2
 
 
 @BOTH
@@ -183,16 +193,17 @@ def test_the_pole_of_lesson_10_answers_within_its_limit_and_ends_quietly(tmp_pat
     """In real time the pole has fallen before anybody is there; what is sent then is at the motor's limit."""
     efforts = {"/cart_effort": ("std_msgs/msg/Float64", "data")}
     with robot("--world", "cart_pole", "--headless") as cart:
-        found = told(cart, tmp_path / "errors", "10_control", ["pole_main"], number, 1.0, efforts)
+        until = "len(heard['/cart_effort']) > 20 and max(map(abs, heard['/cart_effort'])) >= 10"
+        found = told(cart, tmp_path / "errors", "10_control", ["pole_main"], number, until, listen=efforts)
     assert (found["ended"], found["errors"]) == ([0], "")
-    assert len(found["heard"]["/cart_effort"]) > 20
     assert max(map(abs, found["heard"]["/cart_effort"])) == 10.0
 
 
 @BOTH
 @pytest.mark.soak
 def test_the_watchdog_of_lesson_12_sends_zeros_where_nobody_drives(yard, tmp_path, number):
-    found = told(yard, tmp_path / "errors", "12_safety", ["watchdog_main"], number, listen=COMMANDS)
+    until = "len(heard['/cmd_vel']) > 5"
+    found = told(yard, tmp_path / "errors", "12_safety", ["watchdog_main"], number, until, listen=COMMANDS)
     assert (found["ended"], found["errors"]) == ([0], "")
     assert set(found["heard"]["/cmd_vel"]) == {0.0}
 
@@ -202,7 +213,6 @@ def test_the_three_programs_of_lesson_13_set_out_for_an_order(tmp_path):
     listen = {"/state": ("std_msgs/msg/String", "data"), **COMMANDS}
     with robot("--world", "warehouse", "--headless") as warehouse:
         names = ["Perception", "Decision", "Control"]
-        found = told(warehouse, tmp_path / "errors", "13_delivery", names, seconds=20, listen=listen)
+        until = "'fetch' in heard['/state'] and max(heard['/cmd_vel']) > 0.2"
+        found = told(warehouse, tmp_path / "errors", "13_delivery", names, until=until, listen=listen)
     assert (found["ended"], found["errors"]) == ([0, 0, 0], "")
-    assert "fetch" in found["heard"]["/state"]
-    assert max(found["heard"]["/cmd_vel"]) > 0.2

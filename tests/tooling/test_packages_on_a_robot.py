@@ -14,7 +14,8 @@ from tests.sim.standalone.programs import environment, robot
 pytestmark = pytest.mark.soak  # builds a package, and launches it in real time
 
 LESSON = Path(__file__).parents[2] / "course" / "11_packages" / "lesson.ipynb"
-IN_A_TERMINAL = "source ws/install/setup.bash && exec ros2 launch my_robot one.launch.yaml gap:=1.0"
+LAUNCH = f"ros2 launch my_robot one.launch.yaml gap:=1.0 sigterm_timeout:={PATIENCE}"
+IN_A_TERMINAL = f"source ws/install/setup.bash && exec {LAUNCH}"
 
 
 def write_workspace(folder):
@@ -45,11 +46,11 @@ def test_the_package_of_lesson_11_drives_a_robot_until_ctrl_c(tmp_path):
             cwd=tmp_path, env=terminal(**domain), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         )  # fmt: skip
         try:
-            yard.hear_until(lambda heard: heard["v"] > 0.25)
+            yard.receive_until(lambda received: received["v"] > 0.25)
         finally:
             launched.send_signal(signal.SIGINT)
             said = launched.communicate(timeout=PATIENCE)[0]
-        yard.hear_until(lambda heard: heard["v"] == 0.0)
+        yard.receive_until(lambda received: received["v"] == 0.0)
     assert "I stop 1.0 m before a wall" in said
     assert "process has finished cleanly" in said
     assert launched.returncode == 0, said

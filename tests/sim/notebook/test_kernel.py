@@ -9,6 +9,7 @@ import pytest
 from jupyter_client.manager import start_new_kernel
 
 from tests.browser.lab import ROOT
+from tests.patience import PATIENCE
 
 ROBOT = "class Robot(Node):\n    def __init__(self):\n        super().__init__('robot')\n"
 NOT_RUN = (
@@ -23,7 +24,9 @@ class Kernel:
 
     def __init__(self, notebook) -> None:
         start = {"PYTHONSTARTUP": str(ROOT / "jupyter/kernel_start.py"), "JPY_SESSION_NAME": str(notebook)}
-        self.manager, self.client = start_new_kernel(kernel_name="python3", env={**os.environ, **start})
+        self.manager, self.client = start_new_kernel(
+            startup_timeout=PATIENCE, kernel_name="python3", env={**os.environ, **start}
+        )
 
     def run(self, code: str, cell: str) -> str:
         """Run a cell; what it says."""
@@ -32,7 +35,7 @@ class Kernel:
         self.client.shell_channel.send(message)
         said = []
         while True:
-            came = self.client.get_iopub_msg(timeout=120)
+            came = self.client.get_iopub_msg(timeout=PATIENCE)
             if came["parent_header"].get("msg_id") != message["header"]["msg_id"]:
                 continue
             content = came["content"]

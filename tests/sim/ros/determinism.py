@@ -9,6 +9,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from tests.patience import PATIENCE
+
 REPOSITORY = Path(__file__).resolve().parents[3]
 # What leads another environment's Python to this one's ROS libraries.
 OURS = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONPATH", "AMENT_PREFIX_PATH")
@@ -32,7 +34,13 @@ def digests(python: str | Path, hash_seed: int) -> str:
     environment |= {"PYTHONHASHSEED": str(hash_seed), "PYTHONPATH": str(REPOSITORY)}
     command = [str(python), "-m", "tests.sim.ros.programs"]
     done = subprocess.run(
-        command, cwd=REPOSITORY, env=environment, check=False, capture_output=True, text=True, timeout=300
+        command,
+        cwd=REPOSITORY,
+        env=environment,
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
     )
     if done.returncode:
         return f"failed with {done.returncode}: {done.stderr.strip()[-500:]}"

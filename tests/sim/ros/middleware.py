@@ -18,6 +18,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
+from tests.patience import PATIENCE
+
 COUNTS = "total_count", "alive_count", "not_alive_count"
 BEGIN = float(os.environ.get("FACTS_BEGIN", "0"))  # by the clock on the wall
 UNTIL_BEGIN = 4.0  # s: both have found each other by then
@@ -175,7 +177,7 @@ def observe(case: str) -> list[tuple[float, str, str]]:
         settings["FACTS_LISTENER"] = str(sides[0].pid)
     logged = []
     for who, side in zip("RW", sides, strict=True):
-        out, _ = side.communicate(timeout=30)
+        out, _ = side.communicate(timeout=PATIENCE)
         logged += [(stamp, who, words) for stamp, words in map(json.loads, out.splitlines())]
     return sorted(logged)
 

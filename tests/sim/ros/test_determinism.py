@@ -11,6 +11,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool
 
 from sim import run
+from tests.patience import PATIENCE
 from tests.sim.ros import determinism, programs
 from tests.students.engine import names, threads
 
@@ -44,7 +45,7 @@ def test_a_busy_machine_changes_nothing(here):
     """As the bench counts it: one run on a machine with idle processors, one on a busy one."""
     command = [sys.executable, "-m", "tests.bench.digests", "--runs", "2"]
     done = subprocess.run(
-        command, cwd=determinism.REPOSITORY, capture_output=True, text=True, timeout=600, check=False
+        command, cwd=determinism.REPOSITORY, capture_output=True, text=True, timeout=PATIENCE, check=False
     )
     begins = [digest[:4] for digest in here.split()]
     *_, idle, busy, logged = done.stdout.splitlines()
@@ -102,4 +103,4 @@ def test_two_processes_at_once_dont_hear_each_other(here):
         subprocess.Popen(command, cwd=determinism.REPOSITORY, stdout=subprocess.PIPE, text=True)
         for _ in range(2)
     ]
-    assert [child.communicate(timeout=300)[0].splitlines()[-1] for child in pair] == [here, here]
+    assert [child.communicate(timeout=PATIENCE)[0].splitlines()[-1] for child in pair] == [here, here]

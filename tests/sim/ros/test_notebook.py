@@ -45,7 +45,7 @@ def shown():
     """What each cell shows on stdout."""
     cells = [nbformat.v4.new_code_cell(dedented(source)) for source in CELLS.values()]
     notebook = nbformat.v4.new_notebook(cells=cells)
-    NotebookClient(notebook, timeout=PATIENCE, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=PATIENCE, startup_timeout=PATIENCE, kernel_name="python3").execute()
     return {
         name: "".join(o.text for o in cell.outputs if o.output_type == "stream" and o.name == "stdout")
         for name, cell in zip(CELLS, notebook.cells, strict=True)
@@ -71,7 +71,7 @@ def test_the_kernels_event_loop_is_not_the_nodes(shown):
 
 
 def test_the_stop_button_stops_a_run_and_the_kernel_lives_on():
-    manager, client = start_new_kernel(kernel_name="python3")
+    manager, client = start_new_kernel(kernel_name="python3", startup_timeout=PATIENCE)
     try:
         client.execute_interactive("from sim import run\nfrom tests.students.engine import mains")
         tells = "until=lambda recording: recording.stamp == 1 and print('under way')"

@@ -10,6 +10,7 @@ import sys
 import pytest
 
 from sim import run
+from tests.patience import PATIENCE
 from tests.students.engine import mains, output
 
 pytestmark = pytest.mark.pythons
@@ -108,7 +109,7 @@ def test_a_whole_process_writes_nothing_to_stderr():
         "recording = run(output.writes_everywhere, seconds=2, quiet=True)\n"
         "print(recording.stderr, end='')\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE)
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert lines[:2] == ["complained", "logged by python"]

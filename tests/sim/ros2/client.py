@@ -5,6 +5,8 @@ import sys
 
 from sim.ros2 import parser
 from sim.ros2.live import LiveSystem
+from tests.patience import until
+from tests.sim.ros2.nodes import known_endpoints
 
 
 class SharedSystem:
@@ -24,6 +26,7 @@ def main():
     command_parser = parser.make_parser()
     output, errors = [], []
     with LiveSystem(output.append, errors.append) as system:
+        until(lambda: known_endpoints(system._node) == int(sys.argv[1]), "the nodes")
         for line in sys.stdin:
             arguments = json.loads(line)
             status = parser.execute(

@@ -10,7 +10,7 @@ from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParam
 from rclpy.action import ActionServer
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
-from rclpy.node import Node
+from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from std_msgs.msg import Float64, String
 
@@ -93,16 +93,29 @@ class Lamp(LifecycleNode):
 
 
 NODES = (Talker, Listener, Adder, Counter, Lamp)
+NAMES = ("talker", "/"), ("listener", "/upstairs"), ("adder", "/"), ("counter", "/"), ("lamp", "/")
+
+
+def known_endpoints(node):
+    """How many topics and services of the nodes another one knows by now."""
+    queries = (
+        node.get_publisher_names_and_types_by_node,
+        node.get_subscriber_names_and_types_by_node,
+        node.get_service_names_and_types_by_node,
+    )
+    with contextlib.suppress(NodeNameNonExistentError):
+        return sum(len(query(*name)) for query in queries for name in NAMES)
+    return 0
 
 
 def main():
-    """All of them in one program, until Ctrl-C."""
+    """All of them in one program, until Ctrl-C. Prints how many topics and services they have."""
     rclpy.init()
     executor = SingleThreadedExecutor()
     nodes = [kind() for kind in NODES]
     for node in nodes:
         executor.add_node(node)
-    print("ready", flush=True)
+    print(known_endpoints(nodes[0]), flush=True)
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         executor.spin()
 

@@ -3,13 +3,14 @@
 import pytest
 from jupyter_client.manager import start_new_kernel
 
+from tests.patience import PATIENCE
 from tests.sim.ros.test_play_in_notebook import Kernel
 from tests.sim.ros2.official import OFFICIAL
 
 
 @pytest.fixture(scope="module")
 def kernel():
-    manager, client = start_new_kernel(kernel_name="python3")
+    manager, client = start_new_kernel(kernel_name="python3", startup_timeout=PATIENCE)
     yield Kernel(manager, client)
     client.stop_channels()
     manager.shutdown_kernel(now=True)

@@ -87,7 +87,8 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
     path = file(tmp_path, "mimic.launch.py", MIMIC + AROUND)
     told = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "both"}
     told["PYTHONPATH"] = os.pathsep.join([str(REPOSITORY), str(REPOSITORY / "ros_packages/python")])
-    process = start([*ROS2, "launch", str(path)], free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
+    arguments = [*ROS2, "launch", str(path), f"sigterm_timeout:={PATIENCE}"]
+    process = start(arguments, free_domain(), ROS_LOG_DIR=str(tmp_path / "log"), **told)
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, err) == (0, "")
     assert "[python3-5] it mimics\n" in out
@@ -101,7 +102,7 @@ def test_the_tutorials_launch_file_brings_two_ponds_with_pages_and_a_mimic(tmp_p
 
 @pytest.mark.soak
 def test_turtlesims_own_launch_file_brings_two_ponds_with_pages(tmp_path):
-    arguments = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", "sigterm_timeout:=300"]
+    arguments = [*ROS2, "launch", "-a", "turtlesim", "multisim.launch.py", f"sigterm_timeout:={PATIENCE}"]
     process = start(arguments, free_domain(), ROS_LOG_DIR=str(tmp_path))
     lines = []
     while len([line for line in lines if "See and drive it at" in line]) < 2:

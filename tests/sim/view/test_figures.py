@@ -17,6 +17,7 @@ from sim.evidence import CallbackError, Pose
 from sim.view import animate, plot_path, plot_signal, plot_topics, png
 from tests.grader import recordings
 from tests.grader.recordings import published
+from tests.patience import PATIENCE
 from tests.sim.view.worlds import CROWDED
 from tests.students import misfits
 from tests.students.engine import actions, goals, services
@@ -225,7 +226,7 @@ from sim import Recording
 png(plot_topics(Recording()))
 assert "matplotlib.pyplot" not in sys.modules
 """
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=PATIENCE)
 
 
 def test_the_animation_shows_the_robot_on_its_path():
