@@ -1,17 +1,22 @@
 """What is probably wrong: functions over a recording that give a sentence for the student, or nothing."""
 
+from collections.abc import Callable, Iterable
+
 from grader.diagnosis import (
     actions,
     activity,
     connections,
     driving,
     first_attempts,
+    missed_messages,
     names,
     owners,
     parameters,
     radio,
     services,
+    two_executors,
 )
+from grader.diagnosis.bundled import as_course_programs
 from grader.diagnosis.faults import find_fault
 from sim.evidence import Recording
 
@@ -22,14 +27,17 @@ DIAGNOSES = (
     activity.slow_callback,
     names.shared_name,
     owners.two_owners,
+    two_executors.two_executors,
     names.topic_name_typo,
     names.service_name_typo,
     parameters.unknown_parameter,
     parameters.misspelt_parameter,
     parameters.whole_parameter,
+    parameters.untyped_list,
     connections.incompatible_qos,
     connections.publisher_for_each_message,
     connections.published_too_early,
+    missed_messages.sent_before_spinning,
     services.not_offered,
     services.no_server,
     activity.never_spun,
@@ -43,6 +51,7 @@ DIAGNOSES = (
     services.response_dropped,
     activity.ended_early,
     activity.unused_publisher,
+    activity.quiet_publisher,
     activity.empty_node,
     radio.lost_on_the_network,
     radio.late_on_the_network,
@@ -51,6 +60,7 @@ DIAGNOSES = (
 GUESSES = (
     services.response_dropped,
     activity.ended_early,
+    activity.quiet_publisher,
     radio.lost_on_the_network,
     radio.late_on_the_network,
 )
@@ -70,7 +80,7 @@ FLAWS = (
 
 def explain(recording: Recording) -> str:
     """The first diagnosis that fits, or "" when none does."""
-    return next((sentence for diagnose in DIAGNOSES if (sentence := diagnose(recording))), "")
+    return _first(recording, DIAGNOSES)
 
 
 def find_flaw(recording: Recording) -> str:
@@ -78,4 +88,9 @@ def find_flaw(recording: Recording) -> str:
     certain = [diagnose for diagnose in DIAGNOSES if diagnose not in GUESSES]
     unused = certain.index(activity.unused_publisher)  # what is likelier comes before
     ordered = (*certain[:unused], *FIRST_ATTEMPTS, *certain[unused:], *FLAWS)
-    return next((sentence for diagnose in ordered if (sentence := diagnose(recording))), "")
+    return _first(recording, ordered)
+
+
+def _first(recording: Recording, diagnoses: Iterable[Callable[[Recording], str]]) -> str:
+    students = as_course_programs(recording)
+    return next((sentence for diagnose in diagnoses if (sentence := diagnose(students))), "")

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
+
 from sim.evidence import CANCEL_REJECTED, CANCEL_REQUESTED, Goal, Recording
 
 # What rclpy warns of, and does all the same.
 _NO_GOAL_RESPONSE = "did not return a GoalResponse type"
+_LAST_MOMENT = 0.5  # s: what is requested so shortly before the end of a run may come to nothing
+_ONE_STEP = 0.2  # s: between two looks at is_cancel_requested, where feedback doesn't show the steps
 _NO_ENDING = "Goal state not set, assuming aborted"
 
 
@@ -34,7 +38,7 @@ def cancel_ignored(recording: Recording) -> str:
     """A server that agrees to cancel a goal and then goes on with it."""
     for goal in recording.goals:
         agreed = goal.at("canceling")
-        if agreed is not None and goal.status != "canceled":
+        if agreed is not None and goal.status != "canceled" and _went_on(goal, agreed, recording):
             went_on = f"went on until it {_past(goal)}" if goal.over else "went on all the same"
             return (
                 f"{goal.server} agreed at {agreed:.3g} s to cancel the goal of {goal.action}, and {went_on}. "
@@ -50,7 +54,17 @@ def cancel_not_handled(recording: Recording) -> str:
         asked, heard = goal.at(CANCEL_REQUESTED), goal.at("canceling") or goal.at(CANCEL_REJECTED)
         if asked is None or goal.at("executing") is None or (heard is not None and heard <= asked):
             continue
+        if heard is None and recording.ended.stamp - asked < _LAST_MOMENT:
+            continue
         if not goal.over or (heard is not None and goal.at(goal.status) <= heard):
+            held = _cancel_callback(recording, goal, asked)
+            if held > 0.0:
+                return (
+                    f"{goal.client} asked at {asked:.3g} s to cancel its goal, and the cancel callback of "
+                    f"{goal.server} took {held:.3g} s; meanwhile the goal went on, and ended. Return "
+                    "CancelResponse.ACCEPT at once, and do what takes time in execute, once "
+                    "goal_handle.is_cancel_requested is True."
+                )
             late = f"heard it only at {heard:.3g} s" if heard is not None else "never heard it"
             return (
                 f"{goal.client} asked at {asked:.3g} s to cancel its goal, and {goal.server} {late}: "
@@ -72,6 +86,25 @@ def cancel_refused(recording: Recording) -> str:
                 "CancelResponse.ACCEPT."
             )
     return ""
+
+
+def _went_on(goal: Goal, agreed: float, recording: Recording) -> bool:
+    """Whether a server had time to see that its goal is to be canceled: it looks once in each step."""
+    steps = [after.stamp - before.stamp for before, after in itertools.pairwise(goal.feedback)]
+    ended = goal.at(goal.status) if goal.over else recording.ended.stamp
+    return ended - agreed > max([_ONE_STEP, *steps]) + 1e-6
+
+
+def _cancel_callback(recording: Recording, goal: Goal, requested: float) -> float:
+    """For how long a server's cancel callback held the request that came at that time, s."""
+    return max(
+        (
+            run.duration
+            for run in recording.callbacks
+            if run.node == goal.server and run.kind == "action" and run.stamp == requested
+        ),
+        default=0.0,
+    )
 
 
 def _past(goal: Goal) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
+from grader.diagnosis.parameters import OF_EVERY_NODE
+from sim.evidence import CALLS_PUBLISH, INFRASTRUCTURE_TOPICS, SPUN, WATCHES, CallbackRun, Recording
 
 
 def slow_callback(recording: Recording) -> str:
@@ -87,13 +88,14 @@ def _waiting_work(recording: Recording, node: str) -> str:
     listening = {e.name for e in recording.graph.subscriptions() if e.node == node} - INFRASTRUCTURE_TOPICS
     served = {end.name for end in recording.graph.ends("service") if end.node == node}
     acting = {end.name for end in recording.graph.ends("action server") if end.node == node}
-    if any(heard.topic in listening for heard in recording.published):
+    spun = any(row.node == node and row.fact == SPUN for row in recording.node_facts)
+    if not spun and any(heard.topic in listening for heard in recording.published):
         return "a subscription with messages waiting"
     if any(call.service in served and not call.lost for call in recording.calls):
         return "a service with requests waiting"
     if any(goal.action in acting and not goal.lost for goal in recording.goals):
         return "an action with goals waiting"
-    return "a subscription" if listening and finished else ""
+    return "a subscription" if listening and finished and not spun else ""
 
 
 def busy_loop(recording: Recording) -> str:
@@ -119,13 +121,23 @@ def ended_early(recording: Recording) -> str:
 
 
 def unused_publisher(recording: Recording) -> str:
-    """A publisher that never sent anything."""
+    """A publisher that never sent anything, in code without a call of publish()."""
+    calling = {row.node for row in recording.node_facts if row.fact == CALLS_PUBLISH}
+    return _silent_publisher(recording, calling)
+
+
+def quiet_publisher(recording: Recording) -> str:
+    """A publisher that never sent anything, although there may have been nothing to send."""
+    return _silent_publisher(recording, set())
+
+
+def _silent_publisher(recording: Recording, excused: set[str]) -> str:
     used = {(heard.sender, heard.topic) for heard in recording.published}
     for end in recording.graph.publishers():
         if (
             (end.node, end.name) in used
             or end.name in INFRASTRUCTURE_TOPICS
-            or end.node in recording.course_nodes
+            or end.node in recording.course_nodes | excused
         ):
             continue
         what_next = _who_should_publish(recording, end.node)
@@ -147,6 +159,13 @@ def _who_should_publish(recording: Recording, node: str) -> str:
     return "It has no timer either: self.create_timer(seconds, self.callback) calls a method again and again."
 
 
+def _parameter_holders(recording: Recording) -> set[str]:
+    """Nodes that declare parameters of their own, which other nodes may read and set."""
+    return {
+        row.node for row in recording.parameters if row.declared and not row.name.startswith(OF_EVERY_NODE)
+    }
+
+
 def empty_node(recording: Recording) -> str:
     """A node that was created, and nothing in it: it does not even log."""
     busy = {
@@ -156,8 +175,11 @@ def empty_node(recording: Recording) -> str:
     # of the services that every node has, too, which are not in the graph
     busy |= {node for call in recording.calls for node in (call.client, call.server)}
     busy |= {"/" + line.node.replace(".", "/") for line in recording.logs}
+    busy |= {row.node for row in recording.node_facts if row.fact == WATCHES} | _parameter_holders(recording)
+    if recording.ended.reason == "finished" or any(stamp > 0.0 for stamp, _ in recording.prints):
+        return ""  # its program does something without the node's callbacks
     for node in recording.graph.nodes:
-        if node not in busy:
+        if node not in busy and node not in recording.course_nodes:
             return f"{node} has no publisher, no subscription and no timer: nothing can happen in it."
     return ""
 

@@ -10,6 +10,7 @@ from grader.diagnosis.python_rules import PYTHON_RULES
 from grader.diagnosis.rules import RULES
 from grader.diagnosis.sensor_rules import SENSOR_RULES
 from grader.diagnosis.service_rules import SERVICE_RULES
+from grader.diagnosis.transform_rules import TRANSFORM_RULES
 from sim.evidence import CallbackError
 from sim.notebook import explain_missing_name
 from sim.ros.absent_names import explain_absent_name
@@ -44,6 +45,17 @@ _HOMES = {
 }
 
 
+_ALL_RULES = (
+    *PACKAGE_RULES,
+    *SERVICE_RULES,
+    *PARAMETER_RULES,
+    *SENSOR_RULES,
+    *TRANSFORM_RULES,
+    *RULES,
+    *PYTHON_RULES,
+)
+
+
 def advice(error: CallbackError) -> str:
     """What to do about an error, as far as it's one of the usual ones."""
     if error.type == "NameError":
@@ -51,7 +63,7 @@ def advice(error: CallbackError) -> str:
     absent = explain_absent_name(error.type, error.text)
     if absent:
         return absent
-    for rule in (*PACKAGE_RULES, *SERVICE_RULES, *PARAMETER_RULES, *SENSOR_RULES, *RULES, *PYTHON_RULES):
+    for rule in _ALL_RULES:
         found = re.search(rule.pattern, error.text) if error.type == rule.type else None
         if found:
             return rule.advice.format(*found.groups())

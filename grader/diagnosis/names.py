@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, Graph, Recording
+from sim.evidence import INFRASTRUCTURE_TOPICS, Endpoint, Graph, Recording
 from sim.evidence.connections import name_difference
 from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 
@@ -31,7 +32,7 @@ def topic_name_typo(recording: Recording) -> str:
     published = {e.name: e for e in recording.graph.publishers() if e.name not in INFRASTRUCTURE_TOPICS}
     heard = {e.name: e for e in recording.graph.subscriptions() if e.name not in INFRASTRUCTURE_TOPICS}
     for name, near in _nearly_met(heard, published):
-        if not (published[near].from_course and heard[name].from_course):
+        if _may_be_typo(published[near], heard[name]):
             return (
                 f"{published[near].node} publishes on {near}, {heard[name].node} listens on {name}: "
                 f"two different topics. {name_difference(published[near], heard[name])}"
@@ -49,11 +50,26 @@ def service_name_typo(recording: Recording) -> str:
         wanted = {end.name: end for end in recording.graph.ends(client_kind)}
         for name, near in _nearly_met(wanted, offered):
             given, asked = offered[near], wanted[name]
+            if not _may_be_typo(given, asked):
+                continue
             return (
                 f"{asked.node} calls {name}, {given.node} offers {near}: two different {what}. "
                 f"{name_difference(given, asked)}"
             )
     return ""
+
+
+def _may_be_typo(given: Endpoint, wanted: Endpoint) -> bool:
+    """Whether two ends of nearly the same name were meant to meet.
+
+    Not two of the course's, nor two of one node, which passes something on, nor two that differ in type
+    or only in a number, as those of two robots do.
+    """
+    if given.from_course and wanted.from_course:
+        return False
+    numbered = re.sub(r"\d+", "0", given.name) == re.sub(r"\d+", "0", wanted.name)
+    students = not given.from_course and not wanted.from_course
+    return given.node != wanted.node and given.type == wanted.type and not (numbered and students)
 
 
 def misspelt(recording: Recording) -> list[tuple[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from grader.diagnosis.bundled import bundled_nodes
 from sim.evidence import INFRASTRUCTURE_TOPICS, Recording
 
 # Many publish here, each for frames of its own.
@@ -23,7 +24,12 @@ class Intrusion(NamedTuple):
 
 def owned(recording: Recording, kind: str) -> dict[str, str]:
     """Names that programs of ours publish on or serve, each with its node. kind: as in `Endpoint`."""
-    ends = (end for end in recording.graph.ends(kind) if end.from_course and end.name not in COMMON_TOPICS)
+    bundled = bundled_nodes(recording)
+    ends = (
+        end
+        for end in recording.graph.ends(kind)
+        if end.from_course and end.node not in bundled and end.name not in COMMON_TOPICS
+    )
     return {end.name: end.node for end in ends}
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from grader.diagnosis.ros_situations import empty_list_advice
 from sim.evidence import Call, Recording
 from sim.suggestions import closest_match, closest_ros_name
 
 _GET, _SET = "/get_parameters", "/set_parameters"
 _WHOLE = re.compile(r"Wrong parameter type, expected '\S*INTEGER' got '\S*DOUBLE'")
-_OF_EVERY_NODE = ("use_sim_time", "start_type_description_service", "qos_overrides.")
+_EMPTY = re.compile(r"Wrong parameter type, expected '\S*BYTE_ARRAY' got '(?:\S*\.)?(\w+_ARRAY)'")
+OF_EVERY_NODE = ("use_sim_time", "start_type_description_service", "qos_overrides.")
 
 
 def unknown_parameter(recording: Recording) -> str:
@@ -18,7 +20,7 @@ def unknown_parameter(recording: Recording) -> str:
     rows = [
         row
         for row in recording.parameters
-        if row.node not in recording.course_nodes and not row.name.startswith(_OF_EVERY_NODE)
+        if row.node not in recording.course_nodes and not row.name.startswith(OF_EVERY_NODE)
     ]
     declared = {row.name for row in rows if row.declared}
     for _, node, name, _ in rows:
@@ -40,7 +42,7 @@ def misspelt_parameter(recording: Recording) -> str:
         node, request = call.service.rpartition("/")[0], call.request
         names = request.names if call.service.endswith(_GET) else [one.name for one in request.parameters]
         declared = {row.name for row in recording.parameters if row.declared and row.node == node}
-        own = [name for name in declared if not name.startswith(_OF_EVERY_NODE)]
+        own = [name for name in declared if not name.startswith(OF_EVERY_NODE)]
         for name in names:
             near = "" if name in declared else closest_ros_name(name, own)
             if near:
@@ -62,6 +64,18 @@ def whole_parameter(recording: Recording) -> str:
                     f"and ROS refuses {one.value.double_value:g}. Write the default with a decimal point: "
                     "0.0, not 0."
                 )
+    return ""
+
+
+def untyped_list(recording: Recording) -> str:
+    """A parameter whose default is an empty list, and that is given a list of text or numbers."""
+    for call in recording.calls:
+        if not call.service.endswith(_SET) or call.response is None or call.served_by_course:
+            continue
+        for one, result in zip(call.request.parameters, call.response.results, strict=False):
+            refused = _EMPTY.search(result.reason)
+            if refused:
+                return empty_list_advice(one.name, refused[1])
     return ""
 
 

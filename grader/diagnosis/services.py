@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from grader.diagnosis.bundled import bundled_nodes
 from sim.evidence import Recording, is_node_service
 
 SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
@@ -9,6 +10,7 @@ SPIN = "rclpy.spin(node), or rclpy.spin_until_future_complete(node, future)"
 
 def not_offered(recording: Recording) -> str:
     """Something that is called in vain: no node offers it, or there is no node of that name."""
+    bundled = bundled_nodes(recording)
     offers = (("client", "service", "service"), ("action client", "action server", "action"))
     asked = {(call.client, call.service) for call in recording.calls}
     asked |= {(goal.client, goal.action) for goal in recording.goals}
@@ -16,6 +18,8 @@ def not_offered(recording: Recording) -> str:
     for client_kind, server_kind, what in offers:
         offered = {end.name for end in recording.graph.ends(server_kind)}
         for end in recording.graph.ends(client_kind):
+            if end.node in bundled:
+                continue
             waits = (end.node, end.name) in asked or end.node not in active
             if end.name not in offered and waits:
                 return (

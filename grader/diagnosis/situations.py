@@ -8,6 +8,7 @@ import re
 from grader.diagnosis.other_types import other_type
 from grader.diagnosis.package_rules import own_module
 from grader.diagnosis.rays import rays_without_distance
+from grader.diagnosis.ros_situations import asyncio_pause, empty_list, invalid_transition
 from sim.evidence import CallbackError, Recording
 from sim.ros.messages.codec import message_class
 
@@ -29,6 +30,9 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or other_type(error, recording)
         or _not_there(error)
         or _no_distance(error, recording)
+        or invalid_transition(error, recording)
+        or asyncio_pause(error)
+        or empty_list(error)
     )
 
 

@@ -23,13 +23,20 @@ from sim.evidence.failure import first_error, first_line, frames_of, place_of
 from sim.evidence.graph import Endpoint, Graph, TimerInfo
 from sim.evidence.recording import Recording
 from sim.evidence.rows import (
+    BUNDLED,
+    CALLS_PUBLISH,
+    FACTS,
     INFRASTRUCTURE_TOPICS,
+    SPUN,
+    TAKEN_OVER,
+    WATCHES,
     BusyLoop,
     CallbackError,
     CallbackRun,
     Ended,
     LogLine,
     Message,
+    NodeFact,
     ParameterName,
     Pose,
     Seconds,
@@ -40,12 +47,18 @@ from sim.evidence.rows import (
 )
 
 __all__ = [
+    "BUNDLED",
+    "CALLS_PUBLISH",
     "CANCEL_REJECTED",
     "CANCEL_REQUESTED",
     "ENDINGS",
+    "FACTS",
     "INFRASTRUCTURE_TOPICS",
     "REJECTED",
+    "SPUN",
     "STATUSES",
+    "TAKEN_OVER",
+    "WATCHES",
     "BusyLoop",
     "Call",
     "CallbackError",
@@ -57,6 +70,7 @@ __all__ = [
     "Graph",
     "LogLine",
     "Message",
+    "NodeFact",
     "ParameterName",
     "Pose",
     "Recording",

@@ -91,6 +91,22 @@ class ParameterName(NamedTuple):
     declared: bool
 
 
+BUNDLED = "bundled"  # it belongs to a program of a ROS package that the course includes, such as turtlesim
+SPUN = "spun"  # an executor has looked at its callbacks
+TAKEN_OVER = "taken over"  # a second executor took it away from one that spins
+WATCHES = "watches"  # it subscribes to a topic that every node has, such as /parameter_events
+CALLS_PUBLISH = "calls publish"  # the code that made its publisher has a call of publish()
+FACTS = (BUNDLED, CALLS_PUBLISH, SPUN, TAKEN_OVER, WATCHES)
+
+
+class NodeFact(NamedTuple):
+    """What is known of a node beside what it did; one of FACTS, once for each node."""
+
+    stamp: Seconds
+    node: str
+    fact: str
+
+
 class Pose(NamedTuple):
     """Where the robot really was (ground truth, map frame)."""
 

@@ -15,6 +15,7 @@ from sim.evidence.rows import (
     Ended,
     LogLine,
     Message,
+    NodeFact,
     ParameterName,
     Pose,
     Seconds,
@@ -62,3 +63,4 @@ class RunData:
     network: Network | None = None  # between hosts; None where all programs run on one
     hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
+    node_facts: list[NodeFact] = field(default_factory=list)  # for the diagnosis; no part of the digest

@@ -36,6 +36,7 @@ _KEYS = {
     "undelivered": "unheard",
     "course_errors": "failures",
 }
+ADDED = ("node_facts",)  # later than the format: older files don't have them
 _YES = {True: "yes", False: "no"}
 _D = TypeVar("_D", bound=RunData)
 PLAIN = (float, int, str, bool, bytes, Any)
@@ -129,7 +130,8 @@ def _parse(path: Path, data: bytes, kind: type[_D]) -> _D:
         )
         for schema, channel, message in reader.iter_messages(log_time_order=False)
     ]
-    restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in _rest(kind).items()}
+    known = {name: hint for name, hint in _rest(kind).items() if name not in ADDED or name in rest}
+    restored = {name: _maker(hint)(rest[_KEYS.get(name, name)]) for name, hint in known.items()}
     recording = kind(published=published, **restored)
     if digest_of(recording) != rest["digest"]:
         raise ValueError("its digest is another")

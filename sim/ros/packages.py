@@ -44,6 +44,7 @@ def executable(package: str, name: str) -> Callable[[], None]:
         _start(file)
 
     main.__name__ = main.__qualname__ = name
+    main.bundled = bundled is not None
     return main
 
 

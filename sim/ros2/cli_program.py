@@ -25,12 +25,16 @@ def terminal(command: str | Callable[[], str]) -> Process:
     def ros2() -> None:  # the program's name
         _execute_line(command() if callable(command) else command)
 
+    ros2.bundled = True
     return Process(ros2)
 
 
 def ros2() -> None:
     """Execute the command whose arguments are in `sys.argv`: the main() of `ros2` in a launch file."""
     _execute(sys.argv[1:])
+
+
+ros2.bundled = True  # not the student's
 
 
 def _execute_line(line: str) -> None:

@@ -11,6 +11,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.subscription import Subscription
 
+from sim.evidence import SPUN
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
 from sim.ros.engine.service_work import response_work, service_work
@@ -94,6 +95,7 @@ class ReadyScan:
         events: list[Entry] = []
         for node in list(self.executor._nodes):
             subscriptions = self._subscriptions(node)  # first: a class in its place fails here
+            self.engine.recorder.node_fact(node, SPUN)
             handlers = [w for w in node.waitables if isinstance(w, EventHandler)]
             events += [(ReadyScan._event, w, node) for w in handlers if "_sim" not in w.__dict__]
             self.timers += node.timers

@@ -24,6 +24,7 @@ from rclpy.executors import (
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.task import Task
 
+from sim.evidence import TAKEN_OVER
 from sim.nanoseconds import Nanoseconds, nanoseconds
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
@@ -64,6 +65,8 @@ class SimExecutor(Waiter):
         self._workers: list[threading.Thread] = []  # their thread objects; none is ever started
         self._pass: Iterator[Work] | None = None
         self._depth = 0  # callbacks of this executor that are on the stack
+        self.spinning = 0  # calls of `spin_once` under way
+        self.lost: list[Any] = []  # nodes that another executor took over while this one did not spin
         self._lends = False  # work is given to student code, which runs it when and where it likes
 
     def _busy(self) -> bool:
@@ -89,6 +92,8 @@ class SimExecutor(Waiter):
         engine = self.engine
         engine.current.process.check_init()
         until = self._end_of(timeout)
+        self.spinning += 1
+        self._report_lost_nodes()
         try:
             while not self._over(done, parallel):
                 if self.running:
@@ -102,7 +107,20 @@ class SimExecutor(Waiter):
                 ready = None if done is never else done
                 engine.wait("spin()", ready=ready, until=until, spinning=self)
         finally:
+            self.spinning -= 1
             engine.student_code_ran()
+
+    def added_elsewhere(self, node: Any) -> None:
+        """Another executor takes over a node of this one: recorded as soon as this one spins."""
+        self.lost.append(node)
+        if self.spinning:
+            self._report_lost_nodes()
+
+    def _report_lost_nodes(self) -> None:
+        while self.lost:
+            node = self.lost.pop()
+            if node.executor is not self.executor:
+                self.engine.recorder.node_fact(node, TAKEN_OVER)
 
     def handlers(
         self, timeout: float | TimeoutObject | None, nodes: Collection[Any] | None, done: Callable[[], bool]

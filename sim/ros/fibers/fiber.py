@@ -25,6 +25,7 @@ class Program(Protocol):
     name: str
     nodes: list[Any]
     from_course: bool  # the course's, not the student's
+    bundled: bool  # of a ROS package that the course includes
     host: str  # the computer that it runs on
     reader: Callable[[str, str], Any] | None  # called with "stdout" or "stderr", and text
     steps: int  # its callbacks, and its fibers' turns except those that only poll an executor

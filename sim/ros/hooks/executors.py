@@ -12,6 +12,7 @@ from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecu
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
 
+from sim.evidence import SPUN
 from sim.nanoseconds import nanoseconds
 from sim.ros.engine.sim_executor import OrderedNodes, SimExecutor, never
 from sim.ros.fibers.scheduler import engine
@@ -83,8 +84,25 @@ def _changes_entities(name: str) -> None:
         return replacement
 
 
-for _name in ("wake", "add_node", "remove_node"):
+for _name in ("wake", "remove_node"):
     _changes_entities(_name)
+
+
+@hook(Executor, "add_node", "executors list their entities anew; a node that leaves another one is recorded")
+def add_node(original: Callable) -> Callable:
+    def add_node(self: Executor, node: Node) -> bool:
+        run = engine()
+        if run is None:
+            return original(self, node)
+        run.waiters.endpoints_changed()
+        before = node.executor
+        spun_before = isinstance(before, Executor) and before is not self and node in before._nodes
+        added = original(self, node)
+        if spun_before:
+            before._sim.added_elsewhere(node)
+        return added
+
+    return add_node
 
 
 @hook(GuardCondition, "trigger", "there is no wait set to notice that a guard condition was triggered")
@@ -126,6 +144,7 @@ def wait_for_message(original: Callable) -> Callable:
         if run is None:
             return original(msg_type, node, topic, qos_profile=qos_profile, time_to_wait=time_to_wait)
         subscription = node.create_subscription(msg_type, topic, lambda _: None, qos_profile)
+        run.recorder.node_fact(node, SPUN)
         taken: list[Any] = []
 
         def arrived() -> bool:

@@ -83,7 +83,7 @@ class SimProcess:
         def body() -> None:
             self._run_main()
 
-        body.__name__ = main.__name__
+        body.__name__, body.bundled = main.__name__, getattr(main, "bundled", False)
         launch = run.current.process
         self._process = run.start(
             Process(body, arguments=arguments, host=launch.host), from_course=launch.from_course

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from typing import Any
 
@@ -9,7 +10,10 @@ import greenlet
 from rclpy.executors import ExternalShutdownException
 
 from sim.evidence import (
+    BUNDLED,
+    CALLS_PUBLISH,
     INFRASTRUCTURE_TOPICS,
+    WATCHES,
     BusyLoop,
     CallbackError,
     CallbackRun,
@@ -17,6 +21,7 @@ from sim.evidence import (
     Endpoint,
     LogLine,
     Message,
+    NodeFact,
     ParameterName,
     Recording,
     TimerInfo,
@@ -33,10 +38,12 @@ from sim.ros.messages.codec import type_name
 from sim.ros.recorder.action_goals import Goals
 from sim.ros.recorder.base import RecorderBase
 from sim.ros.recorder.calls import Calls
+from sim.ros.recorder.publish_calls import calls_publish
 from sim.ros.recorder.records import DeclaredEndpoint
 from sim.ros.recorder.running import RunningCallback, callback_name
 from sim.ros.recorder.tracebacks import student_traceback, text_of
 
+CLOCK = "/clock"
 MAX_LOG_LINES = 100_000
 MAX_PRINTED = 1_000_000  # characters
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
@@ -65,6 +72,7 @@ class Recorder(RecorderBase):
         self._known: list[BaseException] = []
         self._undelivered: set[tuple[str, str]] = set()  # nodes and topics
         self._busy: set[tuple[str, str]] = set()  # nodes and callbacks with a loop without a pause
+        self._facts: set[tuple[str, str]] = set()  # nodes, and what is known of them
 
     def node_created(self, node: Any) -> None:
         """A node was created."""
@@ -75,6 +83,8 @@ class Recorder(RecorderBase):
         self.node_named(
             name, from_course=self.is_course_node(), host=LAPTOP if fiber is None else fiber.process.host
         )
+        if fiber is not None and fiber.process.bundled:
+            self.node_fact(node, BUNDLED)
 
     def node_named(self, name: str, *, from_course: bool, host: str = LAPTOP) -> None:
         """There is a node of this full name, of a program of the course or of the student."""
@@ -98,6 +108,26 @@ class Recorder(RecorderBase):
             chosen = {} if qos is None else settings(qos)
             end = Endpoint(kind, of, name, type_name(type_), chosen, self.is_course_node())
             self.recording.graph.endpoints.append(end)
+            if kind == "publisher" and self._is_students() and calls_publish(sys._getframe(1)):
+                self.node_fact(node, CALLS_PUBLISH)
+
+        elif kind == "subscription" and name in INFRASTRUCTURE_TOPICS - {CLOCK} and self._is_students():
+            self.node_fact(node, WATCHES)
+
+    def _is_students(self) -> bool:
+        """Whether a program of the student's is running in this process."""
+        fiber = self.scheduler.current
+        return fiber is not None and not fiber.process.from_course
+
+    def node_fact(self, node: Any, fact: str) -> None:
+        """Something is known of a node: one of FACTS; recorded once."""
+        self.fact(self.name_of(node), fact)
+
+    def fact(self, name: str, fact: str) -> None:
+        """As `node_fact`, of the node with this full name."""
+        if self.open and (name, fact) not in self._facts:
+            self._facts.add((name, fact))
+            self.recording.node_facts.append(NodeFact(self.now, name, fact))
 
     def timer_created(self, node: Any, timer: Any) -> None:
         """A node created a timer."""

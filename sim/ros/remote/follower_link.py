@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 # Which process has the client and the server of a call; the leader records what its own nodes do.
 BOTH_HERE, CLIENT_HERE, SERVER_HERE = "both here", "client here", "server here"
 RESULT_SERVICE = "/_action/get_result"
-WITH_STAMP = {"logs", "prints", "errors", "busy_loops", "unheard", "parameters"}
+WITH_STAMP = {"logs", "prints", "errors", "busy_loops", "unheard", "parameters", "node_facts"}
 MAX_PRINT_PIECES = 1_000  # of printed text, at a time step
 
 
@@ -109,6 +109,7 @@ class FollowerLink(ProcessLink):
             "busy_loops": NewItems(recording.busy_loops),
             "unheard": NewItems(recording.undelivered),
             "parameters": NewItems(recording.parameters),
+            "node_facts": NewItems(recording.node_facts),
             "errors": NewItems(recording.errors),
             "callbacks": NewItems(recording.callbacks),
         }

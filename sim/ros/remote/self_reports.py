@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from sim.evidence import (
+    FACTS,
     BusyLoop,
     CallbackError,
     CallbackRun,
@@ -46,6 +47,7 @@ class SelfReports:
             "busy_loops": (2, self._busy_loop),
             "unheard": (2, self._unheard),
             "parameters": (3, self._parameter),
+            "node_facts": (2, self._node_fact),
             "callbacks": (5, self._callback),
         }
 
@@ -107,6 +109,11 @@ class SelfReports:
     def _parameter(self, node: Any, name: Any, declared: Any) -> None:
         parameter = ParameterName(self._now, self._node(node), self._name(name), bool(declared))
         self._recording.parameters.append(parameter)
+
+    def _node_fact(self, node: Any, fact: Any) -> None:
+        if fact not in FACTS:
+            raise ProtocolError("an unknown fact of a node")
+        self._engine.recorder.fact(self._node(node), fact)
 
     def _callback(self, began: Any, lasted: Any, node: Any, callback: Any, kind: Any) -> None:
         if kind not in KINDS:

@@ -225,6 +225,7 @@ def test_an_invalid_event_ends_the_run(events, words):
         ({"logs": 5}, "logs that are not a list"),
         ({"logs": [["INFO", "talker"]]}, "logs that are not lists of 3"),
         ({"logs": [["LOUD", "talker", "hi"]]}, "a log line of unknown level"),
+        ({"node_facts": [["/talker", "asleep"]]}, "an unknown fact of a node"),
         ({"logs": [["INFO", "talker", 5]]}, "a log line that is not a text"),
         ({"prints": [5]}, "a print that is not a text"),
         ({"nodes": [5]}, "a node's name that is not a text"),

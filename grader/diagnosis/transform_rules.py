@@ -1,0 +1,32 @@
+"""Exceptions of tf2, as `rules` has those around topics."""
+
+from __future__ import annotations
+
+from grader.diagnosis.rules import Rule
+
+_CATCH = "Catch tf2_ros.TransformException around the lookup: at the start some transforms are missing."
+
+TRANSFORM_RULES = (
+    Rule(
+        "ExtrapolationException", r"into the future\. .* time (\S+) but the latest data is at time (\S+),",
+        "The transform for time {0} has not arrived yet: the newest is of time {1}. A transform often "
+        "arrives later than the measurement with its stamp. Use the newest one, with `rclpy.time.Time()` "
+        "in place of the stamp, or wait for it: `timeout=Duration(seconds=0.2)`, and "
+        f"`TransformListener(buffer, self, spin_thread=True)`, which receives meanwhile. {_CATCH}",
+    ),
+    Rule(
+        "ExtrapolationException", r"into the past\. .* time (\S+) but the earliest data is at time (\S+),",
+        "The buffer has nothing of time {0}: its earliest transform is of time {1}. It holds the last 10 s, "
+        f"and nothing from before the listener started. {_CATCH}",
+    ),
+    Rule(
+        "ExtrapolationException", r"at time (\S+), but only time (\S+) is in the buffer",
+        "The buffer has one transform, of time {1}, and none of time {0}: the other ones have not arrived "
+        f"yet. Use `rclpy.time.Time()` for the newest. {_CATCH}",
+    ),
+    Rule(
+        "LookupException", r"\"(.*)\" passed to lookupTransform argument (\w+) does not exist",
+        "No transform with the frame `{0}` has arrived: either no node publishes it, the name ({1}) has a "
+        f"typo, or the lookup comes too early. {_CATCH}",
+    ),
+)  # fmt: skip
