@@ -121,9 +121,11 @@ def ended_early(recording: Recording) -> str:
 
 
 def unused_publisher(recording: Recording) -> str:
-    """A publisher that never sent anything, in code without a call of publish()."""
+    """A publisher that never sent anything, in code that doesn't call publish(), or calls it too rarely."""
     calling = {row.node for row in recording.node_facts if row.fact == CALLS_PUBLISH}
-    return _silent_publisher(recording, calling)
+    early = {timer.node for timer in recording.graph.timers if timer.period <= recording.ended.stamp}
+    timed = {timer.node for timer in recording.graph.timers} - early  # no timer of theirs fired
+    return _silent_publisher(recording, calling - timed)
 
 
 def quiet_publisher(recording: Recording) -> str:
