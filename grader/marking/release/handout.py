@@ -22,7 +22,7 @@ from grader.work_folder import student_files
 NAME = "ros2-course"
 # Included besides lessons and exercises; parts of it are excluded below.
 INCLUDED = (
-    *("LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
+    *("COLCON_IGNORE", "LICENSE", "pyproject.toml", "requirements.lock", "nbgrader_config.py"),
     *(".ci/setup", ".ci/prefix", ".ci/slim", ".ci/uv.txt"),
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )

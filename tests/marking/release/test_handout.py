@@ -50,7 +50,8 @@ def graded(course: Path, place: Path) -> list:
 
 def test_students_get_lessons_starters_the_robot_and_the_checks(handout):
     assert {name.split("/")[0] for name in handout} == {
-        *("LICENSE", "Makefile", "README.md", "nbgrader_config.py", "pyproject.toml", "requirements.lock"),
+        *("COLCON_IGNORE", "LICENSE", "Makefile", "README.md"),
+        *("nbgrader_config.py", "pyproject.toml", "requirements.lock"),
         *(".binder", ".ci", ".devcontainer", "jupyter"),
         *("course", "exercises", "grader", "ros_packages", "sim"),
     }

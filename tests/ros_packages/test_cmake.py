@@ -1,0 +1,123 @@
+"""colcon builds packages that name other packages: what find_package finds, and what it explains."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.tooling.test_ci import ROOT, load
+
+prefix = load("prefix")
+COLCON = Path(sys.executable).with_name("colcon")
+PACKAGE_XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name><version>0.0.0</version><description>It is built.</description>
+  <maintainer email="me@example.com">me</maintainer><license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>{depends}
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+GENERATED = """\
+find_package(ament_cmake REQUIRED)
+if(BUILD_TESTING)
+  find_package(ament_lint_auto REQUIRED)
+  set(ament_cmake_copyright_FOUND TRUE)
+  ament_lint_auto_find_test_dependencies()
+endif()
+ament_package()
+"""
+NAMES = "ament_lint_common control_msgs example_interfaces launch_ros message_filters nav2_msgs rclpy tf2"
+NAMING = f"""\
+find_package(ament_cmake REQUIRED)
+foreach(package {NAMES} tf2_geometry_msgs tf2_msgs tf2_ros turtlesim)
+  find_package(${{package}} REQUIRED)
+endforeach()
+ament_export_dependencies(tf2_ros turtlesim)
+ament_package()
+"""
+AUTOMATIC = """\
+find_package(ament_cmake_auto REQUIRED)
+ament_auto_find_build_dependencies(REQUIRED tf2_ros)
+if(BUILD_TESTING)
+  ament_auto_find_test_dependencies()
+endif()
+ament_auto_package(INSTALL_TO_SHARE launch)
+"""
+PACKAGES = {"generated": GENERATED, "naming": NAMING, "automatic": AUTOMATIC}
+DEPENDS = "<depend>turtlesim</depend><depend>tf2_ros</depend><test_depend>ament_lint_auto</test_depend>"
+
+
+@pytest.fixture
+def configured(tmp_path, monkeypatch):
+    """A prefix with the configurations of this version, found before the environment's."""
+    prefix.write_cmake_packages(tmp_path / "prefix")
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}/prefix:{sys.prefix}")
+    monkeypatch.setenv("PATH", f"{sys.prefix}/bin:{os.environ['PATH']}")
+    return tmp_path / "prefix"
+
+
+def write(workspace: Path, name: str, rules: str, depends: str = "") -> None:
+    folder = workspace / "src" / name
+    (folder / "launch").mkdir(parents=True)
+    (folder / "launch" / "one.launch.py").write_text("")
+    (folder / "package.xml").write_text(PACKAGE_XML.format(name=name, depends=depends))
+    head = f"cmake_minimum_required(VERSION 3.10)\nproject({name} NONE)\n"
+    (folder / "CMakeLists.txt").write_text(f"{head}{rules}")
+
+
+def colcon(folder: Path, *arguments: str) -> subprocess.CompletedProcess:
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return subprocess.run(
+        [COLCON, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+
+
+def test_packages_build_that_name_linters_messages_and_python_packages(configured, tmp_path):
+    for name, rules in PACKAGES.items():
+        write(tmp_path, name, rules, DEPENDS if name == "automatic" else "")
+    done = colcon(tmp_path, "build")
+    assert (done.returncode, done.stderr) == (0, "")
+    installed = tmp_path / "install" / "automatic" / "share" / "automatic"
+    assert (installed / "launch" / "one.launch.py").is_file()
+    exported = (installed / "cmake" / "ament_cmake_export_dependencies-extras.cmake").read_text()
+    assert 'set(_exported_dependencies "turtlesim;tf2_ros")' in exported
+
+
+@pytest.mark.parametrize(
+    ("package", "sentence"),
+    {
+        "rclcpp": "rclcpp is for C++ (ROS's library for C++), and C++ nodes are not built here. Nodes in "
+        "Python need no such line.",
+        "cv_bridge": "cv_bridge (converts between ROS images and OpenCV's arrays) is a ROS package that the "
+        "course does not include.",
+    }.items(),
+)
+def test_a_package_that_is_not_here_is_explained_in_a_sentence(package, sentence, configured, tmp_path):
+    rules = f"find_package({package} QUIET)\nif({package}_FOUND)\n  message(FATAL_ERROR no)\nendif()\n"
+    write(tmp_path, "mine", f"{rules}find_package({package} REQUIRED)\n")
+    done = colcon(tmp_path, "build")
+    assert done.returncode == 1
+    assert sentence in re.sub(r"\s+", " ", done.stderr)
+
+
+def test_a_configuration_that_a_wheel_brought_stays(tmp_path):
+    config = tmp_path / "share" / "rclcpp" / "cmake" / "rclcppConfig.cmake"
+    config.parent.mkdir(parents=True)
+    config.write_text("# generated\n")
+    prefix.write_cmake_packages(tmp_path)
+    prefix.write_cmake_packages(tmp_path)  # its own files are written again
+    assert config.read_text() == "# generated\n"
+    empty = tmp_path / "share" / "tf2_ros" / "cmake" / "tf2_rosConfig.cmake"
+    assert empty.read_text() == "# Written by the course's set-up.\nset(tf2_ros_FOUND_AMENT_PACKAGE TRUE)\n"
+
+
+def test_the_courses_own_folder_has_nothing_for_colcon(tmp_path):
+    done = colcon(ROOT, "--log-base", str(tmp_path), "list")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    left = ["install/", "log/", "build/"]
+    ignored = subprocess.run(["git", "check-ignore", *left], cwd=ROOT, capture_output=True, text=True)
+    assert ignored.stdout.split() == left
