@@ -1,9 +1,8 @@
 """Turn away from what is in the way."""
 
 import math
-from typing import Any
 
-from grader.checks import Missed, keeps_clear, publishes, series, travelled, until_a_touch
+from grader.checks import Missed, keeps_clear, otherwise, publishes, series, travelled, until_a_touch
 from grader.exercise import Exercise
 from grader.worlds.rooms import furnished_room
 from sim.evidence import Recording
@@ -25,10 +24,6 @@ def _why_it_hits(run: Recording) -> str:
     return BESIDE if run.contacts[0].side in ("left", "right") else AHEAD
 
 
-def _pushes(run: Recording, way: float) -> Any:
-    return run.contacts and {"why": _why_it_hits(run)}
-
-
 def _turning(run: Recording) -> float:
     """The share of commands that turn the robot."""
     turns = [abs(turn) > 0.05 for _, turn in series(run, "/cmd_vel", "angular.z")]
@@ -45,13 +40,14 @@ def wanders_off(run: Recording) -> None:
 
 
 @avoid.check(3, after=wanders_off, hints={
-    "It pushes against something. {why}": _pushes,
+    "It pushes against something. {why}":
+        lambda run, way: run.contacts and {"why": _why_it_hits(run)},
     "It turns most of the time. Turn only where the distance ahead is less than 0.5 m: which way round "
     "is the comparison? Look ahead only, not all round: a wall beside the robot stays near, however "
     "long it turns. And turn one way until it is free, not to and fro.": lambda run, way: _turning(run) > 0.6,
     "It never turns: where something is near ahead, set angular.z, until it is free.":
         lambda run, way: _turning(run) == 0,
-    "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": lambda run, way: True,
+    "It stands, or creeps. Once it is free ahead, drive on, at 0.2 m/s or more.": otherwise,
 })
 def drives_on(run: Recording) -> None:
     """It does not get stuck: in 60 s it comes 4 m far, or more."""

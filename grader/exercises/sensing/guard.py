@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grader.checks import Missed, keeps_clear, lasts, publishes, subscribes
+from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, subscribes
 from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
 from grader.companions.radio_link import BadRadio, Radio
 from grader.exercise import Exercise, Scenario
@@ -63,19 +63,17 @@ def stands_between(run: Recording) -> None:
     publishes(run, OUT, TWIST, at_least=10)
 
 
-def _had_a_fault(run: Recording, moment: Moment) -> bool:
-    faults = [*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run)]
-    return any(fault.end < moment.stamp for fault in faults)
-
-
 @guard.check(4, after=stands_between, hints={
-    "There was a fault before, but now all is well again: then the commands should pass again.": _had_a_fault,
+    "There was a fault before, but now all is well again: then the commands should pass again.":
+        lambda run, moment: any(
+            fault.end < moment.stamp for fault in (*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run))
+        ),
     "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.":
         lambda run, moment: moment.sent is None,
     "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
     "seconds. If that is True, something beside the robot may stop it: look 30 degrees to each side.":
         lambda run, moment: moment.sent == (0.0, 0.0),
-    "Copy the driver's linear.x and angular.z as they are.": lambda run, moment: True,
+    "Copy the driver's linear.x and angular.z as they are.": otherwise,
 })
 def lets_through(run: Recording) -> list[Moment]:
     """What is harmless passes: while all is well and 1 m is free ahead, the robot does as the driver asks."""

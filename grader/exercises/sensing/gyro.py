@@ -4,7 +4,7 @@ import itertools
 import math
 from typing import Any
 
-from grader.checks import Missed, publishes, series, subscribes
+from grader.checks import Missed, otherwise, publishes, series, subscribes
 from grader.checks.motion import yaw_at
 from grader.checks.no_data import no_data
 from grader.companions.blind_drivers import LateStarter
@@ -18,11 +18,6 @@ HEADING = "/heading"
 RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LEAVING
 LEAVING = 3.0
 ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
-BIAS = (
-    "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
-    "angular_velocity.z over the first 2 s, when the robot stands, and subtract it from every reading "
-    "after."
-)
 
 gyro = Exercise(
     "gyro", "A gyro without drift", world="lab", seconds=28, companions=[LateStarter], seeds=(5, 6)
@@ -58,11 +53,6 @@ def _ratio(run: Recording, headings: Headings) -> float:
     return math.nan if abs(turned) < 60.0 else headings[-1][1] / turned
 
 
-def _times_too_far(run: Recording, headings: Headings) -> Any:
-    ratio = _ratio(run, headings)
-    return ratio > 2.5 and {"ratio": ratio}
-
-
 def _begins_late(run: Recording, headings: Headings) -> Any:
     begin = next((stamp for stamp, value in headings if value != 0.0), 0.0)
     return begin > LEAVING + 0.1 and {"begin": begin, "leaving": LEAVING}
@@ -70,12 +60,6 @@ def _begins_late(run: Recording, headings: Headings) -> Any:
 
 def _at_rest(headings: Headings) -> Headings:
     return [(stamp, value) for stamp, value in headings if stamp >= RESTING]
-
-
-def _is_rounded(run: Recording, headings: Headings) -> Any:
-    resting = _at_rest(headings)
-    rounded = all(abs(math.remainder(value, ROUNDED)) < 0.02 for _, value in resting)
-    return rounded and {"step": ROUNDED}
 
 
 def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
@@ -101,28 +85,29 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
     "That is some 57 times too far, which is 180 / pi: self.yaw is in radians, and math.degrees(...) "
     "comes only once, where it is published.": lambda run, headings: 50.0 < _ratio(run, headings) < 65.0,
     "That is some {ratio:.0f} times too far. Each reading is a rate, in rad/s, and counts for the time "
-    "since the last one, 0.01 s: add rate * 0.01.": _times_too_far,
+    "since the last one, 0.01 s: add rate * 0.01.":
+        lambda run, headings: (ratio := _ratio(run, headings)) > 2.5 and {"ratio": ratio},
     "The heading begins at {begin:.3g} s, and the robot sets off at {leaving:g} s: the mean of the rates "
     "until then has its turn in it, too. Take the mean over the first 2 s only.": _begins_late,
     "The heading comes to rest on a multiple of {step:.2g} degrees, or 0.01 rad: is the sum rounded at "
-    "each step? Then small steps are lost. Round only what you print.": _is_rounded,
+    "each step? Then small steps are lost. Round only what you print.":
+        lambda run, headings: all(
+            abs(math.remainder(value, ROUNDED)) < 0.02 for _, value in _at_rest(headings)
+        ) and {"step": ROUNDED},
     "It drifts {times:.0f} times as fast as the gyro's bias. The bias is a rate, too, and counts for the "
     "0.01 s since the last message, not for a whole second: (rate - bias) * 0.01.": _drifts_by_the_bias,
-    BIAS: lambda run, headings: True,
+    "That is the gyro's bias: it reports a turn where there is none, and the error grows. Take the mean of "
+    "angular_velocity.z over the first 2 s, when the robot stands, and subtract it from every reading "
+    "after.": otherwise,
 })
 def ends_right(run: Recording, headings: Headings) -> Headings:
     """At the end the heading is how far the robot has turned since the start, within 3 degrees."""
     stamp, value = headings[-1]
     turned = _turned(run, stamp)
     if abs(turn_between(value, turned)) >= 3.0:
-        raise Missed(
-            f"{turned:.1f} degrees at {stamp:.3g} s",
-            f"{value:.4g} degrees",
-            credit=0.5 if _is_in_other_units(value, turned) else 0.0,
-            picture="topics",
-            measured=headings,
-            about=(headings,),
-        )
+        expected, saw = f"{turned:.1f} degrees at {stamp:.3g} s", f"{value:.4g} degrees"
+        kept = {"credit": 0.5 if _is_in_other_units(value, turned) else 0.0, "measured": headings}
+        raise Missed(expected, saw, picture="topics", about=(headings,), **kept)
     return headings
 
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from grader.checks import Missed, lasts, publishes, series, subscribes
+from grader.checks import Missed, lasts, otherwise, publishes, series, subscribes
 from grader.checks.motion import yaw_at
 from grader.companions.blind_drivers import Circling
 from grader.exercise import Exercise
@@ -56,12 +56,10 @@ def _yaws(run: Recording, stamp: Seconds) -> list[float]:
     "The sign is wrong: left is positive. acos(w) loses the side; use atan2(z, w).":
         _all_are(lambda yaw: math.degrees(-yaw)),
     "That is the sine of the angle, not the angle.": _all_are(lambda yaw: math.degrees(math.sin(yaw))),
-    "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).":
-        lambda run, wrong: True,
+    "With q = msg.pose.pose.orientation: yaw = 2 * math.atan2(q.z, q.w), then math.degrees(yaw).": otherwise,
 })
 def heading_is_right(run: Recording, headings: Headings) -> Headings:
     """It is the robot's yaw in degrees: 0 along x, 90 to the left, -90 to the right."""
-
     errors = [least_turn(value, _yaws(run, stamp)) for stamp, value in headings]
     if max(errors) > NEAR:
         wrong = [pair for pair, error in zip(headings, errors, strict=True) if error > NEAR]

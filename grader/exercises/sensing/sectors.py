@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from grader.checks import Missed, hinting, lasts, publishes, subscribes
+from grader.checks import Missed, hinting, lasts, otherwise, publishes, subscribes
 from grader.companions.blind_drivers import Circling
 from grader.companions.strange_lidar import StrangeLidar
 from grader.exercise import Exercise, Scenario
@@ -99,7 +99,7 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
     "Bring the difference of two angles into -180 to 180: (angle - middle + 180) % 360 - 180.":
         lambda run, wrong: wrong[0].topic == "/front",
     "Angles count from ahead to the left, in radians: 90 degrees is the left, -90 (or 270) the right.":
-        lambda run, wrong: True,
+        otherwise,
 })
 def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[SectorValue]:
     """Each is the nearest distance of its direction, 30 degrees to both sides, with any lidar."""
@@ -111,7 +111,7 @@ def knows_the_directions(run: Recording, answers: list[SectorValue]) -> list[Sec
 
 @sectors.check(4, after=knows_the_directions, hints={
     "Leave them out before min(): `if not math.isnan(distance)`. Every comparison with nan is False.":
-        lambda run, wrong: True
+        otherwise
 })
 def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
     """Rays that got lost (nan) change nothing."""
@@ -122,7 +122,7 @@ def leaves_out_lost_rays(run: Recording, answers: list[SectorValue]) -> None:
     "max(0.0, distance) makes 0.0 of -inf, and leaves everything else as it is.":
         lambda run, wrong: wrong[0].sector.kind == "near",
     "Where all rays are inf, the answer is inf. Leave out nan only, and give an empty list a default.":
-        lambda run, wrong: True,
+        otherwise,
 })
 def knows_near_and_far(run: Recording, answers: list[SectorValue]) -> None:
     """Where nothing is, it says inf; what is too near to be measured (-inf) is 0.0 m away."""

@@ -5,7 +5,7 @@ import math
 import statistics
 from typing import Any
 
-from grader.checks import Missed, keeps_clear, passes, publishes, travelled, until_a_touch
+from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, travelled, until_a_touch
 from grader.diagnosis.driving import refused_command
 from grader.exercise import Exercise
 from grader.worlds.rooms import MARGIN, gallery
@@ -23,11 +23,6 @@ def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
     left, low, right, top = run.world.bounds
     gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
     return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
-
-
-def _infinite(run: Recording) -> Any:
-    command = refused_command(run)
-    return command and (not run.contacts or run.contacts[0].side != "front") and {"command": command}
 
 
 def _usual_gap(run: Recording) -> Any:
@@ -51,7 +46,9 @@ def leaves_the_start(run: Recording) -> None:
 
 
 @wall.check(4, after=leaves_the_start, hints={
-    "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.": _infinite,
+    "{command} Look to the right, at ranges[270], and steer so that it stays 0.5 m away.":
+        lambda run: (command := refused_command(run))
+        and (not run.contacts or run.contacts[0].side != "front") and {"command": command},
     "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
     "0.6 m, stop and turn left until it is free again.":
         lambda run: run.contacts and run.contacts[0]._asdict(),
@@ -89,7 +86,7 @@ def goes_round(run: Recording) -> None:
     "Turn a little to the left when the wall on the right is nearer than 0.5 m, and do so before it is "
     "0.3 m: is angular.z positive then, and large enough?": lambda run, left, near, far: near > far,
     "Turn a little to the right when the wall on the right is further than 0.5 m: it must not get "
-    "lost.": lambda run, left, near, far: True,
+    "lost.": otherwise,
 })
 def keeps_the_distance(run: Recording) -> None:
     """It keeps 30 cm to 80 cm from the wall on its right, for nine tenths of the time or more."""
