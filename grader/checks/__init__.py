@@ -38,7 +38,7 @@ from grader.checks.motion import (
 from grader.checks.nodes import has_timer, named, no_errors
 from grader.checks.people import Encounter, nearest_person
 from grader.checks.questions import Question, questions
-from grader.checks.services import calls, responds, serves
+from grader.checks.services import calls, course_calls, offers, responds, serves, wrong_response
 from grader.checks.shift import Job, Shift, ShiftProgram, shift
 from grader.checks.topics import lasts, publishes, rate, series, subscribes, within
 from grader.checks.verdicts import Verdict, judge
@@ -61,6 +61,7 @@ __all__ = [
     "check",
     "come_every",
     "commands_within",
+    "course_calls",
     "draws",
     "ends_with_a_stop",
     "fell_at",
@@ -81,6 +82,7 @@ __all__ = [
     "named",
     "nearest_person",
     "no_errors",
+    "offers",
     "otherwise",
     "overshoots",
     "passes",
@@ -107,4 +109,5 @@ __all__ = [
     "until_a_touch",
     "usual_mistake",
     "within",
+    "wrong_response",
 ]

@@ -14,11 +14,17 @@ DRIVE, SPIN = "/drive_on_heading", "/spin"
 OFFER = 'ActionServer(self, Fibonacci, "/fibonacci", self.execute): node, type, name and callback.'
 
 
-def offered(run: Recording, action: str, type: str, hint: str = "") -> list[Goal]:
-    """Return the course's goals for a server of the action. Raises Missed without one, with this hint."""
-    with hinting(hint):
-        serves_action(run, action, type)
+def offered(run: Recording, action: str, type: str) -> list[Goal]:
+    """Return the course's goals for a server of the action. Raises Missed without one."""
+    serves_action(run, action, type)
     return picked(run, action)
+
+
+def fibonacci_offered(run: Recording) -> list[Goal]:
+    """Return the course's goals for a server of /fibonacci. Raises Missed without one, with a hint."""
+    with hinting(OFFER):
+        serves_action(run, FIBONACCI, FIBONACCI_TYPE)
+    return picked(run, FIBONACCI)
 
 
 def picked(run: Recording, action: str, where: Callable[[Goal], bool] = lambda goal: True) -> list[Goal]:

@@ -1,15 +1,7 @@
 """A first action server, which computes."""
 
 from grader.checks import Missed
-from grader.checks.course_goals import (
-    FIBONACCI,
-    FIBONACCI_TYPE,
-    OFFER,
-    goal_text,
-    has_the_result,
-    is_succeeded,
-    offered,
-)
+from grader.checks.course_goals import fibonacci_offered, goal_text, has_the_result, is_succeeded
 from grader.companions.goal_senders import Mathematician
 from grader.exercise import Exercise
 from sim.evidence import Goal, Recording
@@ -20,7 +12,7 @@ fibonacci = Exercise("fibonacci", "A first action", seconds=45, companions=[Math
 @fibonacci.check(2)
 def offers(run: Recording) -> list[Goal]:
     """The node offers the action /fibonacci of type Fibonacci."""
-    return offered(run, FIBONACCI, FIBONACCI_TYPE, OFFER)
+    return fibonacci_offered(run)
 
 
 @fibonacci.check(1, after=offers)

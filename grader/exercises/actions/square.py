@@ -13,10 +13,8 @@ from sim.evidence import Goal, Recording
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 NEAR = 0.15  # metres
 
-square = Exercise(
-    "square_by_actions", "A square out of actions", world="yard", seconds=50,
-    companions=[DriveServer, SpinServer], may_end=True,
-)
+square = Exercise("square_by_actions", "A square out of actions", world="yard", seconds=50,
+                  companions=[DriveServer, SpinServer], may_end=True)
 
 
 @square.check(4)

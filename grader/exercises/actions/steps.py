@@ -4,12 +4,10 @@ from grader.checks import Missed, rejects
 from grader.checks.actions import state
 from grader.checks.course_goals import (
     FIBONACCI,
-    FIBONACCI_TYPE,
-    OFFER,
+    fibonacci_offered,
     goal_text,
     has_the_result,
     is_succeeded,
-    offered,
     picked,
     sequence,
 )
@@ -31,20 +29,10 @@ def _is_bad(goal: Goal) -> bool:
     return not _is_good(goal)
 
 
-def _is_short(goal: Goal) -> bool:
-    """A good goal that is over in time."""
-    return LIMITS[0] <= goal.request.order < LIMITS[1]
-
-
-def _has_numbers(goal: Goal) -> bool:
-    """A short goal with numbers for feedback."""
-    return LIMITS[0] < goal.request.order < LIMITS[1]
-
-
 @steps.check(4)
 def accepts_good_orders(run: Recording) -> None:
     """Orders from 1 to 20 are accepted, the limits too."""
-    offered(run, FIBONACCI, FIBONACCI_TYPE, OFFER)
+    fibonacci_offered(run)
     for goal in picked(run, FIBONACCI, _is_good):
         if goal.at("accepted") is None:
             guess = "judge gave REJECT: which way round is the `if`, and does `return` stand before ACCEPT?"
@@ -53,11 +41,8 @@ def accepts_good_orders(run: Recording) -> None:
             raise Missed(f"{goal_text(goal)} accepted", state(goal), guess=guess)
 
 
-@steps.check(
-    4,
-    after=accepts_good_orders,
-    guess="In judge: if goal.order is below 1 or above 20, return GoalResponse.REJECT.",
-)
+@steps.check(4, after=accepts_good_orders,
+             guess="In judge: if goal.order is below 1 or above 20, return GoalResponse.REJECT.")
 def rejects_bad_orders(run: Recording) -> None:
     """Other orders are rejected."""
     picked(run, FIBONACCI, _is_bad)
@@ -71,7 +56,7 @@ def rejects_bad_orders(run: Recording) -> None:
 )
 def publishes_feedback(run: Recording) -> list[Goal]:
     """Each new number is told as feedback: the whole sequence so far."""
-    goals = picked(run, FIBONACCI, _has_numbers)
+    goals = picked(run, FIBONACCI, lambda goal: LIMITS[0] < goal.request.order < LIMITS[1])
     for goal in goals:
         sent = [list(row.message.sequence) for row in goal.feedback]
         for wanted in map(sequence, range(2, goal.request.order + 1)):
@@ -94,6 +79,6 @@ def takes_its_time(run: Recording, goals: list[Goal]) -> None:
 @steps.check(1, after=(accepts_good_orders, publishes_feedback))
 def still_right(run: Recording) -> None:
     """The result is right as before."""
-    for goal in picked(run, FIBONACCI, _is_short):
+    for goal in picked(run, FIBONACCI, lambda goal: _is_good(goal) and goal.request.order < LIMITS[1]):
         is_succeeded(goal)
         has_the_result(goal)

@@ -2,31 +2,21 @@
 
 from grader.checks import Missed
 from grader.checks.actions import state
-from grader.checks.course_goals import (
-    FIBONACCI,
-    FIBONACCI_TYPE,
-    OFFER,
-    goal_text,
-    is_succeeded,
-    offered,
-    picked,
-    sequence,
-)
+from grader.checks.course_goals import FIBONACCI, fibonacci_offered, goal_text, is_succeeded, picked, sequence
 from grader.companions.goal_senders import Impatient
 from grader.exercise import Exercise
 from sim.evidence import CANCEL_REQUESTED, Goal, Recording, Seconds
 
 QUICKLY = 1.0  # seconds from the cancel request to the end
 
-stoppable = Exercise(
-    "stoppable", "A server that can be stopped", seconds=18, companions=[Impatient], seeds=(1, 2)
-)
+stoppable = Exercise("stoppable", "A server that can be stopped", seconds=18, companions=[Impatient],
+                     seeds=(1, 2))
 
 
 @stoppable.check(2)
 def still_offers(run: Recording) -> list[Goal]:
     """The node offers the action /fibonacci of type Fibonacci."""
-    return offered(run, FIBONACCI, FIBONACCI_TYPE, OFFER)
+    return fibonacci_offered(run)
 
 
 @stoppable.check(5, after=still_offers)

@@ -6,9 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from grader.checks import Missed, hinting, subscribes
+from grader.checks import Missed, hinting, otherwise, subscribes
 from grader.checks.actions import state
-from grader.checks.check import otherwise
 from grader.checks.course_goals import SPIN, numbers_in, offered, picked
 from grader.checks.topics import longest_pause
 from grader.companions.goal_senders import Captain

@@ -37,12 +37,10 @@ def subscribes_to_beats(run: Recording) -> None:
 
 
 @jitter.check(4, after=subscribes_to_beats, hints={
-    "Arrival minus stamp, and not the other way round.": lambda run, sent, beats: matches(
-        sent, [-beat.latency for beat in beats], EXACT
-    ),
-    "That is the time of day: take the stamp away from it.": lambda run, sent, beats: matches(
-        sent, [EPOCH / SECOND + beat.arrived for beat in beats], EXACT
-    ),
+    "Arrival minus stamp, and not the other way round.":
+        lambda run, sent, beats: matches(sent, [-beat.latency for beat in beats], EXACT),
+    "That is the time of day: take the stamp away from it.":
+        lambda run, sent, beats: matches(sent, [EPOCH / SECOND + beat.arrived for beat in beats], EXACT),
     "The latency is now minus the stamp in the header, in seconds.": otherwise,
 })
 def measures_the_latency(run: Recording) -> list[Beat]:
@@ -53,9 +51,8 @@ def measures_the_latency(run: Recording) -> list[Beat]:
 
 
 @jitter.check(5, after=measures_the_latency, hints={
-    "Early counts as much as late: take abs(...) of it.": lambda run, sent, beats: matches(
-        sent, [gap - PERIOD for gap in _gaps(run)], EXACT
-    ),
+    "Early counts as much as late: take abs(...) of it.":
+        lambda run, sent, beats: matches(sent, [gap - PERIOD for gap in _gaps(run)], EXACT),
     "That is the time between two arrivals: how much does it differ from 0.02 s?":
         lambda run, sent, beats: matches(sent, _gaps(run), EXACT),
     "Between the stamps it is always 0.02 s, for the sensor measures exactly. What your loop feels is "
@@ -70,9 +67,8 @@ def measures_the_jitter(run: Recording, beats: list[Beat]) -> None:
 
 
 @jitter.check(3, after=measures_the_latency, hints={
-    "Each count is for one message alone: add them up, self.late += 1.": lambda run, sent, beats: matches(
-        sent, [int(beat.latency > ALLOWED) for beat in beats]
-    ),
+    "Each count is for one message alone: add them up, self.late += 1.":
+        lambda run, sent, beats: matches(sent, [int(beat.latency > ALLOWED) for beat in beats]),
     "Those came in time.": lambda run, sent, beats: matches(
         sent, list(itertools.accumulate(int(beat.latency <= ALLOWED) for beat in beats))
     ),

@@ -2,19 +2,8 @@
 
 import itertools
 
-from grader.checks import (
-    hinting,
-    keeps_to_limits,
-    otherwise,
-    overshoots,
-    places,
-    publishes,
-    settles,
-    stands,
-    still_stands,
-    subscribes,
-)
-from grader.checks.control import EFFORT
+from grader.checks import hinting, otherwise, publishes, subscribes
+from grader.checks.control import EFFORT, keeps_to_limits, overshoots, places, settles, stands, still_stands
 from grader.checks.no_data import no_data
 from grader.companions.control_streams import Marks
 from grader.exercise import Exercise
@@ -51,12 +40,10 @@ def spares_the_motor(run: Recording) -> None:
 
 @marks.check(5, after=keeps_it_up, hints={
     "First it has to come to the middle, where the mark is 0. Does x count?": lambda run, mark: mark == 0.0,
-    "It stays in the middle: take the mark away from x.": lambda run, mark: all(
-        abs(x) < NEAR for _, x in _reached(run)
-    ),
-    "It goes to the other side: it is x minus the mark.": lambda run, mark: all(
-        abs(x + mark) < 2 * NEAR for mark, x in _reached(run)
-    ),
+    "It stays in the middle: take the mark away from x.":
+        lambda run, mark: all(abs(x) < NEAR for _, x in _reached(run)),
+    "It goes to the other side: it is x minus the mark.":
+        lambda run, mark: all(abs(x + mark) < 2 * NEAR for mark, x in _reached(run)),
     "A larger gain on the place brings it there sooner; with it, the one on the speed has to grow.":
         otherwise,
 })

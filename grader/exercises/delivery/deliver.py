@@ -21,9 +21,8 @@ GIVEN_UP = 30.0  # s for which a robot stands that has an order; a person who wa
 DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 IDLE = {
-    "None of your programs publishes on /cmd_vel. Does your list hold all of them?": lambda run: all(
-        row.from_course for row in run.messages("/cmd_vel")
-    ),
+    "None of your programs publishes on /cmd_vel. Does your list hold all of them?":
+        lambda run: all(row.from_course for row in run.messages("/cmd_vel")),
     "The robot never moves. Run each program alone, and look at what it publishes, and when.":
         lambda run: travelled(run) < 0.1,
     "{touch}": lambda run: run.contacts and {"touch": after_a_touch(run)},

@@ -27,9 +27,8 @@ MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
 WALKS, STANDS = 0.4, 0.05  # m/s
 SETTLED = 6.0  # s until what stands is known to stand
 
-perceive = Exercise(
-    "perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner, seeds=(1,)
-)
+perceive = Exercise("perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner,
+                    seeds=(1,))
 
 
 @perceive.check(2)

@@ -16,15 +16,13 @@ NEAREST, FARTHEST = 0.7, 1.4  # m
 SETTLED = 9.0  # s
 WHY_OFF = {
     "The robot hardly moves. Does the lookup fail each time? Log the error: it says why. And is the "
-    "robot's own frame, base_link, the target?": lambda run, gaps: (
-        math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1
-    ),
+    "robot's own frame, base_link, the target?":
+        lambda run, gaps: math.dist(run.path[0][1:3], run.path[-1][1:3]) < 0.1,
     "It is too near: the point 1 m behind the leader is at x = -1 in leader/base_link.":
         lambda run, gaps: gaps and statistics.mean(gaps.values()) < 0.75,
     "It loses the leader. Ask where the point is in base_link, the robot's own frame: odom and "
-    "leader/odom are two frames, and only the tree knows how they lie.": lambda run, gaps: (
-        gaps and statistics.mean(gaps.values()) > 2.0
-    ),
+    "leader/odom are two frames, and only the tree knows how they lie.":
+        lambda run, gaps: gaps and statistics.mean(gaps.values()) > 2.0,
     "Steer by the angle atan2(y, x) of the point in base_link, in rad; drive faster the farther it is.":
         otherwise,
 }

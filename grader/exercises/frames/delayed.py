@@ -7,8 +7,7 @@ from grader.checks.frames import Broadcast, broadcasts
 from grader.companions.moving_frames import SlowLocalization
 from grader.exercise import Exercise
 from grader.geometry import Point
-from grader.responses import Stimuli, Stimulus, last_before, same
-from grader.responses.window import EDGE
+from grader.responses import EDGE, Stimuli, Stimulus, last_before, same
 from sim.evidence import Message, Recording, Seconds, since_start
 
 POINT = "geometry_msgs/msg/PointStamped"

@@ -17,9 +17,7 @@ mount = Exercise("mount", "Where the lidar sits", seconds=3, companions=[Mechani
 @mount.check(2)
 def sends_static_transforms(run: Recording) -> None:
     """The node hears /mounting (Pose2D), and publishes transforms on /tf_static."""
-    with hinting(
-        guess="A StaticTransformBroadcaster publishes on /tf_static, a TransformBroadcaster on /tf."
-    ):
+    with hinting(guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf."):
         subscribes(run, MOUNTING, "geometry_msgs/msg/Pose2D")
         publishes(run, STATIC, TF)
 
@@ -29,19 +27,17 @@ def puts_it_there(run: Recording) -> list[Broadcast]:
     """The parent is base_link, the child base_scan, and it is where the mechanic says: x and y."""
     mounting = from_course(run, MOUNTING)[0].message
     x, y = mounting.x, mounting.y
-    sent = between(
-        broadcasts(run, STATIC), "base_link", "base_scan", STATIC,
-        lambda one: math.dist(one.pose[:2], (x, y)) <= NEAR,
-    )  # fmt: skip
-    found = sent[-1].pose
-    if not math.dist(found[:2], (x, y)) <= NEAR:
+
+    def is_right(one: Broadcast) -> bool:
+        return math.dist(one.pose[:2], (x, y)) <= NEAR
+
+    sent = between(broadcasts(run, STATIC), "base_link", "base_scan", STATIC, is_right)
+    if not is_right(sent[-1]):
+        found, hint = sent[-1].pose, "translation.x is msg.x, and translation.y is msg.y."
         # A coordinate that is right, and not by chance as 0 is.
-        known = [
-            same(saw, right, NEAR) and abs(right) / 2 > NEAR for saw, right in ((found.x, x), (found.y, y))
-        ]
-        expected = f"x {x:.2f} m, y {y:.2f} m"
-        saw = f"x {found.x:.2f} m, y {found.y:.2f} m"
-        hint = "translation.x is msg.x, and translation.y is msg.y."
+        pairs = (found.x, x), (found.y, y)
+        known = [abs(right) > 2 * NEAR and same(is_at, right, NEAR) for is_at, right in pairs]
+        expected, saw = f"x {x:.2f} m, y {y:.2f} m", f"x {found.x:.2f} m, y {found.y:.2f} m"
         raise Missed(expected, saw, hint, credit=PART if any(known) else 0.0, measured=sent)
     return sent
 

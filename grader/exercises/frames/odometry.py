@@ -18,9 +18,8 @@ SOON = 0.05  # s
 EARLY = 0.3  # s; until then, a place may be right by accident
 OFTEN = 0.3  # of the odometries
 
-odometry = Exercise(
-    "odometry", "From odometry to a frame", seconds=4, companions=[WheelOdometry], seeds=(1, 2)
-)
+odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companions=[WheelOdometry],
+                    seeds=(1, 2))
 
 
 @odometry.check(2)
@@ -48,9 +47,10 @@ def puts_it_there(run: Recording) -> None:
     between(sent, "odom", "base_link", "/tf", lambda one: not wrong)
     if wrong:
         first, poses = wrong[0]
-        credit = min((_credit(*pair) for pair in wrong if pair[0].stamp > EARLY), default=0.0)
-        saw = f"{first.pose}"
-        raise Missed(f"{poses[-1]} at {first.stamp:.3g} s", saw, about=(first, poses), credit=credit)
+        later = [_is_partly_right(*pair) for pair in wrong if pair[0].stamp > EARLY]
+        credit = PART if later and all(later) else 0.0
+        expected = f"{poses[-1]} at {first.stamp:.3g} s"
+        raise Missed(expected, f"{first.pose}", about=(first, poses), credit=credit)
     if len(sent) < OFTEN * len(rows):
         hint = "The robot drives on: send in the callback of /wheels/odom, each time it is called."
         raise Missed(f"a transform for each of {len(rows)} odometries", f"{len(sent)}", hint)
@@ -63,9 +63,7 @@ def one_for_each(run: Recording) -> None:
     for row in _odometry(run)[:-1]:  # the answer to the last may not have come
         count = len(Window.after(row.stamp, SOON).rows(sent))
         if count != 1:
-            hint = (
-                "Send in the callback of /wheels/odom: one transform for each message, and none from a timer."
-            )
+            hint = f"Send in the callback of {WHEELS}: one transform for each message, and none from a timer."
             expected = f"one transform for the odometry at {row.stamp:.3g} s, within {SOON:g} s"
             raise Missed(expected, f"{count}", hint)
 
@@ -93,10 +91,10 @@ def _odometry(run: Recording) -> list[Message]:
     return from_course(run, WHEELS, at_least=5, what="odometry")
 
 
-def _credit(sent: Broadcast, poses: list[Pose2D]) -> float:
-    """A part of the points where a wrong transform is right in one thing. poses: by the odometry so far."""
+def _is_partly_right(sent: Broadcast, poses: list[Pose2D]) -> bool:
+    """Whether a wrong transform is right in one thing. poses: by the odometry so far."""
     turned = abs(math.remainder(sent.pose.yaw - poses[-1].yaw, math.tau)) <= NEAR and sent.is_rotation
-    return PART if turned or _is_placed(sent, poses) or _is_late(sent, poses) else 0.0
+    return turned or _is_placed(sent, poses) or _is_late(sent, poses)
 
 
 def _is_placed(sent: Broadcast, poses: list[Pose2D]) -> bool:

@@ -13,10 +13,8 @@ OUT, STRANGER = "/tower/cmd_vel", "/cmd_vel"
 HALF = 0.2  # of the points, where one of the two faults is corrected: with the rest that makes half
 SETTLED, BAND, STILL = 5.0, 0.3, 0.05  # s, rad, m
 
-watch = Exercise(
-    "watch", "The tower that does not watch", world=square, seconds=9,
-    companions=lambda seed: localization(square(seed)), seeds=(1, 2),
-)
+watch = Exercise("watch", "The tower that does not watch", world=square, seconds=9,
+                 companions=lambda seed: localization(square(seed)), seeds=(1, 2))
 
 
 @watch.check(2)
@@ -44,10 +42,8 @@ def leaves_others_alone(run: Recording) -> None:
     """The other robot is left where it is."""
     for pose in run.path:
         if math.dist(run.path[0][1:3], pose[1:3]) > STILL:
-            saw, hint = (
-                f"it has moved by {pose.stamp:.3g} s",
-                "That robot is not yours: send nothing on /cmd_vel.",
-            )
+            hint = "That robot is not yours: send nothing on /cmd_vel."
+            saw = f"it has moved by {pose.stamp:.3g} s"
             raise Missed("the other robot where it was", saw, hint, unsafe=True)
 
 
@@ -56,22 +52,22 @@ def _require_no_waiting(run: Recording) -> None:
     waits = [line for line in run.logs if not line.from_course and line.level == "WARN" and line.stamp > 1.0]
     if waits:
         is_watcher = all(line.text.startswith(WAITING) for line in waits)
-        expected = "no warning after 1 s"
         saw = f"“{waits[0].text}” at {waits[0].stamp:.3g} s"
         hint = "The log says which frame it waits for. Which robots are there? `target` is a parameter."
-        raise Missed(expected, saw, hint, credit=HALF if is_watcher and _publishers(run, OUT) else 0.0)
+        credit = HALF if is_watcher and _publishers(run, OUT) else 0.0
+        raise Missed("no warning after 1 s", saw, hint, credit=credit)
 
 
 def _require_own_commands(run: Recording) -> None:
     """Raise Missed where all commands go to another robot."""
     strange = _publishers(run, STRANGER)
     if strange and not _publishers(run, OUT):
-        expected = f"commands on {OUT}"
         hint = (
             "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
             "from cmd_vel to the tower's own topic, sends it there."
         )
-        raise Missed(expected, f"{strange[0].node} publishes on {STRANGER}", hint, credit=HALF, unsafe=True)
+        saw = f"{strange[0].node} publishes on {STRANGER}"
+        raise Missed(f"commands on {OUT}", saw, hint, credit=HALF, unsafe=True)
 
 
 def _publishers(run: Recording, topic: str) -> list[Endpoint]:

@@ -9,7 +9,7 @@ from grader.responses import Window, from_course, listed, matches, same
 from grader.worlds.arms import joint_of
 from sim.evidence import Message, Recording, Seconds
 
-COMMANDS = "/joint_commands"
+COMMANDS, STATES = "/joint_commands", "/joint_states"
 CLOSE, STANDS = 0.03, 0.1  # rad, rad/s
 SOON = 0.6  # s
 UNEVEN = 1.0  # s: a node that looks at the joint is late by about the same each time
@@ -36,9 +36,8 @@ def publishes_commands(run: Recording) -> None:
 @arrive.check(2, after=publishes_commands, hints={
     "The positions are radians already, and /joint_commands wants radians.":
         lambda run, first: abs(first) > 3.2,
-    "Begin with the first: self.positions.pop(0) gives it, and pop() the last.": lambda run, first: any(
-        same(first, other) for other in _positions(run)[1:]
-    ),
+    "Begin with the first: self.positions.pop(0) gives it, and pop() the last.":
+        lambda run, first: any(same(first, other) for other in _positions(run)[1:]),
     "Publish the numbers of /positions as they are; they come once, latched.": otherwise,
 })
 def begins_with_the_first(run: Recording) -> None:
@@ -92,11 +91,9 @@ def wastes_no_time(run: Recording) -> None:
         arrived = _arrival(run, before, after.stamp)
         if after.stamp - arrived > SOON:
             where = f"the arrival at {before.message.data:g} rad ({arrived:.3g} s)"
-            raise Missed(
-                f"the next command within {SOON:g} s of {where}",
-                f"{after.stamp - arrived:.2g} s later",
-                "Look at each message on /joint_states: as soon as the joint has arrived, send the next one.",
-            )
+            hint = f"Look at each message on {STATES}: as soon as the joint has arrived, send the next one."
+            saw = f"{after.stamp - arrived:.2g} s later"
+            raise Missed(f"the next command within {SOON:g} s of {where}", saw, hint)
 
 
 def _positions(run: Recording) -> list[float]:

@@ -35,9 +35,8 @@ def publishes_commands(run: Recording) -> None:
 
 
 @careful.check(4, after=publishes_commands, hints={
-    "Positions and limits are radians, all of them: pass the number on as it is.": lambda run, request: (
-        request.responses and abs(request.values()[0]) > 3.2
-    ),
+    "Positions and limits are radians, all of them: pass the number on as it is.":
+        lambda run, request: request.responses and abs(request.values()[0]) > 3.2,
     "A refusal is not the end: return from the callback, and take the next wish as ever.":
         lambda run, request: _silent_since_a_refusal(run, request),
     "It lies between the limits, {lower:g} and {upper:g} rad. Read both from the description.":
@@ -83,7 +82,9 @@ def logs_refusals(run: Recording) -> None:
     "For a moment it pulls with all its might whenever it begins to move. Stuck is a joint that has "
     "pulled so for half a second, and didn't move.": lambda run, jam, later: jam is None,
     "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit.":
-        lambda run, jam, later: jam.effort < 0 and _frees_one_that_pulls_up(run),
+        lambda run, jam, later: jam.effort < 0 and any(
+            other.effort > 0 and _is_freed(run, other) for other in _jams(run)
+        ),
     "That is late: half a second of pulling without a movement is enough to know.":
         lambda run, jam, later: later and same(later[0], jam.position, NEAR),
     "It isn't {sent:.2g} where it is stuck. Send the position that the message has for lift_joint: find "
@@ -99,11 +100,9 @@ def frees_what_is_stuck(run: Recording) -> None:
             sent = Window.after(jam.stamp, REACTION).rows(run.messages(COMMANDS))
             later = [row for row in run.messages(COMMANDS) if row.stamp >= jam.stamp]
             where = f"{jam.position:.2f}, where it is stuck, on {COMMANDS} within {REACTION:g} s of"
-            raise Missed(
-                f"{where} {jam.stamp:.3g} s",
-                ", ".join(f"{row.message.data:.3g}" for row in sent[:5]) or "nothing",
-                about=(jam, [row.message.data for row in later if not _is_requested(run, row)]),
-            )
+            saw = ", ".join(f"{row.message.data:.3g}" for row in sent[:5]) or "nothing"
+            others = [row.message.data for row in later if not _is_requested(run, row)]
+            raise Missed(f"{where} {jam.stamp:.3g} s", saw, about=(jam, others))
     in_place_of_refusals = [row for request in _refused(run) for row in request.responses]
     for row in run.messages(COMMANDS):
         is_right = row in in_place_of_refusals or _is_requested(run, row)
@@ -161,14 +160,7 @@ def _is_freed(run: Recording, jam: Jam) -> bool:
     return any(same(row.message.data, jam.position, NEAR) for row in sent)
 
 
-def _frees_one_that_pulls_up(run: Recording) -> bool:
-    return any(jam.effort > 0 and _is_freed(run, jam) for jam in _jams(run))
-
-
 def _holds_a_jam(run: Recording, command: Message, within: Seconds) -> bool:
     """Whether a command keeps the lift where it was stuck."""
-    return any(
-        Window.after(jam.stamp, within).contains(command.stamp)
-        and same(command.message.data, jam.position, NEAR)
-        for jam in _jams(run)
-    )
+    jams = [jam for jam in _jams(run) if Window.after(jam.stamp, within).contains(command.stamp)]
+    return any(same(command.message.data, jam.position, NEAR) for jam in jams)

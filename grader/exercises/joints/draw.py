@@ -40,9 +40,8 @@ def can_be_followed(run: Recording, goals: list[Goal]) -> None:
 
 
 @draw.check(10, after=can_be_followed, hints={
-    "That is the figure, mirrored at the x axis: look at the sign of y.": lambda run: _comes_near(
-        run, [(x, -y) for x, y in _figure(run)]
-    ),
+    "That is the figure, mirrored at the x axis: look at the sign of y.":
+        lambda run: _comes_near(run, [(x, -y) for x, y in _figure(run)]),
     "The arm needs time to get to the first point: give it 3 s, or it runs after the figure.":
         lambda run: _points(run)[0].time_from_start.sec < 1,
     "It doesn't even come to the first point. Check inverse(x, y) on paper, for the arm stretched "

@@ -26,9 +26,8 @@ def publishes_commands(run: Recording) -> None:
     "The {which} one is missing. Publish first, and then add 1 to self.index.": lambda run, sent: (
         (sent == POSITIONS[1:] and {"which": "first"}) or (sent == POSITIONS[:-1] and {"which": "last"})
     ),
-    "After the seventh it is over: compare self.index with len(self.positions).": lambda run, sent: (
-        sent[: len(POSITIONS)] == POSITIONS
-    ),
+    "After the seventh it is over: compare self.index with len(self.positions).":
+        lambda run, sent: sent[: len(POSITIONS)] == POSITIONS,
     "Each call sends the same one: self.positions[self.index], and then self.index += 1.":
         lambda run, sent: len(set(sent)) == 1,
     "Publish self.positions[self.index], and then self.index += 1.": otherwise,

@@ -17,9 +17,8 @@ SOON = 0.5  # s
 SLOW = 1.5  # times as long as needed, and
 REST = 0.5  # s more, is still fine
 
-trajectory = Exercise(
-    "trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher, seeds=(1, 2)
-)
+trajectory = Exercise("trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher,
+                      seeds=(1, 2))
 
 
 class Lesson(NamedTuple):
@@ -46,9 +45,8 @@ def sends_a_goal(run: Recording) -> None:
 
 
 @trajectory.check(5, after=sends_a_goal, hints={
-    "The path has radians, and so has the goal: no degrees.": lambda run, path, sent: any(
-        abs(value) > 3.2 for point in sent.points for value in point.positions
-    ),
+    "The path has radians, and so has the goal: no degrees.":
+        lambda run, path, sent: any(abs(value) > 3.2 for point in sent.points for value in point.positions),
     "Every point of the path becomes a point of the goal: a new JointTrajectoryPoint for each.":
         lambda run, path, sent: len(sent.points) != len(path.points),
     "The path says in joint_names which number belongs to which joint, and the order differs from "
@@ -70,13 +68,11 @@ def by_their_names(run: Recording) -> list[Lesson]:
 
 
 @trajectory.check(4, after=by_their_names, hints={
-    "time_from_start is not set: Duration(seconds=time).to_msg().": lambda run, parts, wrong: (
-        not any(part.end for part in parts)
-    ),
+    "time_from_start is not set: Duration(seconds=time).to_msg().":
+        lambda run, parts, wrong: not any(part.end for part in parts),
     "time_from_start counts from the start of the whole trajectory, and not from the point before: "
-    "it must rise from point to point. time += ...": lambda run, parts, wrong: (
-        wrong.begin and same(wrong.end, wrong.needed, 0.02)
-    ),
+    "it must rise from point to point. time += ...":
+        lambda run, parts, wrong: wrong.begin and same(wrong.end, wrong.needed, 0.02),
     "Each part takes the same time here. The longer the way, the more time it needs: way / 0.8.":
         lambda run, parts, wrong: len({round(part.end - part.begin, 6) for part in parts}) == 1,
     "The way is that of the joint which has to go farther: max(abs(...)). The first one begins where "
@@ -132,14 +128,12 @@ def publishes_outcomes(run: Recording, lessons: list[Lesson]) -> None:
             continue
         later = [other.stamp for other, _ in lessons if other is not path and other.stamp >= goal.ended]
         window = Window(path.stamp, goal.ended + SOON).before(min(later, default=math.inf))
-        expected = f"aborted: {goal.result.error_string}" if goal.status == "aborted" else goal.status
+        outcome = f"aborted: {goal.result.error_string}" if goal.status == "aborted" else goal.status
         sent = [row.message.data for row in window.rows(published)]
-        if sent != [expected]:
-            raise Missed(
-                f"“{expected}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path",
-                ", ".join(f"“{text}”" for text in sent[:4]) or "nothing",
-                about=(expected, sent),
-            )
+        if sent != [outcome]:
+            expected = f"“{outcome}” within {SOON:g} s of {goal.ended:.3g} s, and nothing else for this path"
+            saw = ", ".join(f"“{text}”" for text in sent[:4]) or "nothing"
+            raise Missed(expected, saw, about=(outcome, sent))
 
 
 def _lessons(run: Recording) -> list[Lesson]:

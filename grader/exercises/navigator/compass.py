@@ -34,9 +34,8 @@ class Value(NamedTuple):
         )
 
 
-compass = Exercise(
-    "compass", "Distance and bearing", world="yard", seconds=20, companions=[Wanderer], seeds=(1, 2)
-)
+compass = Exercise("compass", "Distance and bearing", world="yard", seconds=20, companions=[Wanderer],
+                   seeds=(1, 2))
 
 
 def _distance(pose: Pose2D) -> float:

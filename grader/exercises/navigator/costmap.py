@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from grader.checks import Missed, publishes, subscribes, tenths
+from grader.checks import Missed, otherwise, publishes, subscribes, tenths
 from grader.companions.maps import MapServer, PointClicker, made_for
 from grader.exercise import Exercise
 from grader.geometry import Point
@@ -20,29 +21,24 @@ COSTMAP = "/global_costmap/costmap"
 RADIUS = 0.2  # metres by which walls are to be thicker
 
 costmap = Exercise(
-    "costmap",
-    "Cells and walls",
-    world=lambda seed: world_of("clutter", seed),
-    seconds=8,
+    "costmap", "Cells and walls", world=partial(world_of, "clutter"), seconds=8, seeds=(4, 9),
     companions=lambda seed: [
         made_for(node, world=world_of("clutter", seed)) for node in (MapServer, PointClicker)
     ],
-    seeds=(4, 9),
 )
 clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
 
 
-@costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.")
+@costmap.check(1, guess="Subscribe to OccupancyGrid messages on /map, with the profile LATCHED.", hints={
+    "The map was published before the node was there. It comes later only to those who subscribe with the "
+    "profile LATCHED instead of a queue depth.": otherwise,
+})
 def receives_the_map(run: Recording) -> Any:
     """The node hears /map, though it was published before."""
     for end in subscribes(run, "/map", GRID):
         if end.qos["durability"] != "transient_local":
-            raise Missed(
-                "a subscription to /map with the durability transient_local",
-                f"one with {end.qos['durability']}",
-                "The map was published before the node was there. It comes later only to those who "
-                "subscribe with the profile LATCHED instead of a queue depth.",
-            )
+            expected = "a subscription to /map with the durability transient_local"
+            raise Missed(expected, f"one with {end.qos['durability']}", about=(end,))
     return run.messages("/map", "/map_server")[0].message
 
 
@@ -112,14 +108,12 @@ def answers_clicks(run: Recording, given: Any) -> None:
     wrong = [click for click in sent if not _is_answered(click, _centre(given.info, _point(click)))]
     if wrong:
         (x, y), right = _point(wrong[0]), _centre(given.info, _point(wrong[0]))
+        after = f"after the click on ({x:.3f}, {y:.3f}) m at {wrong[0].stamp:.3g} s"
         saw = "({:.3f}, {:.3f})".format(*_first(wrong[0])) if wrong[0].responses else "no answer"
-        raise Missed(
-            f"({right[0]:.3f}, {right[1]:.3f}) m after the click on ({x:.3f}, {y:.3f}) m "
-            f"at {wrong[0].stamp:.3g} s",
-            f"{saw}; {len(wrong)} of {len(sent)} are wrong" if len(wrong) > 1 else saw,
-            credit=tenths(min(1 - len(wrong) / len(sent), 0.5)),
-            about=(given.info, wrong),
-        )
+        saw += f"; {len(wrong)} of {len(sent)} are wrong" if len(wrong) > 1 else ""
+        credit = tenths(min(1 - len(wrong) / len(sent), 0.5))
+        expected = f"({right[0]:.3f}, {right[1]:.3f}) m {after}"
+        raise Missed(expected, saw, credit=credit, about=(given.info, wrong))
 
 
 def _point(click: Stimulus) -> Point:
@@ -177,12 +171,10 @@ def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
     faults = {"missing": missing, "too many": extra, "no longer occupied": lost}
     counts = {words: int(cells.sum()) for words, cells in faults.items() if cells.any()}
     if counts:
-        raise Missed(
-            f"{int(due.sum())} cells more that are 100",
-            ", ".join(f"{count} {words}" for words, count in counts.items()),
-            credit=tenths(0.8 * (1 - sum(counts.values()) / sure.sum())),
-            about=(Inflation(given, made, missing, extra, far),),
-        )
+        saw = ", ".join(f"{count} {words}" for words, count in counts.items())
+        credit = tenths(0.8 * (1 - sum(counts.values()) / sure.sum()))
+        it = Inflation(given, made, missing, extra, far)
+        raise Missed(f"{int(due.sum())} cells more that are 100", saw, credit=credit, about=(it,))
 
 
 def _form(msg: Any) -> str:

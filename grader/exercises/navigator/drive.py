@@ -1,19 +1,9 @@
 """Drive to a goal without a map."""
 
 import math
-from typing import Any
 
-from grader.checks import (
-    Missed,
-    arrives,
-    ends_with_a_stop,
-    publishes,
-    series,
-    stands_still,
-    tenths,
-    travelled,
-)
-from grader.checks.motion import length
+from grader.checks import Missed, publishes, series, tenths, travelled
+from grader.checks.motion import arrives, ends_with_a_stop, length, stands_still
 from grader.exercise import Exercise
 from grader.responses import Window, closest
 from grader.worlds.rooms import yard_from
@@ -38,10 +28,6 @@ def _straight(run: Recording) -> float:
     return math.dist(GOAL, run.path[0][1:3])
 
 
-def _stops_on_the_way(run: Recording) -> Any:
-    return _speeds(run)[-1] == 0.0 and run.path[-1]._asdict()
-
-
 @drive.check(1)
 def sends_velocities(run: Recording) -> None:
     """The node publishes Twist messages on /cmd_vel."""
@@ -59,7 +45,8 @@ def sends_velocities(run: Recording) -> None:
         lambda run: run.path[-1].stamp - run.messages("/cmd_vel")[-1].stamp > 1,
     "It turns and turns. A positive bearing is to the left, and so is a positive angular.z.":
         lambda run: travelled(run) < 0.5,
-    "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.": _stops_on_the_way,
+    "It was told to stop at ({x:.2f}, {y:.2f}) m: linear.x became 0 there.":
+        lambda run: _speeds(run)[-1] == 0.0 and run.path[-1]._asdict(),
     "It drives past the goal. Turn more for the same bearing, and go slowly while that is large.":
         lambda run: travelled(run) > _straight(run),
     "It came {way:.2f} m far in {time:.0f} s: 0.3 m/s or more is a good speed.":
@@ -70,23 +57,15 @@ def gets_there(run: Recording) -> None:
     left, stamp = closest(run.path, GOAL)
     if left > NEAR:
         come = 1 - math.dist(GOAL, run.path[-1][1:3]) / _straight(run)
-        raise Missed(
-            "the robot within 0.2 m of (5, 5) m",
-            f"{left:.2f} m away at the nearest, at {stamp:.3g} s",
-            credit=tenths(0.8 * come) if come >= 0.75 else 0.0,  # less may be by chance
-            picture="path",
-        )
-
-
-def _goes_past(run: Recording) -> Any:
-    left, _ = closest(run.path, GOAL)
-    return left > STOP and {"left": left}
+        credit = tenths(0.8 * come) if come >= 0.75 else 0.0  # less may be by chance
+        saw = f"{left:.2f} m away at the nearest, at {stamp:.3g} s"
+        raise Missed("the robot within 0.2 m of (5, 5) m", saw, credit=credit, picture="path")
 
 
 @drive.check(4, after=gets_there, guess={
     "First get there.": lambda run: closest(run.path, GOAL)[0] > NEAR,
     "It goes past the goal, {left:.2f} m beside it: turn more for the same bearing, or go slower.":
-        _goes_past,
+        lambda run: (left := closest(run.path, GOAL)[0]) > STOP and {"left": left},
     "Nearer than 0.1 m is near enough: then send a Twist() with zeros.": lambda run: True,
 })
 def stays_there(run: Recording) -> None:

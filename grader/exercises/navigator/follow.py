@@ -5,17 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from grader.checks import (
-    Missed,
-    ends_with_a_stop,
-    has_no_contacts,
-    publishes,
-    series,
-    stands_still,
-    tenths,
-    until_a_touch,
-)
-from grader.checks.motion import distances_to_line, is_hopeless, stood_still
+from grader.checks import Missed, has_no_contacts, publishes, series, stands_still, tenths, until_a_touch
+from grader.checks.motion import distances_to_line, ends_with_a_stop, is_hopeless, stood_still
 from grader.companions.goals import Planner
 from grader.companions.maps import Localization, made_for
 from grader.exercise import Exercise, Scenario
@@ -52,9 +43,8 @@ def _scenario(kind: str, seed: int) -> Scenario:
     return Scenario(lambda seed: world_of(kind, seed), 90, seed, companions, _settled)
 
 
-follow = Exercise(
-    "follow", "Along the path", scenarios=[_scenario("clutter", 2), _scenario("maze", 1)], may_end=True
-)
+follow = Exercise("follow", "Along the path", scenarios=[_scenario("clutter", 2), _scenario("maze", 1)],
+                  may_end=True)
 
 
 def _turns(run: Recording) -> list[float]:
@@ -67,10 +57,6 @@ def _speeds(run: Recording) -> list[float]:
 
 def _is_slow(run: Recording) -> bool:
     return max(_speeds(run)) <= FASTEST
-
-
-def _touch(run: Recording) -> Any:
-    return run.contacts and run.contacts[0]._asdict() | {"corners": CORNERS}
 
 
 @follow.check(1)
@@ -95,7 +81,8 @@ def sends_commands(run: Recording) -> None:
     "It steers as if /odom, or the transform from odom to base_link, said where the robot is in the map. "
     "That is where it is since its start: put the transform from map to odom before it.":
         lambda run: _trusts_odometry_alone(run),
-    "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}": _touch,
+    "It drove into a {what} at {stamp:.3g} s: the picture shows where. {corners}":
+        lambda run: run.contacts and run.contacts[0]._asdict() | {"corners": CORNERS},
     "It was told to stop before the end: 0.1 m from the last point is near enough.":
         lambda run: _speeds(run)[-1] == 0.0 and not _turns(run)[-1],
     "Draw the point ahead: it has to lie on the path, a little farther on than the robot.": lambda run: True,

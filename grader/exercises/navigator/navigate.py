@@ -5,15 +5,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from grader.checks import (
-    Missed,
-    cancels,
-    has_no_contacts,
-    series,
-    serves_action,
-    tenths,
-    travelled,
-)
+from grader.checks import Missed, cancels, has_no_contacts, series, serves_action, tenths, travelled
 from grader.checks.motion import after_a_touch, is_hopeless, length
 from grader.checks.navigation import ACTION, TYPE, end_of, feedback_faults, goals_from_course, to_go
 from grader.companions.goals import GoalClient
@@ -41,10 +33,8 @@ def _done(goals: int) -> Any:
             return True
         if not run.goals:
             return run.stamp > 8
-        last = run.goals[-1]
-        if len(run.goals) < goals:
-            return last.ended is not None and run.stamp > last.ended + CANCEL_AFTER + 3
-        return last.ended is not None and run.stamp > last.ended + 1
+        ended, wait = run.goals[-1].ended, 1 if len(run.goals) >= goals else CANCEL_AFTER + 3
+        return ended is not None and run.stamp > ended + wait
 
     return until
 
@@ -62,11 +52,9 @@ def _scenario(kind: str, seed: int, cancel_after: float | None = None) -> Scenar
     return Scenario(lambda seed: worlds(seed)[0], 100, seed, companions, _done(goals), name=kind)
 
 
-navigate = Exercise(
-    "navigate",
-    "The navigator",
-    scenarios=[_scenario("clutter", 3, CANCEL_AFTER), _scenario("maze", 2), _scenario("blocked", 2)],
-)
+navigate = Exercise("navigate", "The navigator", scenarios=[
+    _scenario("clutter", 3, CANCEL_AFTER), _scenario("maze", 2), _scenario("blocked", 2),
+])
 KNOWN = "clutter", "maze"  # where all that stands in the way is in the map
 
 
@@ -140,9 +128,8 @@ def goes_round(run: Recording) -> None:
 @navigate.check(3, after=reaches_the_goal, only=KNOWN)
 def touches_nothing(run: Recording) -> None:
     """In the known world the robot touches nothing."""
-    has_no_contacts(
-        run, "Inflate walls by more than the robot's radius of 0.1 m, and don't look too far ahead."
-    )
+    hint = "Inflate walls by more than the robot's radius of 0.1 m, and don't look too far ahead."
+    has_no_contacts(run, hint)
 
 
 @navigate.check(3, after=(serves, reaches_the_goal))

@@ -41,12 +41,9 @@ def answers_a_goal(run: Recording) -> list[Point]:
         publishes(run, "/plan", "nav_msgs/msg/Path")
     stamp, path = _answer(run, 0)
     if path is None or not path.poses:
-        raise Missed(
-            f"a path to the goal that was sent at {stamp:.3g} s",
-            "no path" if path is None else "a path without poses",
-            guess="find_path found no way: does it put cells into the queue, and remember where they came "
-            "from?",
-        )
+        guess = "find_path found no way: does it put cells into the queue, and remember where they came from?"
+        saw = "no path" if path is None else "a path without poses"
+        raise Missed(f"a path to the goal that was sent at {stamp:.3g} s", saw, guess=guess)
     if path.header.frame_id != "map":
         hint = 'Without a frame nobody knows where the points lie: path.header.frame_id = "map".'
         raise Missed("the frame “map” in the path's header", f"“{path.header.frame_id}”", hint)
@@ -60,19 +57,16 @@ def _is_reversed(run: Recording, points: list[Point]) -> bool:
 
 @plan.check(4, after=answers_a_goal, hints={
     "The way back from the goal to the start has to be turned round: way[::-1].": _is_reversed,
-    "x and y are swapped: a cell is (column, row).": lambda run, points: (
-        math.dist(points[-1], run.world.goal[::-1]) < GAP
-    ),
+    "x and y are swapped: a cell is (column, row).":
+        lambda run, points: math.dist(points[-1], run.world.goal[::-1]) < GAP,
     "The way back begins at the goal and ends at the cell that came from nowhere (None).":
         lambda run, points: True,
 })
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""
     begin, end = run.world.start[:2], run.world.goal
-    for words, point, right in (
-        ("begins at the robot", points[0], begin),
-        ("ends at the goal", points[-1], end),
-    ):
+    ends = ("begins at the robot", points[0], begin), ("ends at the goal", points[-1], end)
+    for words, point, right in ends:
         if not math.dist(point, right) <= GAP:  # so that NaN fails
             saw = f"({point[0]:.2f}, {point[1]:.2f}) m, which is {math.dist(point, right):.2f} m away"
             raise Missed(f"a path that {words}, ({right[0]:.2f}, {right[1]:.2f}) m", saw, about=(points,))

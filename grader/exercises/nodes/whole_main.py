@@ -7,9 +7,8 @@ from grader.companions.main_observer import Trace, observed, trace_of
 from grader.exercise import Exercise, Scenario
 from sim.evidence import Recording, Seconds
 
-whole_main = Exercise(
-    "whole_main", "A main() that cleans up", scenarios=[Scenario(seconds=7, prepare=observed)], may_end=True
-)
+whole_main = Exercise("whole_main", "A main() that cleans up",
+                      scenarios=[Scenario(seconds=7, prepare=observed)], may_end=True)
 
 
 @whole_main.check(3)

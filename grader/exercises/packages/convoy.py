@@ -1,11 +1,11 @@
 """A launch file that starts one program for each of two robots, under other names and with other settings."""
 
-import functools
+from functools import partial
 
 from grader.checks import Missed, publishes
 from grader.checks.packages import names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.workspace import installation
+from grader.workspace.installation import ros2_launch
 from grader.workspace.package import PackageRun
 from sim import World
 
@@ -23,9 +23,8 @@ LANES = World.from_data({
 })
 
 
-def _launch(*words: str) -> functools.partial:
-    return functools.partial(installation.ros2_launch, "convoy", "two.launch.py", *words)
-
+def _launch(*words: str) -> partial:
+    return partial(ros2_launch, "convoy", "two.launch.py", *words)
 
 convoy = Exercise("convoy", "One launch file, two robots", package="convoy", scenarios=[
     Scenario(LANES, seconds=7, name="plain", prepare=_launch()),
@@ -33,10 +32,8 @@ convoy = Exercise("convoy", "One launch file, two robots", package="convoy", sce
 ])
 
 
-@convoy.check(
-    5,
-    guess="It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.",
-)
+@convoy.check(5,
+              guess="It needs two Nodes, in the namespaces left and right, and `drive` remapped to cmd_vel.")
 def drives_both(run: PackageRun) -> None:
     """`ros2 launch convoy two.launch.py` drives both robots, by /left/cmd_vel and /right/cmd_vel."""
     for side in GAPS:

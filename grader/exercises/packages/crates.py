@@ -24,9 +24,8 @@ NEEDS = {  # what package.xml names, and in which tags: one of these, or both of
     "rosidl_interface_packages": ("member_of_group",),
 }
 
-crates = Exercise(
-    "crates", "A message, a service and an action of your own", package=NAME, build_type=CMAKE, seconds=0,
-)
+crates = Exercise("crates", "A message, a service and an action of your own", package=NAME, build_type=CMAKE,
+                  seconds=0)
 
 Read = Mapping[str, Mapping[str, InterfacePart]]
 

@@ -1,14 +1,14 @@
 """A module of one's own, imported by the package's name."""
 
 import ast
-import functools
+from functools import partial
 
 from grader.checks import Missed, publishes
 from grader.checks.packages import ROS, imports, package_of, parsed
 from grader.companions.package_sensors import VOLTS, VoltageProbe
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli, same
-from grader.workspace import installation
+from grader.workspace.installation import ros2_run
 from grader.workspace.package import PackageRun
 
 DEGREES = "/celsius"
@@ -16,16 +16,10 @@ MODULE, PLACE = "gauge.convert", "gauge/gauge/convert.py"
 BY_ITS_NAME = "Write `from gauge.convert import celsius`, and call celsius(...) where a message comes."
 SOON, SAME = 0.2, 0.05  # s, degrees
 
-
 gauge = Exercise("gauge", "A module of your own", package="gauge", scenarios=[
-    Scenario(
-        seconds=6,
-        prepare=functools.partial(installation.ros2_run, "gauge", "gauge"),
-        companions=lambda seed: [functools.partial(VoltageProbe, seed)],
-    )
+    Scenario(seconds=6, prepare=partial(ros2_run, "gauge", "gauge"),
+             companions=lambda seed: [partial(VoltageProbe, seed)]),
 ])
-
-
 voltages = Stimuli(VOLTS, answered_on=DEGREES, within=SOON, what="voltages on /volts")
 
 
@@ -58,12 +52,8 @@ def has_a_module(run: PackageRun) -> None:
     if "celsius" not in names:
         saw = f"{', '.join(names) or 'no function'} there" if PLACE in sources else "no such file"
         raise Missed(f"a function celsius in ws/src/{PLACE}", saw, "Put the arithmetic there, and only that.")
-    found = {
-        name
-        for path, data in sources.items()
-        if path.startswith("gauge/gauge/") and path != PLACE
-        for name in imports(data)
-    }
+    modules = [path for path in sources if path.startswith("gauge/gauge/") and path != PLACE]
+    found = {name for path in modules for name in imports(sources[path])}
     if not found & {MODULE, f"{MODULE}.celsius", ".convert", ".convert.celsius"}:
         saw = "no module of the package that imports it"
         raise Missed(f"an import of {MODULE}", saw, BY_ITS_NAME)

@@ -1,19 +1,17 @@
 """A package from nothing: three files, and what colcon makes of them."""
 
-import functools
+from functools import partial
 
 from grader.checks import Missed, publishes, rate
 from grader.checks.packages import installs_by_itself, names_what_it_imports
 from grader.exercise import Exercise, Scenario
-from grader.workspace import installation
+from grader.workspace.installation import ros2_run
 from grader.workspace.package import PackageRun
 
 TOPIC = "/greeting"
 
-greeter = Exercise(
-    "greeter", "A package from nothing", package="greeter",
-    scenarios=[Scenario(seconds=6, prepare=functools.partial(installation.ros2_run, "greeter", "hello"))],
-)
+greeter = Exercise("greeter", "A package from nothing", package="greeter",
+                   scenarios=[Scenario(seconds=6, prepare=partial(ros2_run, "greeter", "hello"))])
 
 
 @greeter.check(5, guess="Compare the topic's name with the task, letter by letter.")

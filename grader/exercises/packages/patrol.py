@@ -1,26 +1,20 @@
 """A broken package to repair."""
 
-import functools
+from functools import partial
 
 from grader.checks import Missed, publishes, series
 from grader.checks.packages import installs_by_itself, names_what_it_imports
 from grader.exercise import Exercise, Scenario
 from grader.responses import same
-from grader.workspace import installation
+from grader.workspace.installation import ros2_launch, ros2_run
 from grader.workspace.package import PackageRun
 
 TWIST = "geometry_msgs/msg/Twist"
 ALONE, LAUNCHED = 0.2, 0.15  # m/s
 
 patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=[
-    Scenario(
-        seconds=3, name="program", prepare=functools.partial(installation.ros2_run, "patrol", "patrol"),
-    ),
-    Scenario(
-        seconds=4,
-        name="launch",
-        prepare=functools.partial(installation.ros2_launch, "patrol", "patrol.launch.py"),
-    ),
+    Scenario(seconds=3, name="program", prepare=partial(ros2_run, "patrol", "patrol")),
+    Scenario(seconds=4, name="launch", prepare=partial(ros2_launch, "patrol", "patrol.launch.py")),
 ])
 
 

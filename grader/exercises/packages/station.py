@@ -1,31 +1,24 @@
 """Entry points: names for the functions that a package's programs start with."""
 
-import functools
+from functools import partial
 
 from grader.checks import Missed, publishes, rate
 from grader.checks.packages import package_of
 from grader.companions.package_sensors import TEMPERATURE, WeatherStation
 from grader.exercise import Exercise, Scenario
 from grader.responses import Stimuli
-from grader.workspace import installation
+from grader.workspace.installation import ros2_run
 from grader.workspace.package import PackageRun
 
 SHOWN = "/display"
 COMMANDS = ("display", "sensor")
 SOON = 0.3  # s
 
-
 station = Exercise("station", "Names for two programs", package="station", scenarios=[
-    Scenario(
-        seconds=4, name="sensor", prepare=functools.partial(installation.ros2_run, "station", "sensor"),
-    ),
-    Scenario(
-        seconds=5, name="display", prepare=functools.partial(installation.ros2_run, "station", "display"),
-        companions=lambda seed: [functools.partial(WeatherStation, seed)],
-    ),
+    Scenario(seconds=4, name="sensor", prepare=partial(ros2_run, "station", "sensor")),
+    Scenario(seconds=5, name="display", prepare=partial(ros2_run, "station", "display"),
+             companions=lambda seed: [partial(WeatherStation, seed)]),
 ])
-
-
 temperatures = Stimuli(TEMPERATURE, answered_on=SHOWN, within=SOON, what="temperatures on /temperature")
 
 

@@ -14,6 +14,10 @@ from sim.evidence import Message, Recording, Seconds, since_start
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR, STALE = range(4)
 WORDS = ("OK", "WARN", "ERROR", "STALE")
+LEVELS = {
+    "battery": lambda percent: ERROR if percent < 10 else WARN if percent < 30 else OK,
+    "motor": lambda celsius: ERROR if celsius >= 80 else WARN if celsius >= 60 else OK,
+}
 YOUNG, OLD, STEADY, NOW = 0.85, 1.15, 0.25, 0.1  # s
 EXACT = 0.51  # of a percent, of a degree
 
@@ -41,7 +45,10 @@ def reports(run: Recording) -> None:
     for row in arrays:
         names = sorted(status.name for status in row.message.status)
         if names != ["battery", "motor"]:
-            raise Missed("the statuses battery and motor", ", ".join(names) or "none", _names_hint(names))
+            hint = "Each DiagnosticStatus has a name: battery for the one, motor for the other."
+            if len(names) < 2:
+                hint = "Both in one array: msg.status = [battery, motor]."
+            raise Missed("the statuses battery and motor", ", ".join(names) or "none", hint)
     keeps_rate(run, TOPIC, 1.0)
 
 
@@ -91,12 +98,11 @@ def _reports(run: Recording) -> Iterator[PartReport]:
                 continue  # it has just begun
             number, age = _measured(newest), now - newest.stamp
             changes = before is not None and _measured(before) != number and age < STEADY
-            true = STALE if age > OLD else None if changes or age > YOUNG else _level(status.name, number)
+            true = STALE if age > OLD else None if changes or age > YOUNG else LEVELS[status.name](number)
             key = "percent" if status.name == "battery" else "celsius"
             value = next((pair.value for pair in status.values if pair.key == key), None)
-            yield PartReport(
-                now, status.name, int.from_bytes(status.level, "little"), true, value, number, age
-            )
+            level = int.from_bytes(status.level, "little")
+            yield PartReport(now, status.name, level, true, value, number, age)
 
 
 def _measured(row: Message) -> float:
@@ -105,26 +111,18 @@ def _measured(row: Message) -> float:
     return message.percentage * 100 if hasattr(message, "percentage") else message.temperature
 
 
-def _level(name: str, number: float) -> int:
-    if name == "battery":
-        return ERROR if number < 10 else WARN if number < 30 else OK
-    return ERROR if number >= 80 else WARN if number >= 60 else OK
-
-
 def _compare(reports: list[PartReport]) -> None:
     """Raises Missed at the first report that is wrong, and where there is none."""
     if not reports:
         raise Missed("reports in each state", "none in this one")
     for one in reports:
         if one.level != one.true:
-            expected = f"{WORDS[one.true]} for {one.name} at {one.stamp:.3g} s: {_state(one)}"
+            state = f"{one.number:.3g} {'%' if one.name == 'battery' else 'degrees'}"
+            if one.true == STALE:
+                state = f"nothing for {one.age:.2g} s"
+            expected = f"{WORDS[one.true]} for {one.name} at {one.stamp:.3g} s: {state}"
             saw = WORDS[one.level] if one.level < len(WORDS) else f"level {one.level}"
             raise Missed(expected, saw, _level_hint(one))
-
-
-def _state(one: PartReport) -> str:
-    unit = "%" if one.name == "battery" else "degrees"
-    return f"nothing for {one.age:.2g} s" if one.true == STALE else f"{one.number:.3g} {unit}"
 
 
 def _level_hint(one: PartReport) -> str:
@@ -137,12 +135,6 @@ def _level_hint(one: PartReport) -> str:
             "percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one first."
         )
     return "From 60 degrees on it is WARN, from 80 on ERROR: ask for the worse one first."
-
-
-def _names_hint(names: list[str]) -> str:
-    if len(names) < 2:
-        return "Both in one array: msg.status = [battery, motor]."
-    return "Each DiagnosticStatus has a name: battery for the one, motor for the other."
 
 
 def _number(text: str | None) -> float:

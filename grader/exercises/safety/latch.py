@@ -18,10 +18,8 @@ LATCH = (
     "again, and not a False from the button."
 )
 
-latch = Exercise(
-    "latch", "An emergency stop that stays", world="yard", seconds=14, companions=[EmergencyOperator],
-    seeds=(1, 2),
-)
+latch = Exercise("latch", "An emergency stop that stays", world="yard", seconds=14,
+                 companions=[EmergencyOperator], seeds=(1, 2))
 
 
 class Times(NamedTuple):
@@ -53,7 +51,10 @@ def lets_through(run: Recording) -> None:
         if _is_free(command.stamp, when) and not any(same(speeds(row), wanted, SAME) for row in then):
             saw = speeds_text(speeds(then[0])) if then else "nothing"
             expected = f"{speeds_text(wanted)} on {OUT} at {command.stamp:.3g} s, as on {RAW}"
-            raise Missed(expected, saw, _why_held(command.stamp, when))
+            hint = "Publish the command itself in the callback of /cmd_vel_raw, unless self.stopped."
+            if command.stamp >= when.resumed:
+                hint = "It was reset, and the button is out: then commands should pass again."
+            raise Missed(expected, saw, hint)
     for row in sent:
         if _is_free(row.stamp, when) and _is_free(row.stamp - SOON, when):
             lately = Window(row.stamp - LATELY, row.stamp).rows(raw)
@@ -68,19 +69,16 @@ def stops(run: Recording) -> None:
     """When the button is pressed, the robot stands within 0.4 s, as long as it is in."""
     when = _times(run)
     hint = "Publish an empty Twist as soon as the button says True, and pass nothing on while it is stopped."
-    require_standing(
-        run, Window(when.press + BRAKING, when.release), f"{BRAKING:g} s after the button was pressed", hint
-    )
+    pressed = Window(when.press + BRAKING, when.release)
+    require_standing(run, pressed, f"{BRAKING:g} s after the button was pressed", hint)
 
 
 @latch.check(4, after=stops)
 def stays_stopped(run: Recording) -> None:
     """It stays so when the button is let go, whatever the driver says, until it is reset."""
     when = _times(run)
-    require_standing(
-        run, Window(when.release, _granted(run).requested),
-        f"after the button was let go at {when.release:.3g} s", LATCH,
-    )
+    released = Window(when.release, _granted(run).requested)
+    require_standing(run, released, f"after the button was let go at {when.release:.3g} s", LATCH)
 
 
 @latch.check(3, after=stops)
@@ -101,9 +99,8 @@ def forgets_the_old_speed(run: Recording) -> None:
     """After the reset the robot stands until a new command comes."""
     when, reset = _times(run), _granted(run).requested
     hint = "The command from before the stop is out of date: a reset lets go, and moves nothing by itself."
-    require_standing(
-        run, Window(reset, when.resumed), f"from the reset at {reset:.3g} s to the next command", hint
-    )
+    why = f"from the reset at {reset:.3g} s to the next command"
+    require_standing(run, Window(reset, when.resumed), why, hint)
 
 
 @latch.check(2, after=lets_through)
@@ -111,9 +108,8 @@ def stops_without_the_button(run: Recording) -> None:
     """A button that is silent for 0.5 s counts as pressed: the robot stands 1 s after its last word."""
     when = _times(run)
     hint = "A broken cable can't say True. A timer looks at how long ago the button said something."
-    require_standing(
-        run, Window(when.cut + DEAF, when.cut + 1.5), f"{DEAF:g} s after the button's last word", hint
-    )
+    deaf = Window(when.cut + DEAF, when.cut + 1.5)
+    require_standing(run, deaf, f"{DEAF:g} s after the button's last word", hint)
     require_standing(run, Window(when.cut + 1.5, run.ended.stamp), "until somebody resets it", LATCH)
 
 
@@ -142,9 +138,3 @@ def _granted(run: Recording) -> Call:
     if not after or len(made) < 2:
         raise no_data(run, f"two calls of {RESET}", f"{len(made)}", run.graph.ends("client", RESET))
     return after[0]
-
-
-def _why_held(stamp: Seconds, when: Times) -> str:
-    if stamp >= when.resumed:
-        return "It was reset, and the button is out: then commands should pass again."
-    return "Publish the command itself in the callback of /cmd_vel_raw, unless self.stopped."

@@ -16,9 +16,8 @@ TOO_STRICT = (
 )
 NUMBERS = "std_msgs/msg/Float64MultiArray"
 
-mutants = Exercise(
-    "mutants", "Tests that catch mutants", seconds=12, companions=workshop, seeds=(1, 2), may_end=True
-)
+mutants = Exercise("mutants", "Tests that catch mutants", seconds=12, companions=workshop, seeds=(1, 2),
+                   may_end=True)
 
 
 class CandidateVerdict(NamedTuple):
@@ -60,9 +59,8 @@ def catches_what_is_wrong(run: Recording, found: list[CandidateVerdict]) -> None
             "Go through the contract line by line: each line is a test, and each needs its own places. Near, "
             "far, just on the edge, backwards, inf and nan, for both numbers. Too slow is wrong, too."
         )
-        raise Missed(
-            f"{ENOUGH} or more of {WRONG} wrong candidates caught", f"{caught}", hint, credit=caught / WRONG
-        )
+        expected = f"{ENOUGH} or more of {WRONG} wrong candidates caught"
+        raise Missed(expected, f"{caught}", hint, credit=caught / WRONG)
 
 
 def _verdicts(run: Recording) -> list[CandidateVerdict]:

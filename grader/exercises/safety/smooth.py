@@ -43,11 +43,8 @@ class Response(NamedTuple):
     @property
     def right(self) -> float:
         """What the limits leave of the request, in the end."""
-        return (
-            max(-self.axis.most, min(self.axis.most, self.requested))
-            if math.isfinite(self.requested)
-            else 0.0
-        )
+        within = max(-self.axis.most, min(self.axis.most, self.requested))
+        return within if math.isfinite(self.requested) else 0.0
 
 
 @smooth.check(2)

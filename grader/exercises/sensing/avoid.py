@@ -68,9 +68,8 @@ def hits_nothing(run: Recording) -> None:
         raise
 
 
-@avoid.check(
-    4, after=drives_on, guess="Drive straight on while it is free ahead, and turn only when it is not."
-)
+@avoid.check(4, after=drives_on,
+             guess="Drive straight on while it is free ahead, and turn only when it is not.")
 def gets_about(run: Recording) -> None:
     """It gets about: at some time it is 1 m from where it started, or further."""
     start = run.path[0]

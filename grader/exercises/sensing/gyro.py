@@ -19,9 +19,8 @@ RESTING = 20.0  # seconds: from here on the robot stands, and it stood before LE
 LEAVING = 3.0
 ROUNDED = math.degrees(0.01)  # of a sum in rad that keeps two decimals
 
-gyro = Exercise(
-    "gyro", "A gyro without drift", world="lab", seconds=28, companions=[LateStarter], seeds=(5, 6)
-)
+gyro = Exercise("gyro", "A gyro without drift", world="lab", seconds=28, companions=[LateStarter],
+                seeds=(5, 6))
 
 
 @gyro.check(3, lasts=True)

@@ -16,9 +16,8 @@ HEADING = "/heading"
 NEAR = 1.0  # degrees
 LAGS = 0.0, 0.05, 0.1, 0.15  # s for which a heading may be late
 
-heading = Exercise(
-    "heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling], seeds=(1, 2)
-)
+heading = Exercise("heading", "A compass from odometry", world="yard", seconds=20, companions=[Circling],
+                   seeds=(1, 2))
 
 
 @heading.check(2)

@@ -86,9 +86,8 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
         _all(lambda answer: answer.value == answer.sector.middle),
     "That is the first ray, or none at all: does `return` stand behind the loop, not inside of it?":
         _returns_in_the_loop,
-    "That is the greatest distance. min(...) finds the least one.": _all(
-        lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()
-    ),
+    "That is the greatest distance. min(...) finds the least one.":
+        _all(lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()),
     "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
     "makes degrees of radians.": _is_nearest_around,
     "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "

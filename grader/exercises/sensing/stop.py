@@ -15,9 +15,8 @@ def _any(run: Recording, field: str) -> bool:
 
 
 @stop.check(2, hints={
-    "linear.x is negative: that is backwards.": lambda run, far: any(
-        speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")
-    ),
+    "linear.x is negative: that is backwards.":
+        lambda run, far: any(speed < 0 for _, speed in series(run, "/cmd_vel", "linear.x")),
     "The commands stop too early, or come too rarely: publish one in every callback.":
         lambda run, far: _any(run, "linear.x"),
     "It turns on the spot: the speed ahead is linear.x; angular.z is how fast it turns.":

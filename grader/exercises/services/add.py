@@ -1,15 +1,15 @@
 """A service in one line, which adds."""
 
-from grader.checks.services import call_text, course_calls, offers, response_fields, wrong_response
+from grader.checks import course_calls, offers, wrong_response
+from grader.checks.services import call_text, response_fields
 from grader.companions.service_clients import Questioner
 from grader.exercise import Exercise
 from sim.evidence import Recording
 
 ADD = "/add_two_ints"
 
-add = Exercise(
-    "add", "A service in one line", seconds=6, companions=[Questioner], seeds=(1, 2), names_count=True
-)
+add = Exercise("add", "A service in one line", seconds=6, companions=[Questioner], seeds=(1, 2),
+               names_count=True)
 
 
 @add.check(4)

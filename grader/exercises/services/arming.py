@@ -4,16 +4,8 @@ import itertools
 import math
 import re
 
-from grader.checks import Missed, ends_with_a_stop, series, travelled
-from grader.checks.check import otherwise
-from grader.checks.services import (
-    call_text,
-    course_calls,
-    is_success,
-    offers,
-    response_fields,
-    wrong_response,
-)
+from grader.checks import Missed, ends_with_a_stop, offers, otherwise, series, travelled, wrong_response
+from grader.checks.services import call_text, course_calls, is_success, response_fields
 from grader.companions.service_clients import Pilot
 from grader.exercise import Exercise
 from sim.evidence import Call, Recording
@@ -28,10 +20,8 @@ NOT_YET = "A robot must not start by itself: self.armed = False in __init__, and
 NO_MORE = "request.data says what is wanted: self.armed = request.data. While it is False, send zeros."
 SETTLING = 0.8  # seconds: without commands the robot stops after 0.5 s, and braking takes time
 
-arming = Exercise(
-    "arming", "A robot that drives only when it is armed", world="yard", seconds=17, companions=[Pilot],
-    seeds=(1, 2),
-)
+arming = Exercise("arming", "A robot that drives only when it is armed", world="yard", seconds=17,
+                  companions=[Pilot], seeds=(1, 2))
 
 
 @arming.check(3)

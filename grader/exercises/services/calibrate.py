@@ -4,8 +4,8 @@ import math
 import re
 from typing import NamedTuple
 
-from grader.checks import Missed, series, usual_mistake
-from grader.checks.services import call_text, course_calls, is_refusal, is_success, offers, wrong_response
+from grader.checks import Missed, course_calls, offers, series, usual_mistake, wrong_response
+from grader.checks.services import call_text, is_refusal, is_success
 from grader.companions.service_clients import READINGS, Technician
 from grader.companions.service_servers import RawGyro
 from grader.exercise import Exercise
@@ -17,9 +17,8 @@ CLOSE, NEW = 0.001, 0.021  # rad/s, s
 Signal = list[tuple[Seconds, float]]
 ENOUGH = f"It refused with {READINGS} readings. Refuse only below that: if len(self.readings) < {READINGS}."
 
-calibrate = Exercise(
-    "calibrate", "A gyro that can be calibrated", seconds=10, companions=[RawGyro, Technician], seeds=(1, 2),
-)
+calibrate = Exercise("calibrate", "A gyro that can be calibrated", seconds=10,
+                     companions=[RawGyro, Technician], seeds=(1, 2))
 
 
 @calibrate.check(3)

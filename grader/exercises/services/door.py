@@ -46,12 +46,9 @@ def keeps_driving_commands(run: Recording) -> None:
     keeps_pace(run, "/cmd_vel", WAITING)
 
 
-@door.check(
-    3,
-    after=calls_the_door,
-    guess="In the done callback: answer = future.result(). When answer.success is False: "
-    "self.get_logger().warning(answer.message).",
-)
+@door.check(3, after=calls_the_door,
+            guess="In the done callback: answer = future.result(). When answer.success is False: "
+            "self.get_logger().warning(answer.message).")
 def warns_of_a_refusal(run: Recording, answered: list[Call]) -> None:
     """Each refusal is logged as a warning, with the door's message."""
     for call in filter(is_refusal, answered):

@@ -1,16 +1,8 @@
 """A mode manager: a parameter, two services and a bumper."""
 
-from grader.checks import Missed, ends_with_a_stop, named, publishes
+from grader.checks import Missed, course_calls, ends_with_a_stop, named, offers, publishes, wrong_response
 from grader.checks.fields import plain
-from grader.checks.services import (
-    call_text,
-    course_calls,
-    is_refusal,
-    is_success,
-    offers,
-    response_fields,
-    wrong_response,
-)
+from grader.checks.services import call_text, is_refusal, is_success, response_fields
 from grader.companions.service_clients import Operator
 from grader.exercise import Exercise
 from sim.evidence import Call, Recording, Seconds

@@ -2,16 +2,9 @@
 
 import math
 
-from grader.checks import Missed, named, publishes, series
+from grader.checks import Missed, course_calls, named, publishes, series, wrong_response
 from grader.checks.fields import plain
-from grader.checks.services import (
-    call_text,
-    course_calls,
-    is_refusal,
-    is_success,
-    response_fields,
-    wrong_response,
-)
+from grader.checks.services import call_text, is_refusal, is_success, response_fields
 from grader.companions.service_clients import Reader, Tuner
 from grader.exercise import Exercise
 from sim.evidence import Call, Recording, Seconds
@@ -21,9 +14,8 @@ LOW, HIGH, DEFAULT, LAUNCHED = 0.0, 0.5, 0.2, 0.3  # m/s
 SETTINGS = 7  # that the tuner makes
 INSIDE = f"{LOW} <= parameter.value <= {HIGH}"
 
-parameters = Exercise(
-    "parameters", "A speed that can be set", world="yard", seconds=14, companions=[Tuner], seeds=(1, 2)
-)
+parameters = Exercise("parameters", "A speed that can be set", world="yard", seconds=14, companions=[Tuner],
+                      seeds=(1, 2))
 
 
 @parameters.check(2)
@@ -132,9 +124,8 @@ def launches_the_cruiser(run: Recording) -> float:
     return declares_speed(run)
 
 
-@launch.check(
-    2, after=launches_the_cruiser, guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).'
-)
+@launch.check(2, after=launches_the_cruiser,
+              guess='In launch: return Process(Cruiser, parameters={"speed": 0.3}).')
 def is_launched_with_a_speed(run: Recording, speed: float) -> None:
     """It is started with a speed of 0.3, and drives with that."""
     _begins_with(run, speed, LAUNCHED)

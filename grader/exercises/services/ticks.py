@@ -14,9 +14,8 @@ GROUPS = (
     "and the client a group of their own, a ReentrantCallbackGroup; or use a done callback."
 )
 
-ticks = Exercise(
-    "ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders], seeds=(1, 2)
-)
+ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders],
+                 seeds=(1, 2))
 
 
 @ticks.check(4)

@@ -10,15 +10,10 @@ from sim.evidence import Recording, Seconds
 
 STRING = "std_msgs/msg/String"
 GIVEN_AWAY = 2  # right answers, or systems fixed, that earn nothing: they may be right by chance
-CURES = {
-    "name": "topic",
-    "reliability": "reliability",
-    "durability": "durability",
-    "deadline": "deadline",
-    "mute": "running",
-}  # the parameter that fixes a fault; where there is no sensor, none does
+# The parameter that fixes a fault; where there is no sensor, none does.
+SETTINGS = {"reliability", "durability", "deadline"}
+CURES = {"name": "topic", "mute": "running"} | {name: name for name in SETTINGS}
 CHANGES_ALL = "If you change everything, you mend by chance, and break what was right. Find the fault first."
-
 WHY = {
     "name": "A publisher has nearly this name. Compare with all topics: get_topic_names_and_types().",
     "nobody": "get_publishers_info_by_topic(topic) is empty, and no other name is nearly the same.",
@@ -27,7 +22,6 @@ WHY = {
     "deadline": "The display asks for a shorter deadline than the sensor offers; none at all is longest.",
     "mute": "All settings fit, and still nothing comes: the sensor is there, and doesn't speak.",
 }
-SETTINGS = {"reliability", "durability", "deadline"}
 
 doctor = Exercise("doctor", "A doctor for silent systems", seconds=9, companions=silent_systems, seeds=(1, 2))
 
@@ -56,12 +50,10 @@ def answers_complaints(run: Recording) -> None:
 
 
 @doctor.check(10, after=answers_complaints, hints={
-    "One message for each complaint: return as soon as the fault is found.": lambda run, one: (
-        len(one.words) > 1
-    ),
-    "The words are {faults}.": lambda run, one: (
-        not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)}
-    ),
+    "One message for each complaint: return as soon as the fault is found.":
+        lambda run, one: len(one.words) > 1,
+    "The words are {faults}.":
+        lambda run, one: not set(one.words) <= set(FAULTS) and {"faults": ", ".join(FAULTS)},
     "Publish the topic of the complaint, a colon and the word; `hear` does it if examine returns.":
         lambda run, one: not one.words,
     "Settings that differ may fit: a sensor may offer more than the display asks for. "
@@ -71,16 +63,13 @@ def answers_complaints(run: Recording) -> None:
 def names_the_faults(run: Recording) -> None:
     """For each complaint it names the fault, in one message and within a second: “/kitchen/speech: name”."""
     systems = _systems(run)
-    wrong = [one for one in systems if one.words != (one.case.fault,)]
-    if wrong:
-        first = wrong[0]
+    first = next((one for one in systems if one.words != (one.case.fault,)), None)
+    if first:
+        right = sum(one.words == (one.case.fault,) for one in systems)
+        expected = f"“{first.case.topic}: {first.case.fault}” after the complaint at {first.stamp:.3g} s"
         saw = ", ".join(f"“{word}”" for word in first.words) or "nothing"
-        raise Missed(
-            f"“{first.case.topic}: {first.case.fault}” after the complaint at {first.stamp:.3g} s",
-            f"{saw}; {len(systems) - len(wrong)} of {len(systems)} are right",
-            credit=_share(len(systems) - len(wrong), len(systems)),
-            about=(first,),
-        )
+        saw = f"{saw}; {right} of {len(systems)} are right"
+        raise Missed(expected, saw, credit=_share(right, len(systems)), about=(first,))
 
 
 @doctor.check(8, after=answers_complaints)
@@ -89,19 +78,15 @@ def fixes_the_faults(run: Recording) -> None:
     systems = [one for one in _systems(run) if one.case.fault != "nobody"]
     broken = [one for one in systems if not one.receives or one.idle]
     if broken:
-        first = broken[0]
-        done = (
-            f"{', '.join(first.changes)} was set"
-            if first.changes
-            else "nothing was set at the display, or it was refused"
-        )
-        raise Missed(
-            f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”",
-            f"it hears {'again' if first.receives else 'nothing'}, and {done}; "
-            f"{len(systems) - len(broken)} of {len(systems)} were mended so",
-            CHANGES_ALL if first.idle else _why_broken(first),
-            credit=_share(len(systems) - len(broken), len(systems)),
-        )
+        first, right = broken[0], len(systems) - len(broken)
+        done = f"{', '.join(first.changes)} was set"
+        if not first.changes:
+            done = "nothing was set at the display, or it was refused"
+        expected = f"the display of {first.case.topic} hearing again: the fault is “{first.case.fault}”"
+        saw = f"it hears {'again' if first.receives else 'nothing'}, and {done}; "
+        saw += f"{right} of {len(systems)} were mended so"
+        hint = CHANGES_ALL if first.idle else _why_broken(first)
+        raise Missed(expected, saw, hint, credit=_share(right, len(systems)))
 
 
 @doctor.check(2, after=fixes_the_faults)
@@ -131,15 +116,10 @@ def _systems(run: Recording) -> list[Diagnosed]:
         parts = [row.message.data.partition(":") for row in answers]
         words = tuple(word.strip() for name, _, word in parts if name.strip() == topic)
         set_here = tuple(name for where, name in changes if where == topic)
-        receives = any(f"{topic} {text}" in texts for text in _published(run, known[topic]))
+        published = from_course(run, known[topic].spoken, at_least=0)
+        receives = any(f"{topic} {row.message.data}" in texts for row in published)
         found.append(Diagnosed(complaint.stamp, known[topic], words, receives, set_here))
     return found
-
-
-def _published(run: Recording, case: SilentSystem) -> set[str]:
-    """What the sensor of a system has published, and no other node."""
-    return {row.message.data for row in from_course(run, case.spoken, at_least=0)}
-
 
 
 def _why_broken(one: Diagnosed) -> str:

@@ -3,8 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from grader.checks import Missed, publishes, subscribes
-from grader.checks.check import otherwise
+from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.no_data import no_data
 from grader.companions.speakers import LATE, PAUSE, speakers
 from grader.exercise import Exercise
@@ -85,18 +84,12 @@ def names_nodes_that_joined(run: Recording) -> None:
 
 def _questions(run: Recording) -> list[GraphQuestion]:
     """All questions of the course that had time for an answer."""
-    return [
-        GraphQuestion(
-            one.stamp, one.value.data, _publishers(run, one.value.data, one.stamp), tuple(one.values())
-        )
-        for one in questions(run, at_least=0)
-    ]
-
-
-def _publishers(run: Recording, topic: str, stamp: Seconds) -> tuple[str, ...]:
-    """The full names of the course's nodes that published on a topic lately, sorted."""
-    lately = Window(stamp - LATELY, stamp).rows(run.messages(topic))
-    return tuple(sorted({row.sender for row in lately if row.from_course}))
+    found = []
+    for one in questions(run, at_least=0):
+        lately = Window(one.stamp - LATELY, one.stamp).rows(run.messages(one.value.data))
+        speakers = sorted({row.sender for row in lately if row.from_course})
+        found.append(GraphQuestion(one.stamp, one.value.data, tuple(speakers), tuple(one.values())))
+    return found
 
 
 def _right(run: Recording, questions: list[GraphQuestion], what: str) -> None:
@@ -106,18 +99,15 @@ def _right(run: Recording, questions: list[GraphQuestion], what: str) -> None:
     for one in questions:
         if one.answers != (one.right,):
             expected = f"“{one.right}” for the question at {one.stamp:.3g} s, “{one.topic}”"
-            raise Missed(expected, _text(one.answers), credit=0.5 * all_named, about=(one,))
+            saw = f"{len(one.answers)} answers"
+            if len(one.answers) < 2:
+                saw = f"“{one.answers[0]}”" if one.answers else "no answer"
+            raise Missed(expected, saw, credit=0.5 * all_named, about=(one,))
 
 
 def _names(one: GraphQuestion) -> list[str]:
     """The names in the first answer."""
     return [name for name in one.answers[0].split(", ") if name]
-
-
-def _text(answers: tuple[str, ...]) -> str:
-    if len(answers) > 1:
-        return f"{len(answers)} answers"
-    return f"“{answers[0]}”" if answers else "no answer"
 
 
 def _bare(names: Iterable[str]) -> set[str]:

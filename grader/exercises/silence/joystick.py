@@ -18,10 +18,8 @@ LONGEST = 0.3  # s, a deadline that notices soon enough
 STEP, STANDING = 0.05, 0.02  # s, m/s
 PROFILE = "QoSProfile(depth=1, deadline=Duration(seconds=0.2)) is a profile with a deadline."
 
-joystick = Exercise(
-    "joystick", "A joystick that falls silent", world="yard", seconds=10, companions=[SilentJoystick],
-    seeds=(1, 2),
-)
+joystick = Exercise("joystick", "A joystick that falls silent", world="yard", seconds=10,
+                    companions=[SilentJoystick], seeds=(1, 2))
 
 
 @joystick.check(2)
@@ -46,9 +44,7 @@ def stops_when_it_falls_silent(run: Recording) -> None:
         speed = top_speed(run.during(begin + STOPPED, end).path).linear
         for moment, sent in _looks(run, begin + SOON, end):
             if sent != (0.0, 0.0):
-                expected = (
-                    f"zeros on /cmd_vel, {SOON:g} s after the joystick's last command (at {begin:.3g} s)"
-                )
+                expected = f"zeros on {SENT}, {SOON:g} s after the joystick's last command (at {begin:.3g} s)"
                 saw = f"{_text(sent)} at {moment:.3g} s; 1 s after it the robot drives at {speed:.2f} m/s"
                 hint = _why_not_zero(run, begin + STOPPED, end)
                 raise Missed(expected, saw, hint, picture="topics", unsafe=speed > STANDING)
@@ -60,9 +56,8 @@ def requests_a_deadline(run: Recording) -> None:
     shortest = _deadline(run)
     if not OFFERED - EDGE <= shortest <= LONGEST + EDGE:
         saw = "none" if shortest == math.inf else f"{shortest:g} s"
-        raise Missed(
-            f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription", saw, PROFILE
-        )
+        expected = f"a deadline from {OFFERED:g} s to {LONGEST:g} s in the QoS of the subscription"
+        raise Missed(expected, saw, PROFILE)
 
 
 @joystick.check(3, after=stops_when_it_falls_silent)
@@ -111,9 +106,7 @@ def _last(messages: list[Message], moment: Seconds) -> Speeds | None:
 
 
 def _text(command: Speeds | None) -> str:
-    if command is None:
-        return f"no command for {LONGEST:g} s"
-    return speeds_text(command)
+    return f"no command for {LONGEST:g} s" if command is None else speeds_text(command)
 
 
 def _deadline(run: Recording) -> Seconds:

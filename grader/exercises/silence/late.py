@@ -1,7 +1,6 @@
 """Durability: receive what was published before the node started, and latch for later subscribers."""
 
-from grader.checks import Missed, hinting, publishes, subscribes
-from grader.checks.check import otherwise
+from grader.checks import Missed, hinting, otherwise, publishes, subscribes
 from grader.companions.latched_map import FREE, LatchedMap, LateSubscriber
 from grader.exercise import Exercise
 from grader.responses import from_course
@@ -48,11 +47,9 @@ def publishes_once_for_each_map(run: Recording) -> None:
     """Each map gets one message, when it comes, and no other is sent."""
     sent, free = [row.message.data for row in run.messages("/free")], _truth(run)
     if sent != free:
-        hint = (
-            "Publish in the map's callback and nowhere else: who comes later is the middleware's care."
-            if len(sent) > len(free)
-            else "The callback is called with every map, and each of them has its own count."
-        )
+        hint = "The callback is called with every map, and each of them has its own count."
+        if len(sent) > len(free):
+            hint = "Publish in the map's callback and nowhere else: who comes later is the middleware's care."
         expected = f"{len(free)} messages: {', '.join(map(str, free))}"
         raise Missed(expected, f"{len(sent)}: {', '.join(map(str, sent[:5]))}", hint)
 
@@ -81,11 +78,9 @@ def _received(run: Recording, window: tuple[Seconds, Seconds], free: int) -> Non
         return
     expected = f"{free}, and nothing else, for the visitor who comes at {window[0]:g} s"
     if free in got:
-        hint = (
-            "The depth says how many old messages are kept for latecomers: here one."
-            if len(set(got)) > 1
-            else "Publish when a map comes, and not again and again."
-        )
+        hint = "The depth says how many old messages are kept for latecomers: here one."
+        if len(set(got)) == 1:
+            hint = "Publish when a map comes, and not again and again."
         raise Missed(expected, ", ".join(map(str, got)), hint)
     guess = "What was sent is kept for latecomers if the publisher has durability TRANSIENT_LOCAL."
     raise Missed(expected, ", ".join(map(str, got)) or "nothing", guess=guess)

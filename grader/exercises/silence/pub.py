@@ -54,14 +54,11 @@ def drives_the_circle(run: Recording) -> None:
     turned = sum(math.remainder(after.yaw - before.yaw, math.tau) for before, after in steps)
     length = travelled(run)
     if max(far) > NEAR or turned < ROUND or length < ROUND * RADIUS:
-        raise Missed(
-            f"a way of {math.tau * RADIUS:.2f} m round a circle, which is a turn of 360 degrees to the left",
-            f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
-            f"{max(far):.2f} m"
-            " off the circle",
-            _why_no_circle(run, turned),
-            picture="path",
-        )
+        way = f"a way of {math.tau * RADIUS:.2f} m round a circle"
+        saw = f"a way of {length:.2f} m and a turn of {math.degrees(turned):.0f} degrees, up to "
+        saw += f"{max(far):.2f} m off the circle"
+        hint = _why_no_circle(run, turned)
+        raise Missed(f"{way}, which is a turn of 360 degrees to the left", saw, hint, picture="path")
 
 
 @pub.check(2, after=drives_the_circle)

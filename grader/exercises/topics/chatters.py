@@ -1,5 +1,7 @@
 """Three topics with one callback."""
 
+import itertools
+
 from grader.checks import Missed, subscribes
 from grader.companions.chatterbox import Chatterbox
 from grader.exercise import Exercise
@@ -14,9 +16,8 @@ CHATTERS = {
 WITHIN = 0.25  # s from a message to its log line; the next message comes later
 DETAILS = "details of the message's way where its topic should be"
 
-chatters = Exercise(
-    "chatters", "Three topics, one callback", seconds=10, companions=[Chatterbox], seeds=(1, 2)
-)
+chatters = Exercise("chatters", "Three topics, one callback", seconds=10, companions=[Chatterbox],
+                    seeds=(1, 2))
 
 
 @chatters.check(4, guess="Make one subscription for each topic, in a loop or one by one.")
@@ -39,11 +40,14 @@ def subscribes_to_all_three(run: Recording) -> None:
     "Nothing is logged at all. Debug lines are hidden: use self.get_logger().info(...).":
         lambda run, row: not run.logs,
     "False is a value like any other, but `if msg.data:` lets only True pass: "
-    "log each message, whatever it says.": lambda run, row: _ignores_false(run, row),
+    "log each message, whatever it says.":
+        lambda run, row: run.graph.subscriptions(row.topic) and row.message.data is False
+        and not _lines_after(run, row),
 }, guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").')
 def knows_the_topic(run: Recording) -> None:
     """Each message is logged at info level as `chatter0: word`: its topic, a colon, a space and its value."""
-    missing = [row for topic in CHATTERS if (row := _first_not_logged(run, topic))]
+    sent = [row for topic in CHATTERS for row in run.messages(topic) if not _is_logged(run, row, topic)]
+    missing = [next(rows) for _, rows in itertools.groupby(sent, key=lambda row: row.topic)]
     if missing:
         first, right = min(missing, key=lambda row: row.stamp), len(CHATTERS) - len(missing)
         expected = f"“{_line(first, first.topic)}” at level INFO after the message at {first.stamp:.3g} s"
@@ -66,10 +70,6 @@ def uses_one_callback(run: Recording) -> None:
         raise Missed("one callback for the three topics", ", ".join(sorted(names)), hint)
 
 
-def _first_not_logged(run: Recording, topic: str) -> Message | None:
-    return next((row for row in run.messages(topic) if not _is_logged(run, row, topic)), None)
-
-
 def _is_logged(run: Recording, row: Message, topic: str) -> bool:
     wanted = _line(row, topic).lower()
     return any(line.level == "INFO" and wanted in line.text.lower() for line in _lines_after(run, row))
@@ -81,11 +81,6 @@ def _line(row: Message, topic: str) -> str:
 
 def _lines_after(run: Recording, row: Message) -> list[LogLine]:
     return Window.after(row.stamp, WITHIN).rows(run.logs)
-
-
-def _ignores_false(run: Recording, row: Message) -> bool:
-    is_received = run.graph.subscriptions(row.topic)
-    return bool(is_received) and row.message.data is False and not _lines_after(run, row)
 
 
 def _has_details(run: Recording, row: Message) -> bool:

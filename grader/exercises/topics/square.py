@@ -2,19 +2,9 @@
 
 import itertools
 import math
-from typing import Any
 
-from grader.checks import (
-    Missed,
-    arrives,
-    ends_with_a_stop,
-    follows,
-    passes,
-    publishes,
-    series,
-    stands_still,
-    travelled,
-)
+from grader.checks import Missed, follows, publishes, series
+from grader.checks.motion import arrives, ends_with_a_stop, passes, stands_still, travelled
 from grader.exercise import Exercise
 from grader.responses import closest
 from sim.evidence import Recording, stamps
@@ -33,7 +23,8 @@ def sends_velocities(run: Recording) -> None:
 
 @square.check(8, after=sends_velocities, guess={
     "angular.z was {fastest:.3g}: its unit is rad/s, and a quarter turn is pi/2 = 1.57 rad.":
-        lambda run: _too_fast(run),
+        lambda run: (fastest := max(abs(turn) for _, turn in series(run, "/cmd_vel", "angular.z"))) > math.tau
+        and {"fastest": fastest},
     "This robot can't move sideways, so it ignores linear.y: turn, then drive ahead with linear.x.":
         lambda run: any(value for _, value in series(run, "/cmd_vel", "linear.y")),
     "The robot stops by itself 0.5 s after the last command: repeat it at 10 Hz, from a timer.":
@@ -46,11 +37,6 @@ def sends_velocities(run: Recording) -> None:
 def passes_the_corners(run: Recording) -> None:
     """The robot passes (1, 0), (1, 1), (0, 1) and (0, 0), in this order."""
     passes(run, [*CORNERS, START], tolerance=NEAR)
-
-
-def _too_fast(run: Recording) -> Any:
-    fastest = max(abs(value) for _, value in series(run, "/cmd_vel", "angular.z"))
-    return fastest > math.tau and {"fastest": fastest}
 
 
 @square.check(3, after=passes_the_corners, guess="The picture shows where it leaves the square.")

@@ -22,9 +22,8 @@ def temperature_once_a_second(run: Recording) -> None:
     rate(run, TEMPERATURE, 1.0)
 
 
-@temperature.check(
-    4, after=temperature_is_published, guess="random.uniform(20.0, 25.0) gives a number in this range."
-)
+@temperature.check(4, after=temperature_is_published,
+                   guess="random.uniform(20.0, 25.0) gives a number in this range.")
 def temperature_in_range(run: Recording) -> list[float]:
     """Every temperature is from 20 to 25 °C."""
     return within(run, TEMPERATURE, "data", 20.0, 25.0, unit="°C")
