@@ -1,27 +1,19 @@
 """Programs that send goals and plans to a navigator, and follow what becomes of them."""
 
-import math
 from typing import Any, ClassVar
 
 from action_msgs.msg import GoalStatus
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped
 from nav2_msgs.action import NavigateToPose
 from nav_msgs.msg import Path
 from rclpy.action import ActionClient
 from rclpy.node import Node
 
+from grader.companions.map_messages import stamped
 from grader.geometry import Point
 from grader.geometry.ground import drivable
 from sim.world import World
-
-
-def pose_message(x: float, y: float, yaw: float = 0.0) -> PoseStamped:
-    """Return a pose in the frame map."""
-    msg = PoseStamped()
-    msg.header.frame_id = "map"
-    msg.pose.position.x, msg.pose.position.y = float(x), float(y)
-    msg.pose.orientation.z, msg.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return msg
 
 
 class GoalSender(Node):
@@ -38,7 +30,7 @@ class GoalSender(Node):
     def send(self) -> None:
         """Send the next one."""
         if self.left:
-            self.publisher.publish(pose_message(*self.left.pop(0)))
+            self.publisher.publish(stamped(Time(), *self.left.pop(0)))
 
 
 class Planner(Node):
@@ -49,7 +41,7 @@ class Planner(Node):
     def __init__(self) -> None:
         super().__init__("planner_server")
         self.publisher = self.create_publisher(Path, "/plan", 10)
-        self.path = Path(poses=[pose_message(x, y) for x, y in drivable(self.world)])
+        self.path = Path(poses=[stamped(Time(), x, y) for x, y in drivable(self.world)])
         self.path.header.frame_id = "map"
         self.create_timer(1.0, lambda: self.publisher.publish(self.path))
 
@@ -75,8 +67,7 @@ class GoalClient(Node):
         if not self.client.server_is_ready():
             return
         self.timer.cancel()
-        goal = NavigateToPose.Goal(pose=pose_message(*self.goal))
-        goal.pose.header.stamp = self.get_clock().now().to_msg()
+        goal = NavigateToPose.Goal(pose=stamped(self.get_clock().now().to_msg(), *self.goal))
         future = self.client.send_goal_async(goal, feedback_callback=self.on_feedback)
         future.add_done_callback(self.on_response)
 

@@ -41,16 +41,13 @@ def foreman(seed: int) -> list[Callable[[], Node]]:
 
 
 class Gripper(Node):
-    """Another driver that publishes /joint_states, of its own joint only."""
+    """Another driver that publishes /joint_states, of its own joint only: how far it is open (m)."""
 
     def __init__(self) -> None:
         super().__init__("gripper")
-        self.publisher = self.create_publisher(JointState, "/joint_states", 10)
-        self.create_timer(0.13, self.report)
-
-    def report(self) -> None:
-        """Publish how far the gripper is open (m)."""
-        self.publisher.publish(JointState(name=["gripper_joint"], position=[0.04], velocity=[0.0]))
+        publisher = self.create_publisher(JointState, "/joint_states", 10)
+        state = JointState(name=["gripper_joint"], position=[0.04], velocity=[0.0])
+        self.create_timer(0.13, lambda: publisher.publish(state))
 
 
 def poses(seed: int) -> list[list[float]]:
@@ -73,8 +70,6 @@ def _place(draw: random.Random, joint: JointModel, upper: bool, margin: tuple[fl
 
 def gymnast(seed: int) -> list[Callable[[], Node]]:
     """Return a program that moves the arm of `arm_of(seed)` from pose to pose, and a gripper."""
-    rows = [
-        (number * VISIT, "/joint_commands", Float64MultiArray(data=pose))
-        for number, pose in enumerate(poses(seed), start=1)
-    ]
+    commands = (Float64MultiArray(data=pose) for pose in poses(seed))
+    rows = [(number * VISIT, "/joint_commands", command) for number, command in enumerate(commands, start=1)]
     return [functools.partial(Schedule, "gymnast", rows), Gripper]

@@ -44,16 +44,12 @@ def plan(seed: int) -> Plan:
     if draw.random() < 0.5:
         places = [round(2 * middle - place, 2) for place in places]
     first = draw.choice((1, 2))  # not two in a row, because the second would then start from elsewhere
-    jams = [_halfway(places, index) for index in (first, first + draw.choice((1, 2)))]
+    jams = [(places[index - 1] + places[index]) / 2 for index in (first, first + draw.choice((1, 2)))]
     requests = list(places)
     bad = [upper + draw.uniform(0.05, 0.3), lower - draw.uniform(0.05, 0.3), math.nan]
     for wrong in draw.sample(bad, 3):
         requests.insert(draw.randrange(1, len(requests)), round(wrong, 2))
     return Plan(lower, upper, draw.random() < 0.7 or seed == 1, requests, jams)
-
-
-def _halfway(places: list[float], index: int) -> float:
-    return (places[index - 1] + places[index]) / 2
 
 
 class Lift(Node):
@@ -98,17 +94,12 @@ class Lift(Node):
         self._report()
 
     def _move(self, way: float) -> None:
-        after = self.position + way
-        jam = next(
-            (jam for jam in self.jams[:1] if min(self.position, after) <= jam <= max(self.position, after)),
-            None,
-        )
-        if jam is not None:
-            self.jams.remove(jam)
-            self.stuck, after = True, jam
+        low, high = sorted((self.position, self.position + way))
+        if self.jams and low <= self.jams[0] <= high:
+            self.stuck, self.position = True, self.jams.pop(0)
         else:
             self.velocity, self.effort = way / PERIOD, math.copysign(MOVING, way)
-        self.position = after
+            self.position += way
 
     def _report(self) -> None:
         self.turns += 0.3
@@ -124,7 +115,6 @@ class Lift(Node):
 def lift(seed: int) -> list[Callable[[], Node]]:
     """Return the lift of a seed, and a program that requests positions on /wanted (Float64)."""
     made = plan(seed)
-    rows = [
-        (BEGIN + number * PAUSE, "/wanted", Float64(data=one)) for number, one in enumerate(made.requests)
-    ]
+    requests = (Float64(data=position) for position in made.requests)
+    rows = [(BEGIN + number * PAUSE, "/wanted", request) for number, request in enumerate(requests)]
     return [functools.partial(Lift, made), functools.partial(Schedule, "caller", rows)]

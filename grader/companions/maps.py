@@ -4,17 +4,18 @@ These programs know the world, so each class is made for one: `bringup(world)`.
 """
 
 import array
-import math
 import random
 from typing import Any, ClassVar
 
 import numpy as np
-from geometry_msgs.msg import PointStamped, TransformStamped
+from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
 from grader.companions.qos import LATCHED
+from grader.companions.transforms import transform
+from grader.geometry import Pose2D
 from grader.geometry.ground import RESOLUTION, ground
 from sim.nanoseconds import SECOND
 from sim.ros.messages.template import STAMP, Template
@@ -86,13 +87,7 @@ class Localization(Node):
     def __init__(self) -> None:
         super().__init__("localization")
         self.publisher = self.create_publisher(TFMessage, "/tf", 10)
-        transform = TransformStamped(child_frame_id="odom")
-        transform.header.frame_id = "map"
-        x, y, yaw = self.start
-        move = transform.transform
-        move.translation.x, move.translation.y = x, y
-        move.rotation.z, move.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-        message = TFMessage(transforms=[transform])
+        message = TFMessage(transforms=[transform("map", "odom", Pose2D(*self.start))])
         self.message = Template(message, [f"transforms.0.{field}" for field in STAMP])
         self.create_timer(0.05, self.publish)
 

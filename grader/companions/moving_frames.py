@@ -10,6 +10,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import TransformBroadcaster
 
+from grader.companions.map_messages import posed
 from grader.companions.transforms import transform
 from grader.geometry import Pose2D
 from sim.evidence import since_start
@@ -40,9 +41,7 @@ class WheelOdometry(Node):
         odom = Odometry(child_frame_id="base_link")
         age = Duration(seconds=random.uniform(0.01, 0.08))
         odom.header.frame_id, odom.header.stamp = "odom", (self.get_clock().now() - age).to_msg()
-        odom.pose.pose.position.x, odom.pose.pose.position.y = self.x, self.y
-        turn = odom.pose.pose.orientation
-        turn.z, turn.w = math.sin(self.yaw / 2), math.cos(self.yaw / 2)
+        odom.pose.pose = posed(self.x, self.y, self.yaw)
         odom.twist.twist.linear.x, odom.twist.twist.angular.z = SPEED, self.turn
         self.publisher.publish(odom)
 

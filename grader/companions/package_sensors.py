@@ -14,13 +14,9 @@ class WeatherStation(Node):
     def __init__(self, seed: int) -> None:
         super().__init__("weather")
         rng = random.Random(f"weather {seed}")
-        self.left = [rng.randrange(-200, 400) / 10 for _ in range(100)]
-        self.publisher = self.create_publisher(Float32, TEMPERATURE, 10)
-        self.create_timer(0.5, self.measure)
-
-    def measure(self) -> None:
-        """Publish the next temperature."""
-        self.publisher.publish(Float32(data=self.left.pop()))
+        temperatures = [rng.randrange(-200, 400) / 10 for _ in range(100)]
+        publisher = self.create_publisher(Float32, TEMPERATURE, 10)
+        self.create_timer(0.5, lambda: publisher.publish(Float32(data=temperatures.pop())))
 
 
 class VoltageProbe(Node):
@@ -29,12 +25,8 @@ class VoltageProbe(Node):
     def __init__(self, seed: int) -> None:
         super().__init__("probe")
         rng = random.Random(f"probe {seed}")
-        self.left = [round(rng.uniform(0.0, 3.3), 3) for _ in range(60)]
+        voltages = [round(rng.uniform(0.0, 3.3), 3) for _ in range(60)]
         for _ in range(12):
-            self.left[rng.randrange(50, 60)] = rng.choice([-0.2, -0.01, 3.35, 5.0])
-        self.publisher = self.create_publisher(Float32, VOLTS, 10)
-        self.create_timer(0.25, self.measure)
-
-    def measure(self) -> None:
-        """Publish the next voltage."""
-        self.publisher.publish(Float32(data=self.left.pop()))
+            voltages[rng.randrange(50, 60)] = rng.choice([-0.2, -0.01, 3.35, 5.0])
+        publisher = self.create_publisher(Float32, VOLTS, 10)
+        self.create_timer(0.25, lambda: publisher.publish(Float32(data=voltages.pop())))

@@ -11,35 +11,26 @@ from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import Image
 
 
-class PlannedSubscription(NamedTuple):
-    """A subscription of a plan."""
+class PlannedEndpoint(NamedTuple):
+    """A line of a plan. kind: "subscription" or "publisher"."""
 
+    kind: str
     topic: str
     type: Any
     profile: QoSProfile | int
 
 
-class PlannedPublisher(NamedTuple):
-    """A publisher of a plan."""
-
-    topic: str
-    type: Any
-    profile: QoSProfile | int
-
-
-def subscribes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedSubscription:
+def subscribes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedEndpoint:
     """A line of a plan: this program subscribes to a topic."""
-    return PlannedSubscription(topic, type, profile)
+    return PlannedEndpoint("subscription", topic, type, profile)
 
 
-def publishes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedPublisher:
+def publishes(topic: str, type: Any, profile: QoSProfile | int = 10) -> PlannedEndpoint:
     """A line of a plan: this program publishes on a topic."""
-    return PlannedPublisher(topic, type, profile)
+    return PlannedEndpoint("publisher", topic, type, profile)
 
 
-def sketch(
-    plan: Mapping[str, Callable[[], Sequence[PlannedSubscription | PlannedPublisher]]],
-) -> Callable[[], None]:
+def sketch(plan: Mapping[str, Callable[[], Sequence[PlannedEndpoint]]]) -> Callable[[], None]:
     """Return a program with a node for each name of the plan, with what the function of that name lists.
 
     The nodes publish empty messages, five times a second.
@@ -55,10 +46,10 @@ def sketch(
     return main
 
 
-def _node(name: str, ends: Sequence[PlannedSubscription | PlannedPublisher]) -> Node:
+def _node(name: str, ends: Sequence[PlannedEndpoint]) -> Node:
     node = Node(name)
     for end in ends:
-        if isinstance(end, PlannedSubscription):
+        if end.kind == "subscription":
             node.create_subscription(end.type, end.topic, lambda message: None, end.profile)
         else:
             publisher = node.create_publisher(end.type, end.topic, end.profile)

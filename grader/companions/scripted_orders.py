@@ -78,20 +78,12 @@ class Script:
         delivery = pickup[0] - way * math.cos(angle), pickup[1] + way * math.sin(angle)
         return ScriptedOrder(self.count, pickup, (round(delivery[0], 2), round(delivery[1], 2)), left)
 
-    def _add(
-        self,
-        about: str,
-        reason: str,
-        state: str,
-        place: Point,
-        *orders: tuple[ScriptedOrder, int],
-        **more: float,
-    ) -> None:
+    def _add(self, about: str, reason: str, state: str, place: Point,
+             *orders: tuple[ScriptedOrder, int], **more: float) -> None:
         end = self.begin + more.get("lasts", self.draw.uniform(*SPELL))
         share = more.get("share", WELL)
-        self.situations.append(
-            Situation(about, reason, self.begin, end, state, place, round(share, 2), list(orders))
-        )
+        situation = Situation(about, reason, self.begin, end, state, place, round(share, 2), list(orders))
+        self.situations.append(situation)
         self.begin = end
 
     def _shift(self) -> None:

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from example_interfaces.srv import AddTwoInts
@@ -101,33 +102,23 @@ class Operator(ServiceCaller):
 
     def __init__(self) -> None:
         super().__init__("operator")
-        self.arming = self.create_client(SetBool, "/arm")
-        self.resetting = self.create_client(Trigger, "/reset")
+        arming, resetting = self.create_client(SetBool, "/arm"), self.create_client(Trigger, "/reset")
+        arm, disarm = (partial(self.call, arming, SetBool.Request(data=armed)) for armed in (True, False))
         self.setting = self.create_client(SetParameters, "/manager/set_parameters")
         self.bumped = False
         self.create_subscription(Bool, "/bumper", self.on_bumper, 10)
         turning = random.uniform(2.0, 4.0)
         wrong = random.choice(("dance", "Circle", "", "aheads"))
-        self.plan(1.0, self.arm, self.mode("circle"), None, lambda: None)
-        self.plan(2.0 + turning, self.mode(wrong), self.disarm, self.mode("ahead"), self.arm)
+        self.plan(1.0, arm, self.mode("circle"), None, lambda: None)
+        self.plan(2.0 + turning, self.mode(wrong), disarm, self.mode("ahead"), arm)
+        reset = partial(self.call, resetting, Trigger.Request())
+        self.after_a_bump = arm, reset, self.mode("back"), arm, None, disarm
 
     def plan(self, begin: float, *steps: Callable[[], None] | None) -> None:
         """Take the steps one after the other, one a second."""
         for number, step in enumerate(steps):
             if step:
                 call_at(self, begin + number, step)
-
-    def arm(self) -> None:
-        """Switch the motors on."""
-        self.call(self.arming, SetBool.Request(data=True))
-
-    def disarm(self) -> None:
-        """Switch the motors off."""
-        self.call(self.arming, SetBool.Request(data=False))
-
-    def reset(self) -> None:
-        """Reset the emergency stop."""
-        self.call(self.resetting, Trigger.Request())
 
     def mode(self, name: str) -> Callable[[], None]:
         """Return an action that sets the mode."""
@@ -137,7 +128,7 @@ class Operator(ServiceCaller):
         """After the first bump: try to arm, reset, drive away."""
         if msg.data and not self.bumped:
             self.bumped = True
-            self.plan(1.0, self.arm, self.reset, self.mode("back"), self.arm, None, self.disarm)
+            self.plan(1.0, *self.after_a_bump)
 
 
 def call_at(node: Node, moment: float, action: Callable[[], None]) -> None:

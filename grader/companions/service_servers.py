@@ -13,10 +13,7 @@ from grader.companions.service_clients import call_at
 from sim.evidence import since_start
 
 REFUSALS = (
-    "The door is locked.",
-    "Somebody stands in the way.",
-    "The doorman is at lunch.",
-    "Please wait a moment.",
+    "The door is locked.", "Somebody stands in the way.", "The doorman is at lunch.", "Please wait a moment.",
 )
 
 

@@ -42,12 +42,10 @@ class Team(Node):
         self.phase = random.uniform(-3.0, 3.0)
         self.count, self.plan = 0, random.sample(SIGHTINGS, len(SIGHTINGS))
         self.names = dict(zip((*CAMERAS, "ghost"), random.sample(NAMES, len(CAMERAS) + 1), strict=True))
-        self.static.sendTransform(
-            [
-                transform(f"{self.names[robot]}/base_link", f"{self.names[robot]}/camera", camera)
-                for robot, camera in CAMERAS.items()
-            ]
-        )
+        self.static.sendTransform([
+            transform(f"{self.names[robot]}/base_link", f"{self.names[robot]}/camera", camera)
+            for robot, camera in CAMERAS.items()
+        ])
         self.create_timer(0.05, self.move)
         self.begin = self.create_timer(BEGIN, self.start)
 
@@ -60,12 +58,10 @@ class Team(Node):
         """Publish where all robots are."""
         now = self.get_clock().now()
         maps = {robot: "sea" if robot == "island" else "map" for robot in CAMERAS}
-        self.moving.sendTransform(
-            [
-                transform(maps[robot], f"{self.names[robot]}/base_link", self.pose_at(robot, now), now)
-                for robot in CAMERAS
-            ]
-        )
+        self.moving.sendTransform([
+            transform(maps[robot], f"{self.names[robot]}/base_link", self.pose_at(robot, now), now)
+            for robot in CAMERAS
+        ])
 
     def pose_at(self, robot: str, now: Time) -> Pose2D:
         """Return the pose of a robot, each on a circle of its own."""

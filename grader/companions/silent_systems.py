@@ -22,6 +22,8 @@ OFFERED, WANTED = (0.3, 0.4, 0.5), 0.2  # s, deadlines
 PERIOD = 0.1  # s between two messages
 LONGEST = 1e6  # s, a deadline
 STRING = "std_msgs/msg/String"
+BEST_EFFORT = {True: ReliabilityPolicy.BEST_EFFORT, False: ReliabilityPolicy.RELIABLE}
+TRANSIENT = {True: DurabilityPolicy.TRANSIENT_LOCAL, False: DurabilityPolicy.VOLATILE}
 POLICIES = {"reliability": ("best_effort", "reliable"), "durability": ("volatile", "transient_local")}
 
 
@@ -60,22 +62,14 @@ def _misspelt(word: str, draw: random.Random) -> str:
     return word[:place] + word[place + 1 :]
 
 
-def _reliability(best_effort: bool) -> ReliabilityPolicy:
-    return ReliabilityPolicy.BEST_EFFORT if best_effort else ReliabilityPolicy.RELIABLE
-
-
-def _durability(transient: bool) -> DurabilityPolicy:
-    return DurabilityPolicy.TRANSIENT_LOCAL if transient else DurabilityPolicy.VOLATILE
-
-
 class FaultySensor(Node):
     """Publishes String messages, ten a second, while its parameter `running` is true."""
 
     def __init__(self, case: SilentSystem) -> None:
         super().__init__("sensor", namespace=case.space)
         profile = QoSProfile(depth=5)
-        profile.reliability = _reliability(case.fault == "reliability" or case.weak)
-        profile.durability = _durability(case.fault != "durability" and case.durable)
+        profile.reliability = BEST_EFFORT[case.fault == "reliability" or case.weak]
+        profile.durability = TRANSIENT[case.fault != "durability" and case.durable]
         profile.deadline = Duration(seconds=case.deadline)
         self.count = random.randrange(10**9)  # so that no other node can know its messages
         self.declare_parameter("running", case.fault != "mute")
@@ -102,8 +96,8 @@ class ConfigurableDisplay(Node):
         weak = case.fault != "reliability" and case.weak
         settings = {
             "topic": case.topic,
-            "reliability": _reliability(weak).name.lower(),
-            "durability": _durability(case.fault == "durability").name.lower(),
+            "reliability": BEST_EFFORT[weak].name.lower(),
+            "durability": TRANSIENT[case.fault == "durability"].name.lower(),
             "deadline": WANTED if case.fault == "deadline" else 0.0,
         }
         self.received = self.create_publisher(String, "/heard", 10)
@@ -133,9 +127,8 @@ class ConfigurableDisplay(Node):
     def check(self, parameters: list[Parameter]) -> SetParametersResult:
         """Reject what a subscription cannot have."""
         wrong = [parameter.name for parameter in parameters if not self.can_be(parameter)]
-        return SetParametersResult(
-            successful=not wrong, reason=f"impossible: {', '.join(wrong)}" if wrong else ""
-        )
+        reason = f"impossible: {', '.join(wrong)}" if wrong else ""
+        return SetParametersResult(successful=not wrong, reason=reason)
 
     def can_be(self, parameter: Parameter) -> bool:
         """Whether a subscription can have this setting."""

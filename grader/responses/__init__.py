@@ -6,10 +6,17 @@ student's programs publish within its window. Checks compare the two, and raise 
 
 from grader.responses.comparison import listed, matches, same, text_of
 from grader.responses.speeds import Speed, closest, require_standing, speeds, top_speed
-from grader.responses.stimuli import Stimuli, Stimulus, from_course, last_before, requests_from_course
+from grader.responses.stimuli import (
+    Stimuli,
+    Stimulus,
+    from_course,
+    from_student,
+    last_before,
+    requests_from_course,
+)
 from grader.responses.window import EDGE, Window
 
 __all__ = [
-    "EDGE", "Speed", "Stimuli", "Stimulus", "Window", "closest", "from_course", "last_before", "listed",
-    "matches", "requests_from_course", "require_standing", "same", "speeds", "text_of", "top_speed",
+    "EDGE", "Speed", "Stimuli", "Stimulus", "Window", "closest", "from_course", "from_student", "last_before",
+    "listed", "matches", "requests_from_course", "require_standing", "same", "speeds", "text_of", "top_speed",
 ]

@@ -29,14 +29,18 @@ def from_course(
     return found
 
 
+def from_student(run: Recording, topic: str) -> list[Message]:
+    """Return the messages that the student's programs published on a topic."""
+    return [row for row in run.messages(topic) if not row.from_course]
+
+
 def requests_from_course(run: Recording, service: str, *, at_least: int = 1, what: str = "") -> list[Call]:
     """Return the requests that the course's programs sent to a service. Raises as `no_data` for fewer."""
     calls = run.calls_of(service)
     found = [call for call in calls if call.requested_by_course and call.requested is not None]
     if len(found) < at_least:
-        raise no_data(
-            run, what or f"requests to {service}", f"{len(found)}", run.graph.ends("client", service)
-        )
+        clients = run.graph.ends("client", service)
+        raise no_data(run, what or f"requests to {service}", f"{len(found)}", clients)
     return found
 
 
@@ -127,7 +131,7 @@ class Stimuli:
         if len(chosen) < at_least:
             expected = self.what or f"messages on {self.topic}"
             raise no_data(run, expected, f"{len(chosen)}", run.graph.publishers(self.topic))
-        answers = [row for row in run.messages(self.answered_on) if not row.from_course]
+        answers = from_student(run, self.answered_on)
         return [self._with_responses(row, answers) for row in chosen]
 
     def _with_responses(self, message: Message, answers: Sequence[Message]) -> Stimulus:

@@ -5,9 +5,9 @@ import math
 from grader.checks import Missed, publishes, rate
 from grader.companions.scripted_orders import desk, situations
 from grader.exercise import Exercise
-from grader.geometry import Point
-from grader.responses import Window
-from sim.evidence import Message, Recording
+from grader.geometry import Point, Pose2D
+from grader.responses import Window, from_student
+from sim.evidence import Recording
 
 GOAL, STATE = "/goal_pose", "/state"
 LATE = 1.2  # s until a decision that comes twice a second has to hold
@@ -34,7 +34,7 @@ def knows_latched_messages(run: Recording) -> None:
 @decide.check(1, after=knows_latched_messages)
 def has_the_frame_map(run: Recording) -> None:
     """Where to go is said in the frame map, as /dock_pose and the orders do."""
-    for goal in _from_student(run, GOAL):
+    for goal in from_student(run, GOAL):
         frame = goal.message.header.frame_id
         if frame != "map":
             hint = "Publish the pose of the order or the dock as it came: header.frame_id is in it."
@@ -80,25 +80,16 @@ def _compare(run: Recording, about: str, hint: str) -> None:
     for one in situations(run.seed, about):
         begin = one.begin + LATE
         window = Window(begin, run.ended.stamp).before(one.end)
-        goals, states = (window.rows(_from_student(run, topic)) for topic in (GOAL, STATE))
+        goals, states = (window.rows(from_student(run, topic)) for topic in (GOAL, STATE))
         expected = f"“{one.state}” and {_text(one.place)} from {begin:.3g} s on, as {one.reason}"
         if not (goals and states):
             saw = f"no word from {begin:.3g} s to {one.end:.3g} s"
             raise Missed(expected, saw, SILENT, picture="topics")
         for state, goal in zip(states, goals, strict=False):
-            place = _place(goal)
+            place = Pose2D.from_message(goal.message.pose)[:2]
             if state.message.data != one.state or not math.dist(place, one.place) < SAME:
                 saw = f"“{state.message.data}” and {_text(place)} at {goal.stamp:.3g} s"
                 raise Missed(expected, saw, hint, picture="topics")
-
-
-def _from_student(run: Recording, topic: str) -> list[Message]:
-    return [row for row in run.messages(topic) if not row.from_course]
-
-
-def _place(goal: Message) -> Point:
-    position = goal.message.pose.position
-    return position.x, position.y
 
 
 def _text(place: Point) -> str:

@@ -11,7 +11,7 @@ from grader.companions.turner import turner
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
 from grader.geometry.floor import far_from, points_of
-from grader.responses import from_course
+from grader.responses import from_course, from_student
 from grader.worlds.crossing import CLOSE, FAR, crossing, in_view
 from sim.evidence import Message, Pose, Recording, Seconds, since_start
 from sim.world.clearance import clearance
@@ -45,7 +45,7 @@ def knows_its_place(run: Recording) -> None:
     hint = (
         "Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's stamp."
     )
-    for row in _from_student(run, POSE):
+    for row in from_student(run, POSE):
         pose, true = Pose2D.from_message(row.message.pose), Pose2D(*_nearest(run.path, _time(row))[1:])
         if not pose.is_near(true, PLACED, TURNED):
             expected = f"the robot at {_text(true)}, turned by {true.yaw:.2f} rad"
@@ -59,7 +59,7 @@ def stamps_by_the_scan(run: Recording) -> None:
     stamps = {_nanoseconds(row) for row in from_course(run, "/scan")}
     hint = "Pass scan.header.stamp on, and not the time of now."
     for topic in (POSE, PEOPLE, OBSTACLES):
-        rows = _from_student(run, topic)
+        rows = from_student(run, topic)
         wrong = next((row for row in rows if _nanoseconds(row) not in stamps), None)
         if wrong:
             saw = f"{_time(wrong):.4g} s on {topic} at {wrong.stamp:.4g} s, when no scan was made"
@@ -79,7 +79,7 @@ def finds_what_stands(run: Recording) -> None:
     """/obstacles has points of the boxes in view, and none of what is on the map."""
     boxes = _boxes_in_view(run)
     hint = "Floor.strange gives the points that the map doesn't explain; publish them all."
-    for row in _from_student(run, OBSTACLES)[::EACH]:
+    for row in from_student(run, OBSTACLES)[::EACH]:
         points, person = _points(row), _nearest(_person(run), _time(row))[1:3]
         person_in_view = in_view(run.world, run.world.start[:2], person, FAR, 0.0)
         for box in [] if person_in_view else boxes:
@@ -96,10 +96,15 @@ def finds_what_stands(run: Recording) -> None:
 @perceive.check(5, after=knows_its_place)
 def finds_who_walks(run: Recording) -> None:
     """/people has a point of whoever walks in view, and of no box that stands there from the beginning."""
-    rows = _from_student(run, PEOPLE)[::EACH]
+    rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.0) and _speed_of_person(run, row, 1.0) > WALKS]
     comes = _time(seen[0]) if seen else math.inf
-    _require_no_boxes(run, [row for row in rows if SETTLED < _time(row) <= comes])
+    before = [row for row in rows if SETTLED < _time(row) <= comes]
+    for row, box in itertools.product(before, _plain_boxes(run, _time(before[-1])) if before else []):
+        if any(math.dist(point, box) < BOX for point in _points(row)):
+            hint = "What has stood there all the time doesn't walk: compare with half a second before."
+            saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
+            raise Missed("no box on /people that has stood there for six seconds", saw, hint)
     for row in seen:
         hint = "Whose points were not there half a second before walks: far_from(strange, before, 0.25)."
         _require_person(run, row, "somebody who walks", hint)
@@ -109,21 +114,12 @@ def finds_who_walks(run: Recording) -> None:
 @perceive.check(4, after=finds_who_walks)
 def remembers_who_stops(run: Recording) -> None:
     """Whoever walked, and stops, is told of for some seconds more."""
-    rows = _from_student(run, PEOPLE)[::EACH]
+    rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.2) and _speed_of_person(run, row, 1.2) < STANDS]
     for row in seen:
         hint = "Keep the points that moved, each with its time, for five seconds."
         _require_person(run, row, "somebody who walked here, and stands now", hint)
     _require_three(run, seen, "somebody who stands")
-
-
-def _require_no_boxes(run: Recording, rows: list[Message]) -> None:
-    boxes = _plain_boxes(run, _time(rows[-1])) if rows else []
-    for row, box in itertools.product(rows, boxes):
-        if any(math.dist(point, box) < BOX for point in _points(row)):
-            hint = "What has stood there all the time doesn't walk: compare with half a second before."
-            saw = f"the box at {_text(box)} among them at {row.stamp:.3g} s"
-            raise Missed("no box on /people that has stood there for six seconds", saw, hint)
 
 
 def _plain_boxes(run: Recording, end: Seconds) -> list[Point]:
@@ -193,10 +189,6 @@ def _has(points: list[Point], there: Point) -> bool:
 
 def _points(row: Message) -> list[Point]:
     return [Pose2D.from_message(pose)[:2] for pose in row.message.poses]
-
-
-def _from_student(run: Recording, topic: str) -> list[Message]:
-    return [row for row in run.messages(topic) if not row.from_course]
 
 
 def _time(row: Message) -> Seconds:

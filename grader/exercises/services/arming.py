@@ -53,7 +53,8 @@ def reports_its_state(run: Recording) -> None:
         lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z"),
     "All commands were 0: does arm set self.armed (with self), and does drive look at it?":
         lambda run, call: not _commands(run, "linear.x"),
-    SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
+    SWITCHES: lambda run, call: (before := _before(run, call))
+    and travelled(run.during(before[0].requested, (*before, call)[1].requested)) > 0.1,
     "A second data=True must not switch it off again: write self.armed = request.data.":
         lambda run, call: any(other.request.data for other in _before(run, call)[-1:]),
     f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": otherwise,
@@ -64,7 +65,9 @@ def drives_while_armed(run: Recording) -> None:
     _stands(run.during(0.0, first.requested), "before the first call", NOT_YET)
     _begins_when_armed(run)
     for call, phase in _phases(run, armed=True):
-        speed = _mean_speed(phase)
+        # From the first pose to the last: they are up to 50 ms inside the phase, which may be short.
+        seconds = phase.path[-1].stamp - phase.path[0].stamp if phase.path else 0.0
+        speed = travelled(phase) / seconds if seconds else 0.0
         if not math.isclose(speed, SPEED, rel_tol=0.15):
             expected, saw = f"{SPEED} m/s after {call_text(call)}", f"{speed:.2g} m/s"
             raise Missed(expected, saw, picture="path", about=(call,))
@@ -76,12 +79,6 @@ def stands_while_disarmed(run: Recording) -> None:
     for call, phase in _phases(run, armed=False):
         _stands(phase, f"after {call_text(call)}", NO_MORE)
     ends_with_a_stop(run, credit=0.5)
-
-
-def _mean_speed(phase: Recording) -> float:
-    """In m/s, from the first pose to the last; they are up to 50 ms inside the phase, which may be short."""
-    seconds = phase.path[-1].stamp - phase.path[0].stamp if phase.path else 0.0
-    return travelled(phase) / seconds if seconds else 0.0
 
 
 def _begins_when_armed(run: Recording) -> None:
@@ -106,11 +103,8 @@ def _phases(run: Recording, *, armed: bool) -> list[tuple[Call, Recording]]:
     """The calls that armed or disarmed, each with the run until the next call."""
     made = course_calls(run, ARM, CALLS)
     ends = [*(call.requested for call in made[1:]), run.ended.stamp]
-    return [
-        (call, run.during(call.requested + SETTLING, end))
-        for call, end in zip(made, ends, strict=True)
-        if call.request.data == armed
-    ]
+    phases = (run.during(call.requested + SETTLING, end) for call, end in zip(made, ends, strict=True))
+    return [(call, phase) for call, phase in zip(made, phases, strict=True) if call.request.data == armed]
 
 
 def _word(call: Call) -> str:
@@ -133,8 +127,3 @@ def _before(run: Recording, call: Call) -> list[Call]:
 
 def _commands(run: Recording, field: str) -> bool:
     return any(value for _, value in series(run, "/cmd_vel", field))
-
-
-def _drives_before_the_second_call(run: Recording, call: Call) -> bool:
-    first, second = course_calls(run, ARM, CALLS)[:2]
-    return bool(_before(run, call)) and travelled(run.during(first.requested, second.requested)) > 0.1

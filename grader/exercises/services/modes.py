@@ -109,10 +109,8 @@ def _phases(run: Recording) -> list[tuple[Call | None, Recording]]:
     calls = sorted((*run.calls_of(ARM), *run.calls_of(SET)), key=lambda call: call.requested)
     begins = [0.0, *(call.requested for call in calls)]
     ends = [*begins[1:], run.ended.stamp]
-    return [
-        (call, run.during(begin + SOON, end))
-        for call, begin, end in zip([None, *calls], begins, ends, strict=True)
-    ]
+    phases = (run.during(begin + SOON, end) for begin, end in zip(begins, ends, strict=True))
+    return list(zip([None, *calls], phases, strict=True))
 
 
 def _is_accepted(call: Call, guess: str = "") -> None:

@@ -69,12 +69,9 @@ def _is_command(row: Message) -> bool:
 
 def _first_contradiction(run: Recording, row: Message, level: str = "") -> LogLine | None:
     """The first line in response to a message, at a level, that another message should have had."""
-    lines = Window.after(row.stamp, WITHIN).rows(run.logs)
-    wrong = (line for line in lines if level in ("", line.level) and _contradicts(line, row.message.data))
-    return next(wrong, None)
-
-
-def _contradicts(line: LogLine, word: str) -> bool:
-    if line.level != "INFO":
-        return word in COMMANDS
-    return any(doing in line.text.lower() for command, doing in DOING.items() if command != word)
+    others = [doing for command, doing in DOING.items() if command != row.message.data]
+    for line in Window.after(row.stamp, WITHIN).rows(run.logs):
+        wrong = any(doing in line.text.lower() for doing in others)
+        if level in ("", line.level) and (wrong if line.level == "INFO" else _is_command(row)):
+            return line
+    return None

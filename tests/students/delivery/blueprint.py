@@ -85,7 +85,7 @@ class Part(Node):
     def __init__(self, name, lines):
         super().__init__(name)
         for line in lines:
-            if type(line) is type(SCAN):
+            if line.kind == "subscription":
                 self.create_subscription(line.type, line.topic, lambda message: None, line.profile)
             else:
                 publisher = self.create_publisher(line.type, line.topic, line.profile)
