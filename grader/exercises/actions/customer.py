@@ -36,10 +36,8 @@ def logs_the_progress(run: Recording, goal: Goal) -> None:
         newest, soon = row.message.sequence[-1], Window.after(row.stamp, SOON)
         texts = lines(run.during(soon.begin, soon.end), "INFO")
         if not any(newest in numbers_in(text) for text in texts):
-            hint = (
-                "send_goal_async(goal, feedback_callback=self.hear_feedback); there the numbers are in "
-                "msg.feedback.sequence, and [-1] is the newest."
-            )
+            hint = ("send_goal_async(goal, feedback_callback=self.hear_feedback); there the numbers are in "
+                    "msg.feedback.sequence, and [-1] is the newest.")
             raise Missed(f"an info line with {newest} at {row.stamp:.3g} s", quoted(texts), hint)
 
 
@@ -51,15 +49,11 @@ def logs_the_result(run: Recording, goal: Goal) -> None:
     texts = lines(run.during(goal.ended), "INFO")
     wanted = list(goal.result.sequence)
     if not any("result" in text.lower() and _holds(text, wanted) for text in texts):
-        hint = (
-            "In hear_result the numbers are in future.result().result.sequence, and list(...) of them prints "
-            "well."
-        )
+        hint = ("In hear_result the numbers are in future.result().result.sequence, and list(...) of them "
+                "prints well.")
         if goal.received is None:
-            hint = (
-                "Nobody asked for the result. In ask: future.add_done_callback(self.hear_response); there: "
-                "goal_handle.get_result_async().add_done_callback(self.hear_result)."
-            )
+            hint = ("Nobody asked for the result. In ask: future.add_done_callback(self.hear_response); "
+                    "there: goal_handle.get_result_async().add_done_callback(self.hear_result).")
         raise Missed(f"an info line with “result” and {wanted} after {goal.ended:.3g} s", quoted(texts), hint)
 
 

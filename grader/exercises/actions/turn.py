@@ -91,13 +91,11 @@ def _feedback_is_true(run: Recording, goal: Goal) -> None:
     for row in goal.feedback:
         turned, sent = turned_by(row.stamp), row.message.angular_distance_traveled
         if not same(abs(sent), abs(turned), NEAR):
-            raise Missed(
-                f"angular_distance_traveled={turned:.2f} at {row.stamp:.3g} s, in the feedback on "
-                f"{_text(goal)}",
-                f"{sent:.2f}",
-                guess="The field angular_distance_traveled is how far the robot has turned since the goal "
-                "began.",
-            )
+            expected = (f"angular_distance_traveled={turned:.2f} at {row.stamp:.3g} s, in the feedback on "
+                        f"{_text(goal)}")
+            guess = ("The field angular_distance_traveled is how far the robot has turned since the goal "
+                     "began.")
+            raise Missed(expected, f"{sent:.2f}", guess=guess)
 
 
 @turn.check(3, after=offers_to_turn)

@@ -16,14 +16,10 @@ TARGET, BEYOND, NEAR, COMES = 0.6, 0.12, 0.03, 0.85  # m
 LAST, PERIOD = 4.0, 0.05  # s; from one scan to the next
 HELD = 0.4  # of the scans: fewer, and the motors brake
 CLOSE = 1e-3  # m
-WIND_UP = (
-    "All the way to the wall the error is large and the motor at its limit: the sum grows and grows, and "
-    "has to be worn off behind the goal. While the speed is cut, don't add to the sum."
-)
-SIGN = (
-    "The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is the "
-    "sign right, and P large enough?"
-)
+WIND_UP = ("All the way to the wall the error is large and the motor at its limit: the sum grows and grows, "
+           "and has to be worn off behind the goal. While the speed is cut, don't add to the sum.")
+SIGN = ("The error is the distance minus 0.6 m: far from the wall it is positive, and so is the speed. Is "
+        "the sign right, and P large enough?")
 
 gap = Exercise("gap", "Stop in front of the wall", world=ramp, seconds=24, companions=[Slope], seeds=(1, 2))
 

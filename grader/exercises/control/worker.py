@@ -15,10 +15,8 @@ from sim.evidence import Message, Recording
 LIMIT, ALONE = 0.035, 0.2  # s
 LOOKS, SOON = 0.3, 0.75  # s
 ANSWERS = "/brightest"
-ASIDE = (
-    "A callback that takes long belongs in a callback group of its own, and a MultiThreadedExecutor spins "
-    "the node: with one of the two alone nothing changes."
-)
+ASIDE = ("A callback that takes long belongs in a callback group of its own, and a MultiThreadedExecutor "
+         "spins the node: with one of the two alone nothing changes.")
 
 worker = Exercise("worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2))
 pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")

@@ -42,9 +42,8 @@ def publishes_all_three(run: Recording) -> None:
 @perceive.check(4, after=publishes_all_three)
 def knows_its_place(run: Recording) -> None:
     """/robot_pose is where base_link was at its stamp, in map."""
-    hint = (
-        "Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's stamp."
-    )
+    hint = ("Look up map to base_link for the robot, and map to base_scan for the rays, both at the scan's "
+            "stamp.")
     for row in from_student(run, POSE):
         pose, true = Pose2D.from_message(row.message.pose), Pose2D(*_nearest(run.path, _time(row))[1:])
         if not pose.is_near(true, PLACED, TURNED):

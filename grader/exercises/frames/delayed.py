@@ -13,10 +13,9 @@ from sim.evidence import Message, Recording, Seconds, since_start
 POINT = "geometry_msgs/msg/PointStamped"
 NEAR, SOON, AT_ONCE = 0.03, 1.2, 0.2  # m, s, s
 OFTEN, ELSEWHERE = 0.4, 0.3  # of the points: published more than once; where it was at another moment
-LATER = (
-    "The transform comes half a second after the detection: keep the detection, and look again later. A "
-    "callback that waits for it in a loop keeps its own node from hearing. Each is known by its stamp."
-)
+LATER = ("The transform comes half a second after the detection: keep the detection, and look again later. "
+         "A callback that waits for it in a loop keeps its own node from hearing. Each is known by its "
+         "stamp.")
 
 delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLocalization], seeds=(1, 2))
 detections = Stimuli("/detection", answered_on="/found", within=SOON, what="detections")
@@ -70,13 +69,11 @@ def _require_places(run: Recording, seen: list[Stimulus]) -> None:
             if frame != "map" or not math.dist((point.x, point.y), (x, y)) <= NEAR:
                 newest = last_before(_robot(run), one.stamp)
                 was_there = math.dist((point.x, point.y), _point(newest, one)) <= NEAR
-                raise Missed(
-                    f"({x:.2f}, {y:.2f}) m in map, for the detection at {one.stamp:.3g} s",
-                    f"({point.x:.2f}, {point.y:.2f}) m in {frame or 'no frame'}",
-                    "Time() asks for the newest transform that has come, and that one is half a second old: "
-                    "the robot was elsewhere. Wait for the time of the detection, msg.header.stamp.",
-                    credit=ELSEWHERE if was_there else 0.0,
-                )
+                expected = f"({x:.2f}, {y:.2f}) m in map, for the detection at {one.stamp:.3g} s"
+                saw = f"({point.x:.2f}, {point.y:.2f}) m in {frame or 'no frame'}"
+                hint = ("Time() asks for the newest transform that has come, and that one is half a second "
+                        "old: the robot was elsewhere. Wait for the time of the detection, msg.header.stamp.")
+                raise Missed(expected, saw, hint, credit=ELSEWHERE if was_there else 0.0)
 
 
 def _answers(seen: Stimulus) -> list[Message]:

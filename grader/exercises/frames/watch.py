@@ -62,10 +62,8 @@ def _require_own_commands(run: Recording) -> None:
     """Raise Missed where all commands go to another robot."""
     strange = _publishers(run, STRANGER)
     if strange and not _publishers(run, OUT):
-        hint = (
-            "Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A remapping, "
-            "from cmd_vel to the tower's own topic, sends it there."
-        )
+        hint = ("Look at the graph: the watcher publishes on /cmd_vel, which is another robot's. A "
+                "remapping, from cmd_vel to the tower's own topic, sends it there.")
         saw = f"{strange[0].node} publishes on {STRANGER}"
         raise Missed(f"commands on {OUT}", saw, hint, credit=HALF, unsafe=True)
 

@@ -112,10 +112,8 @@ def _does_not_count_time(run: Recording, commands: list[Message]) -> None:
     waits = [after.stamp - _arrival(run, before, after.stamp) for before, after in pairs]
     if waits and max(waits) - min(waits) > UNEVEN:
         saw = f"it once {min(waits):.2g} s after that, and once {max(waits):.2g} s"
-        hint = (
-            "No way takes longer than that, and most take less: time says nothing about arrival. Compare the "
-            "position on /joint_states with the target."
-        )
+        hint = ("No way takes longer than that, and most take less: time says nothing about arrival. "
+                "Compare the position on /joint_states with the target.")
         raise Missed("the next command because the joint has arrived", saw, hint, picture="path")
 
 

@@ -80,12 +80,10 @@ def once_for_each(run: Recording, visits: list[Visit]) -> None:
     for visit in visits:
         count = len(visit.names(run.messages(NAME), visit.end + SOON))
         if count > 1:
-            raise Missed(
-                f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s",
-                f"{count}",
-                "Remember which joints are near already: a set of names. Speak when one comes in, and take "
-                "it out when it is away.",
-            )
+            expected = f"one “{visit.name}” from {visit.begin:.3g} s to {visit.end:.3g} s"
+            hint = ("Remember which joints are near already: a set of names. Speak when one comes in, and "
+                    "take it out when it is away.")
+            raise Missed(expected, f"{count}", hint)
 
 
 def _visits(run: Recording) -> list[Visit]:

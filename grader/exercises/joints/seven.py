@@ -56,9 +56,8 @@ def ends_by_itself(run: Recording) -> None:
     if run.errors:
         raise Missed("an end without an error", f"{run.errors[0].type}{run.errors[0].says}")
     if end is None or end > last + PERIOD + 0.1:
-        raise Missed(
-            f"the program at its end, at most {PERIOD:g} s after the last position (at {last:.3g} s)",
-            f"it still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s",
-            "When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
-            "rclpy.spin() returns, and main() comes to its end.",
-        )
+        expected = f"the program at its end, at most {PERIOD:g} s after the last position (at {last:.3g} s)"
+        saw = f"it still running at {run.ended.stamp:.3g} s" if end is None else f"{end:.3g} s"
+        hint = ("When there is no position left: self.destroy_node(), and then rclpy.shutdown(). After that "
+                "rclpy.spin() returns, and main() comes to its end.")
+        raise Missed(expected, saw, hint)

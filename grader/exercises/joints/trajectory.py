@@ -103,11 +103,10 @@ def publishes_the_worst_error(run: Recording, lessons: list[Lesson]) -> None:
         window, error = Window.after(row.stamp, SOON), max(map(abs, row.message.error.positions))
         sent = [answer.message.data for answer in window.rows(published)]
         if window.is_over(run) and not any(same(value, error) for value in sent):
-            raise Missed(
-                f"{error:.4f} on /worst_error after the feedback at {row.stamp:.3g} s",
-                f"{sent[0]:.4f}" if sent else "nothing",
-                "max(abs(error) for error in msg.feedback.error.positions): abs for each of them, then max.",
-            )
+            expected = f"{error:.4f} on /worst_error after the feedback at {row.stamp:.3g} s"
+            hint = ("max(abs(error) for error in msg.feedback.error.positions): abs for each of them, then "
+                    "max.")
+            raise Missed(expected, f"{sent[0]:.4f}" if sent else "nothing", hint)
 
 
 @trajectory.check(5, after=by_their_names, hints={
@@ -142,12 +141,10 @@ def _lessons(run: Recording) -> list[Lesson]:
     for path in from_course(run, "/path", at_least=2, settled=SOON, what="two paths"):
         sent = [goal for goal in goals if Window.after(path.stamp, SOON).contains(goal.requested)]
         if len(sent) != 1:
-            raise Missed(
-                f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s",
-                f"{len(sent)} of them",
-                "Send one goal in the callback of /path, each time it is called. Don't wait there for the "
-                "answer: a node that waits in a callback hears nothing, not even the answer.",
-            )
+            expected = f"one goal within {SOON:g} s of the path at {path.stamp:.3g} s"
+            hint = ("Send one goal in the callback of /path, each time it is called. Don't wait there for "
+                    "the answer: a node that waits in a callback hears nothing, not even the answer.")
+            raise Missed(expected, f"{len(sent)} of them", hint)
         found.append(Lesson(path, sent[0]))
     return found
 

@@ -179,7 +179,5 @@ def inflates(run: Recording, maps: tuple[Any, Any]) -> None:
 
 def _form(msg: Any) -> str:
     corner = msg.info.origin.position
-    return (
-        f"{msg.info.width} by {msg.info.height} cells of {msg.info.resolution:.3g} m from "
-        f"({corner.x:.2f}, {corner.y:.2f}) m in the frame “{msg.header.frame_id}”"
-    )
+    return (f"{msg.info.width} by {msg.info.height} cells of {msg.info.resolution:.3g} m from "
+            f"({corner.x:.2f}, {corner.y:.2f}) m in the frame “{msg.header.frame_id}”")

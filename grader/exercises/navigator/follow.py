@@ -20,10 +20,9 @@ NEAR = 0.15  # metres from the path's end
 # curvature it swings out of a maze's corners by 13 cm or more.
 OFF = 0.12
 LOST = 0.4  # metres from the path: what the robot passes farther away is not covered
-CORNERS = (
-    "Where it cuts a corner, look less far ahead. Where it swings out of one, it turns too little: curvature "
-    "= 2 * sin(bearing) / distance, and on the spot while the bearing is above 1 rad, to both sides."
-)
+CORNERS = ("Where it cuts a corner, look less far ahead. Where it swings out of one, it turns too little: "
+           "curvature = 2 * sin(bearing) / distance, and on the spot while the bearing is above 1 rad, to "
+           "both sides.")
 FASTEST = 1.0  # m/s that a student may want
 AHEAD = 0.3  # metres: how far ahead of the robot the assignment steers for
 NEXT = 1.0  # metres of the path in which its next point is looked for

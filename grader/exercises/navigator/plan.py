@@ -100,10 +100,8 @@ def is_short(run: Recording, points: list[Point]) -> None:
     shortest = float(floor.lengths(_costmap(run) == 0, world.goal)[row, column])
     way = math.fsum(gap for gap, _ in _gaps(points))
     if way > RIGHT * shortest:
-        hint = (
-            "A cell may be found again on a shorter way: then note the new cost, and where it came from. "
-            "Diagonal steps are sqrt(2) long."
-        )
+        hint = ("A cell may be found again on a shorter way: then note the new cost, and where it came "
+                "from. Diagonal steps are sqrt(2) long.")
         credit = tenths(0.8 * (1 - (way / shortest - RIGHT) / (POOR - RIGHT)))
         raise Missed(f"a path of {RIGHT * shortest:.2f} m or less", f"{way:.2f} m", hint, credit=credit)
 

@@ -131,9 +131,8 @@ def _level_hint(one: PartReport) -> str:
     if one.level == STALE:
         return "News did come: keep the time of the last one for each of the two, by the clock, in seconds."
     if one.name == "battery":
-        return (
-            "percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one first."
-        )
+        return ("percentage goes from 0 to 1. Below 0.3 it is WARN, below 0.1 ERROR: ask for the worse one "
+                "first.")
     return "From 60 degrees on it is WARN, from 80 on ERROR: ask for the worse one first."
 
 

@@ -13,10 +13,8 @@ from sim.evidence import Call, Recording, Seconds
 
 SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when the button is silent
 LATELY = 0.25  # s, for which a command may be repeated
-LATCH = (
-    "It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that False "
-    "again, and not a False from the button."
-)
+LATCH = ("It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that "
+         "False again, and not a False from the button.")
 
 latch = Exercise("latch", "An emergency stop that stays", world="yard", seconds=14,
                  companions=[EmergencyOperator], seeds=(1, 2))

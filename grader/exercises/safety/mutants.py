@@ -10,10 +10,8 @@ from sim.evidence import Recording
 
 ENOUGH = 8  # of the wrong ones
 THE_GIVEN = "The function that a test is given is the one to test: call that one, and no copy of yours."
-TOO_STRICT = (
-    "Ask no more than the contract says. Floats are rounded: compare with math.isclose(a, b, abs_tol=1e-3), "
-    "or a <= b + 1e-3."
-)
+TOO_STRICT = ("Ask no more than the contract says. Floats are rounded: compare with math.isclose(a, b, "
+              "abs_tol=1e-3), or a <= b + 1e-3.")
 NUMBERS = "std_msgs/msg/Float64MultiArray"
 
 mutants = Exercise("mutants", "Tests that catch mutants", seconds=12, companions=workshop, seeds=(1, 2),
@@ -55,10 +53,9 @@ def catches_what_is_wrong(run: Recording, found: list[CandidateVerdict]) -> None
     """At least eight of the ten wrong candidates are caught."""
     caught = sum(not one.passed for one in found if not one.right)
     if caught < ENOUGH:
-        hint = (
-            "Go through the contract line by line: each line is a test, and each needs its own places. Near, "
-            "far, just on the edge, backwards, inf and nan, for both numbers. Too slow is wrong, too."
-        )
+        hint = ("Go through the contract line by line: each line is a test, and each needs its own places. "
+                "Near, far, just on the edge, backwards, inf and nan, for both numbers. Too slow is wrong, "
+                "too.")
         expected = f"{ENOUGH} or more of {WRONG} wrong candidates caught"
         raise Missed(expected, f"{caught}", hint, credit=caught / WRONG)
 

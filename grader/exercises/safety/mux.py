@@ -74,10 +74,8 @@ def gives_back(run: Recording) -> None:
 def stands_without_both(run: Recording) -> None:
     """When both have fallen silent, the robot stands within 1 s, until one of them speaks again."""
     sent = sorted(row.stamp for topic in (JOY, NAV) for row in from_course(run, topic))
-    hint = (
-        "Commands get old, those of both drivers. Look at their ages each time, by the clock, and send an "
-        "empty Twist where none is younger than 0.5 s."
-    )
+    hint = ("Commands get old, those of both drivers. Look at their ages each time, by the clock, and send "
+            "an empty Twist where none is younger than 0.5 s.")
     for begin, end in zip(sent, [*sent[1:], run.ended.stamp], strict=True):
         if end - begin > BRAKING:
             why = f"{BRAKING:g} s after the last command, at {begin:.3g} s"

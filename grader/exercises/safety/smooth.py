@@ -114,9 +114,8 @@ def takes_no_nonsense(run: Recording) -> None:
 
 def _same(pair: Response, right: float, hint: str, *, unsafe: bool = False) -> None:
     if not abs(pair.sent - right) < 1e-3:
-        expected = (
-            f"{pair.axis.name} {right:.3g} {pair.axis.unit} at {pair.stamp:.3g} s, for {pair.requested:.3g}"
-        )
+        expected = (f"{pair.axis.name} {right:.3g} {pair.axis.unit} at {pair.stamp:.3g} s, for "
+                    f"{pair.requested:.3g}")
         raise Missed(expected, f"{pair.sent:.3g}", hint, picture="topics", unsafe=unsafe)
 
 

@@ -8,14 +8,10 @@ from grader.worlds.rooms import furnished_room
 from sim.evidence import Recording
 
 FAR, LONG = 1.0, 4.0  # metres: from the start, and of the path
-BESIDE = (
-    "It hit something with its side. Look in a wider sector, at least 30 degrees to each side, for the robot "
-    "is 20 cm wide. And while it turns, linear.x should be 0."
-)
-AHEAD = (
-    "Look ahead in every scan: the rays from -30 to 30 degrees lie at both ends of msg.ranges. When one of "
-    "them is nearer than 0.5 m, turn on the spot: linear.x is 0 then."
-)
+BESIDE = ("It hit something with its side. Look in a wider sector, at least 30 degrees to each side, for "
+          "the robot is 20 cm wide. And while it turns, linear.x should be 0.")
+AHEAD = ("Look ahead in every scan: the rays from -30 to 30 degrees lie at both ends of msg.ranges. When "
+         "one of them is nearer than 0.5 m, turn on the spot: linear.x is 0 then.")
 
 avoid = Exercise("avoid", "Turn until it is free", world=furnished_room, seconds=60, seeds=(1, 2))
 

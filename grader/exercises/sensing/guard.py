@@ -88,10 +88,8 @@ def lets_through(run: Recording) -> list[Moment]:
         raise Missed(expected, saw, hint, picture="path")
     if len(wrong) > 0.05 * len(fine):
         first = wrong[0]
-        expected = (
-            f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver asks: {first.ahead:.2f} m are "
-            "free ahead"
-        )
+        expected = (f"{_text(first.requested)} at {first.stamp:.3g} s, as the driver asks: "
+                    f"{first.ahead:.2f} m are free ahead")
         raise Missed(expected, _text(first.sent), picture="topics", about=(first,))
     lasts(run, OUT)
     return moments
@@ -121,30 +119,24 @@ def lets_turn(run: Recording, moments: list[Moment]) -> None:
 @guard.check(3, after=lets_through)
 def stops_without_driver(run: Recording) -> None:
     """When the driver falls silent, the robot stands within 1 s."""
-    hint = (
-        "Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
-        "zeros go out. Else the timer repeats the last command for ever."
-    )
+    hint = ("Remember when the last command came, and look at its age in the timer: older than 0.3 s, and "
+            "zeros go out. Else the timer repeats the last command for ever.")
     _stands(run, _pauses(run, RAW), "the driver's last command", hint)
 
 
 @guard.check(3, after=lets_through)
 def stops_without_scans(run: Recording) -> None:
     """When no scan comes any more, the robot stands within 1 s."""
-    hint = (
-        "No news is bad news. Remember when the last scan came, and look at its age in the timer, not in "
-        "the scan's callback: that one isn't called any more."
-    )
+    hint = ("No news is bad news. Remember when the last scan came, and look at its age in the timer, not "
+            "in the scan's callback: that one isn't called any more.")
     _stands(run, _pauses(run, LIDAR), "the last scan", hint)
 
 
 @guard.check(2, after=(lets_through, stops_without_scans))
 def stops_with_late_scans(run: Recording) -> None:
     """When the scans come 1 s late, the robot stands within 1 s."""
-    hint = (
-        "Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
-        "but the time since it was measured: now minus msg.header.stamp."
-    )
+    hint = ("Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
+            "but the time since it was measured: now minus msg.header.stamp.")
     _stands(run, _delays(run), "the last scan that came in time", hint, unsafe=False)
 
 

@@ -45,15 +45,12 @@ def stops_in_time(run: Recording) -> None:
     gap = run.world.bounds[2] - run.path[-1].x
     if run.contacts:
         saw = f"the robot drove into it at {run.contacts[0].stamp:.3g} s"
-        hint = (
-            "Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
-            "comparison the right way round?"
-        )
+        hint = ("Every scan decides anew: ahead while min(msg.ranges) is above 1.0, else 0.0. Is the "
+                "comparison the right way round?")
         raise Missed("a stop before the wall", saw, hint, picture="path", unsafe=True)
     if not STOP_AT - 0.15 <= gap <= STOP_AT + 0.05:
-        expected = (
-            "a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few centimetres"
-        )
+        expected = ("a stop about 0.95 m before the wall: the limit is 1 m, and braking takes a few "
+                    "centimetres")
         raise Missed(expected, f"it ends {gap:.2f} m before the wall", picture="path", about=(gap,))
 
 
@@ -64,8 +61,6 @@ def publishes_a_stop(run: Recording) -> None:
     stamp, speed = series(run, "/cmd_vel", "linear.x")[-1]
     if speed or run.ended.stamp - stamp > 0.5:
         expected = "zeros on /cmd_vel as long as the wall is near"
-        hint = (
-            "It stood still only because the robot stops by itself without commands. Publish in every "
-            "callback, a Twist() of zeros, too."
-        )
+        hint = ("It stood still only because the robot stops by itself without commands. Publish in every "
+                "callback, a Twist() of zeros, too.")
         raise Missed(expected, f"{speed:g} m/s as the last command, at {stamp:.3g} s", hint, picture="topics")

@@ -36,10 +36,8 @@ def refuses_too_early(run: Recording) -> None:
             continue
         expected = f"success=False and a message after {count} readings, for {call_text(call)}"
         if not is_refusal(call):
-            guess = (
-                f"First of all look at len(self.readings). Below {READINGS}: response.success = False, "
-                "response.message = ..., return response."
-            )
+            guess = (f"First of all look at len(self.readings). Below {READINGS}: response.success = False, "
+                     "response.message = ..., return response.")
             raise wrong_response(expected, call, guess)
         if not call.response.message.strip():
             decides = any(map(is_success, course_calls(run, CALIBRATE)))  # an empty response is no refusal
@@ -128,8 +126,6 @@ def _bias_hint(it: Calibration, first: bool) -> str:
     }
     otherwise = f"self.bias is the mean of the readings: their sum / their number, {it.bias:.3f} rad/s here."
     if not first:
-        otherwise = (
-            "The first calibration was good, this later one is not: the gyro is warmer now. "
-            f"Take the mean of the last {READINGS} readings, each time anew."
-        )
+        otherwise = ("The first calibration was good, this later one is not: the gyro is warmer now. Take "
+                     f"the mean of the last {READINGS} readings, each time anew.")
     return usual_mistake(biases, lambda bias: same(it.rate, bias, 0.02)) or otherwise

@@ -10,10 +10,8 @@ from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import Call, Recording
 
-WAITING = (
-    "While a callback or __init__ waits, nothing else of the node can run, and no answer comes in. "
-    "Ask, return, and let the done callback do the rest."
-)
+WAITING = ("While a callback or __init__ waits, nothing else of the node can run, and no answer comes in. "
+           "Ask, return, and let the done callback do the rest.")
 OPEN = "/door/open"
 
 door = Exercise("door", "A visitor at the door", world="yard", seconds=14, companions=[Door], seeds=(1, 2))
@@ -27,10 +25,8 @@ def calls_the_door(run: Recording) -> list[Call]:
     lost = [call for call in made if call.lost]
     answered = [call for call in made if call.answered is not None]
     if lost or not taken:
-        hint = (
-            "A question to a service that isn't there yet is lost. Let a timer look once a second, and ask "
-            "only when self.client.service_is_ready(), with brackets, is True."
-        )
+        hint = ("A question to a service that isn't there yet is lost. Let a timer look once a second, and "
+                "ask only when self.client.service_is_ready(), with brackets, is True.")
         saw = f"{len(lost)} asked too early, at {lost[0].requested:.3g} s" if lost else "no question"
         credit = 0.5 if taken else 0.0
         raise Missed("questions to the door, once it is there", saw, hint, credit=credit, measured=answered)

@@ -32,9 +32,8 @@ def offers_its_services(run: Recording) -> None:
     if not is_success(first):
         guess = 'self.declare_parameter("mode", "idle") in __init__.'
         if "invalid type" in response_fields(first).get("reason", ""):
-            guess = (
-                "check has to return something for a good mode, too: SetParametersResult(successful=True)."
-            )
+            guess = ("check has to return something for a good mode, too: "
+                     "SetParametersResult(successful=True).")
         raise wrong_response(f"successful=True for {call_text(first)}", first, guess)
 
 
@@ -73,10 +72,8 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     _commands(run.during(bump + SOON, again.requested), STOPPED, "after the bump", BUMPED)
     refusal = is_refusal(again)
     if not refusal or not again.response.message.strip():
-        guess = (
-            "In arm: if request.data and self.bumped, then success is False, and the message says what to "
-            "do; otherwise self.armed = request.data."
-        )
+        guess = ("In arm: if request.data and self.bumped, then success is False, and the message says what "
+                 "to do; otherwise self.armed = request.data.")
         expected = f"success=False and a message for {call_text(again)}"
         raise wrong_response(expected, again, guess, credit=0.6 if refusal else 0.0)
     reset = course_calls(run, RESET)[0]
@@ -90,10 +87,8 @@ def drives_on_after_a_reset(run: Recording) -> None:
     _is_accepted(reset)
     arm, disarm = course_calls(run, ARM, at_least=6)[-2:]
     _commands(run.during(reset.requested, arm.requested), STOPPED, "after the reset, not armed yet")
-    again = (
-        "reset has to take back what the bump has set: self.bumped = False. And still touching the wall "
-        "is not a new bump."
-    )
+    again = ("reset has to take back what the bump has set: self.bumped = False. And still touching the "
+             "wall is not a new bump.")
     _is_accepted(arm, again)
     back = run.during(arm.requested + SOON, disarm.requested)
     _commands(back, MODES["back"], "in the mode back, armed after a reset")

@@ -41,10 +41,8 @@ def follows_the_setting(run: Recording) -> None:
     made = course_calls(run, SET, SETTINGS)
     for call in filter(_is_allowed, made):
         if not is_success(call):
-            guess = (
-                f"A speed from {LOW} to {HIGH}, both ends included, is fine. Look at the new one, in "
-                "parameter.value, and return SetParametersResult(successful=True)."
-            )
+            guess = (f"A speed from {LOW} to {HIGH}, both ends included, is fine. Look at the new one, in "
+                     "parameter.value, and return SetParametersResult(successful=True).")
             raise wrong_response(f"successful=True for {call_text(call)}", call, guess)
         later = [other.requested for other in made if other.requested > call.requested]
         _drives_at(run, _speed(call), call.requested + 0.3, min(later, default=math.inf))
@@ -57,10 +55,9 @@ def refuses_other_speeds(run: Recording) -> None:
     for call in others:
         expected = f"successful=False and a reason for {call_text(call)}"
         if not is_refusal(call):
-            guess = (
-                "Nothing was refused. Is the method handed over, self.add_on_set_parameters_callback("
-                f"self.check)? And does it refuse where parameter.name is `speed`, unless {INSIDE}?"
-            )
+            guess = ("Nothing was refused. Is the method handed over, "
+                     "self.add_on_set_parameters_callback(self.check)? And does it refuse where "
+                     f"parameter.name is `speed`, unless {INSIDE}?")
             if _is_cut(run, call):
                 guess = (
                     "Cutting a value to the range doesn't refuse it: whoever sets it is told that all is "

@@ -9,10 +9,8 @@ from grader.responses import Window
 from sim.evidence import Call, Recording
 
 ADD, TOTAL = "/add_two_ints", "/ticks/total"
-GROUPS = (
-    "While look waits for an answer, or awaits it, nothing else of its callback group runs. Give its timer "
-    "and the client a group of their own, a ReentrantCallbackGroup; or use a done callback."
-)
+GROUPS = ("While look waits for an answer, or awaits it, nothing else of its callback group runs. Give its "
+          "timer and the client a group of their own, a ReentrantCallbackGroup; or use a done callback.")
 
 ticks = Exercise("ticks", "A node that freezes", seconds=10, companions=[SlowAdder, WheelEncoders],
                  seeds=(1, 2))

@@ -120,7 +120,6 @@ def _why_not_zero(run: Recording, begin: Seconds, end: Seconds) -> str:
         return f"Nobody is told that it is late, unless a deadline is asked for. {PROFILE}"
     if not run.during(begin, end).messages(SENT):
         return "Say stop, and go on saying it: the timer publishes all the time, zeros too."
-    return (
-        "The callback for a missed deadline belongs to the subscription: event_callbacks="
-        "SubscriptionEventCallbacks(deadline=self.too_late). It makes the command zeros, all of it."
-    )
+    return ("The callback for a missed deadline belongs to the subscription: "
+            "event_callbacks=SubscriptionEventCallbacks(deadline=self.too_late). It makes the command "
+            "zeros, all of it.")

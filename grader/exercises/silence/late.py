@@ -33,10 +33,8 @@ def receives_the_latched_map(run: Recording) -> None:
     """It hears the map that was published before it began: its free cells (Int32) are on /free at once."""
     free, first = _truth(run)[0], publishes(run.during(0.0, run.ended.stamp), "/free", COUNT)[0]
     if first.stamp > SOON:
-        hint = (
-            "The map was published before your node was there, and only once. Who wants to hear it "
-            "asks for durability TRANSIENT_LOCAL, and stays reliable."
-        )
+        hint = ("The map was published before your node was there, and only once. Who wants to hear it asks "
+                "for durability TRANSIENT_LOCAL, and stays reliable.")
         raise Missed(f"{free} on /free within {SOON:g} s", f"nothing there before {first.stamp:.3g} s", hint)
     if first.message.data != free:
         raise Missed(f"{free} free cells", f"{first.message.data}", about=(first.message.data,))

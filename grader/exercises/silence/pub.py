@@ -75,9 +75,8 @@ def drives_at_the_speed(run: Recording) -> None:
 def _how_to_read(wrong: str) -> str:
     """What to do about an error message of ros2."""
     if "unrecognized arguments" in wrong:
-        return (
-            "The values are one word for the terminal: put quotes round them, '{...}', as they have spaces."
-        )
+        return ("The values are one word for the terminal: put quotes round them, '{...}', as they have "
+                "spaces.")
     if "no attribute 'x:" in wrong or "no attribute 'linear:" in wrong:
         return "YAML wants a space after each colon: {x: 0.3}, not {x:0.3}."
     if "populate field" in wrong:

@@ -63,10 +63,8 @@ def uses_one_callback(run: Recording) -> None:
     nodes = {end.node for topic in CHATTERS for end in run.graph.subscriptions(topic)}
     names = {ran.callback for ran in run.callbacks if ran.kind == "subscription" and ran.node in nodes}
     if len(names) > 1:
-        hint = (
-            "Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the topic "
-            "with a lambda or functools.partial."
-        )
+        hint = ("Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the "
+                "topic with a lambda or functools.partial.")
         raise Missed("one callback for the three topics", ", ".join(sorted(names)), hint)
 
 

@@ -66,9 +66,8 @@ def imu_looks_left(run: Recording, sent: list[Message]) -> None:
             raise Missed(expected, f"length {length:.3g} at {row.stamp:.3g} s: {_text(q)}", hint)
         if abs(q.z * LEFT + q.w * LEFT) < 0.999:  # 1 for the same rotation, with either sign
             expected = f"the quaternion {_text(type(q)(z=LEFT, w=LEFT))}"
-            hint = (
-                "yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in radians."
-            )
+            hint = ("yaw is pi/2 to the left; z = math.sin(yaw / 2), w = math.cos(yaw / 2), with yaw in "
+                    "radians.")
             raise Missed(expected, f"{_text(q)} at {row.stamp:.3g} s", hint, credit=1 / 3)
 
 
