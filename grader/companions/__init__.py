@@ -1,1 +1,4 @@
-"""Programs of the course that run beside the student's, one module for each part that they play."""
+"""Programs of the course that run beside the student's, one module for each part that they play.
+
+What varies in them is drawn from the seed of the run.
+"""

@@ -14,10 +14,7 @@ LEVELS = {
 
 
 class BatteryAndMotor(TimedNode):
-    """A battery (BatteryState, percentage 0 to 1) and a motor (Temperature, Celsius), 5 times a second.
-
-    Good, fair, bad, silent: each in an order of its own, from the seed.
-    """
+    """A battery (BatteryState, percentage 0 to 1) and a motor (Temperature, Celsius), 5 times a second."""
 
     period, phase = 0.2, 2.6  # s
 

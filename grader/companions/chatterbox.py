@@ -9,10 +9,7 @@ from grader.companions.command_sender import OTHER_WORDS
 
 
 class Chatterbox(Node):
-    """Sends a word on /chatter0, a number on /chatter1 and a yes or no on /chatter2, at rates of their own.
-
-    The values come from the run's seed. The first is sent after 0.5 s.
-    """
+    """Sends a word on /chatter0, a number on /chatter1 and a yes or no on /chatter2, each at its own rate."""
 
     def __init__(self) -> None:
         super().__init__("chatterbox")

@@ -12,11 +12,7 @@ OTHER_WORDS = ("dance", "jump", "sing", "swim", "sleep", "climb", "hide")
 
 
 class CommandSender(Node):
-    """Sends words (String) on /robot/command, one a second.
-
-    They are each of the three commands twice, and three other words. Order and words come from the seed of
-    the run.
-    """
+    """Sends words (String) on /robot/command, one a second: each command twice, and three other words."""
 
     def __init__(self) -> None:
         super().__init__("command_sender")

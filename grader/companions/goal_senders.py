@@ -89,7 +89,7 @@ def words(message: Any) -> str:
 
 
 class Mathematician(ActionGoalSender):
-    """Sends two goals with an order of 3 to 20 to /fibonacci, which come from the seed of the run."""
+    """Sends two goals with an order of 3 to 20 to /fibonacci."""
 
     name = "mathematician"
 
@@ -123,10 +123,7 @@ class Impatient(ActionGoalSender):
 
 
 class Captain(ActionGoalSender):
-    """Sends four goals to /spin: to the left, to the right, by more than half a turn, and one it cancels.
-
-    The angles come from the seed of the run.
-    """
+    """Sends four goals to /spin: to the left, to the right, by more than half a turn, and one it cancels."""
 
     name, action, type = "captain", "/spin", Spin
 

@@ -20,10 +20,7 @@ SWERVE = 0.04  # m, from one moment to the next
 
 
 class WheelOdometry(Node):
-    """Publishes the odometry of a robot that drives a curve on /wheels/odom, a little late.
-
-    The run's seed decides on the curve, and how old each measurement is.
-    """
+    """Publishes the odometry of a robot that drives a curve on /wheels/odom, a little late."""
 
     def __init__(self) -> None:
         super().__init__("wheels")
@@ -47,10 +44,7 @@ class WheelOdometry(Node):
 
 
 class SlowLocalization(Node):
-    """A robot on a curve. Publishes what it detects at once (/detection), and its pose (/tf) 0.5 s later.
-
-    The run's seed decides on the curve and on the detections.
-    """
+    """A robot on a curve. Publishes what it detects at once (/detection), and its pose (/tf) 0.5 s later."""
 
     def __init__(self) -> None:
         super().__init__("slow_localization")

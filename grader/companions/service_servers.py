@@ -18,10 +18,7 @@ REFUSALS = (
 
 
 class Door(Node):
-    """Offers /door/open (Trigger), but only from 2 or 3 s on; refuses two or three times, then opens.
-
-    Times and messages come from the run's seed.
-    """
+    """Offers /door/open (Trigger), but only from 2 or 3 s on; refuses two or three times, then opens."""
 
     def __init__(self) -> None:
         super().__init__("door")
