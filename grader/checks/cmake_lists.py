@@ -65,9 +65,9 @@ def _written(text: str) -> Iterator[tuple[str, list[str]]]:
     """Each command's name, and its words as they are written, without quotes."""
     name, words, depth = "", [], 0
     for kind, value, line in _tokens(text):
-        if depth == 0 and kind == "plain" and not name:
+        if kind == "plain" and not name:
             name, words = value.lower(), []
-        elif kind == "round" and value == "(" and (depth or name):
+        elif kind == "round" and value == "(" and name:
             depth += 1
         elif kind == "round" and value == ")" and depth:
             depth -= 1

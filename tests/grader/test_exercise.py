@@ -2,15 +2,24 @@ import sys
 from functools import partial
 
 import pytest
+import rclpy
 from rclpy.node import Node
-from std_msgs.msg import String
+from rclpy.task import Future
+from std_msgs.msg import Float32, Float64, String
 
 from grader import Exercise, Missed, Scenario, Score, check
-from grader.checks import logs, publishes, rate
+from grader.checks import publishes, rate
+from grader.grading import Grading, graded_as
+from grader.programs import LocalPrograms
 from grader.seeds import private_seed
-from sim import Process, World
+from grader.workspace.building import Built
+from grader.workspace.package import Package
+from grader.workspace.package_xml import PackageXml
+from sim import Network, Process, World
 from tests.students import misfits, mistakes
 from tests.students.engine import output
+
+PACKAGE = Package({}, PackageXml("patrol", {}), Built())
 
 
 @check(points=1)
@@ -40,8 +49,162 @@ def red_line(score):
 def test_a_good_node_gets_full_marks():
     score = talk.grade(misfits.Talker)
     assert isinstance(score, Score)
-    assert (score, score.max, talk.points) == (3.0, 3.0, 3.0)
+    assert (score, score.max, talk.points, score.title) == (3.0, 3.0, 3.0, "A talker")
     assert score.recordings[0].seconds == 10.0
+
+
+def test_what_an_exercise_does_not_say_is_not_so():
+    plain = Exercise("plain", "Plain", checks=[sends])
+    assert (plain.may_end, plain.names_count, plain.extra_allowed) == (False, False, False)
+    ((scenario, seed),) = plain.runs()
+    assert (scenario.seed, seed, scenario.network) == (0, 0, None)
+    assert not plain.check(1)(unnamed).lasts
+    assert plain.check(1, lasts=True)(documented).lasts
+
+
+def test_the_one_scenario_of_an_exercise_has_its_network():
+    network = Network(loss=0.5)
+    assert [scenario.network for scenario, _ in Exercise("far", "Far", network=network).runs()] == [network]
+
+
+def documented(run):
+    """A sentence."""
+
+
+@pytest.mark.parametrize(
+    ("settings", "varies"),
+    [
+        ({}, False),
+        ({"world": "room"}, False),
+        ({"seeds": (1, 2)}, True),
+        ({"seeds": (2,)}, False),
+        ({"companions": [misfits.Talker]}, True),
+        ({"world": lambda seed: World.load("room")}, True),
+        ({"package": "patrol"}, True),
+        ({"scenarios": [Scenario(seconds=1), Scenario(seconds=2)]}, False),
+        ({"scenarios": [Scenario(seed=1), Scenario(seed=2)]}, True),
+        ({"scenarios": [Scenario(), Scenario(companions=[misfits.Talker])]}, True),
+    ],
+)
+def test_an_exercise_varies_where_the_right_answer_is_not_in_the_text_of_its_task(settings, varies):
+    assert Exercise("one", "One", **settings).varies is varies
+
+
+def test_where_another_process_judges_the_nodes_are_handed_over():
+    given = []
+    with graded_as(Grading(hand_over=lambda name, nodes: given.append((name, nodes)) or "handed over")):
+        assert talk.grade(misfits.Talker, None) == "handed over"
+    assert given == [("talk", (misfits.Talker, None))]
+
+
+class Source(LocalPrograms):
+    """Programs of a workspace that is built already."""
+
+    installed = PACKAGE
+
+    def __init__(self, *nodes):
+        super().__init__(nodes)
+        self.left = 0
+
+    def package(self, name, build_type):
+        self.asked = name, build_type
+        return self.installed
+
+    def leave(self):
+        self.left += 1
+
+
+def test_what_was_installed_is_removed_after_the_runs_whatever_happened():
+    for exercise in (talk, Exercise("talk", "A talker", checks=[sends], world="rom")):
+        source = Source(misfits.Talker)
+        exercise.judge(source)
+        assert source.left == 1
+
+
+def test_checks_are_given_the_package_of_the_run():
+    building = Exercise("patrol", "A patrol", package="patrol", build_type="ament_cmake", seconds=0)
+    seen = []
+
+    @building.check(1)
+    def is_built(run):
+        """It is built."""
+        seen.append(run.package)
+
+    source = Source()
+    assert building.judge(source) == 1.0
+    assert (seen, source.asked) == ([PACKAGE], ("patrol", "ament_cmake"))
+
+
+def main_that_ends(topic="/chatter"):
+    """Publishes once a second until 3 s, and ends."""
+    rclpy.init()
+    node = Node("brief")
+    publisher = node.create_publisher(String, topic, 10)
+    node.create_timer(1.0, lambda: publisher.publish(String()))
+    end = Future()
+    node.create_timer(3.5, lambda: end.set_result(None))
+    rclpy.spin_until_future_complete(node, end)
+    node.destroy_node()
+
+
+@pytest.mark.parametrize(
+    ("main", "may_end", "points"),
+    [
+        (main_that_ends, True, 4.0),
+        (main_that_ends, False, 1.0),  # 3.5 of 10 s of it, rounded down
+        (partial(main_that_ends, "/chater"), True, 2.0),
+        (partial(main_that_ends, "/chater"), False, 0.5),
+    ],
+)
+def test_a_program_that_ends_has_all_points_where_it_may_and_half_of_them_with_a_typo(main, may_end, points):
+    brief = Exercise("brief", "A program that ends", may_end=may_end)
+
+    @brief.check(4, lasts=True)
+    def sends_something(run):
+        """It sends something."""
+        publishes(run, "/chatter", "std_msgs/msg/String")
+
+    assert brief.grade(main) == points
+
+
+class Numbers(Node):
+    """Publishes numbers of another type, on a topic whose name is misspelt."""
+
+    topic, type = "/numbres", Float64
+
+    def __init__(self):
+        super().__init__("numbers")
+        self.publisher = self.create_publisher(self.type, self.topic, 10)
+        self.create_timer(1.0, lambda: self.publisher.publish(self.type(data=1.0)))
+
+
+class OfAnotherType(Numbers):
+    topic = "/numbers"
+
+
+class Misspelt(Numbers):
+    type = Float32
+
+
+class Right(Misspelt):
+    topic = "/numbers"
+
+
+@pytest.mark.parametrize(
+    ("student", "points"), [(Right, 2.0), (Numbers, 1.0), (OfAnotherType, 1.0), (Misspelt, 1.0)]
+)
+def test_a_program_with_typos_has_half_of_what_it_earns_without_them(student, points):
+    counting = Exercise("numbers", "Numbers", seconds=3)
+
+    @counting.check(2)
+    def sends_numbers(run):
+        """It sends numbers."""
+        publishes(run, "/numbers", "std_msgs/msg/Float32", at_least=2)
+
+    score = counting.grade(student)
+    assert (score, score.broken) == (points, [])
+    sent = [row.topic for row in score.recordings[0].published if row.topic != "/parameter_events"]
+    assert set(sent) == {student.topic}  # what is shown is the run of the program as it is
 
 
 @pytest.mark.parametrize(
@@ -158,6 +321,12 @@ def test_an_object_in_place_of_its_class_is_told():
     )
 
 
+def test_where_there_is_nothing_to_run_every_check_says_so():
+    score = talk.grade(None)
+    assert score.title == "A talker"
+    assert [verdict.hint for verdict in score.verdicts[1:]] == ["Not judged: there is nothing to run."] * 2
+
+
 def test_a_stub_gets_0_and_its_own_words():
     score = talk.grade(mistakes.NotStarted)
     assert score == 0.0
@@ -190,95 +359,6 @@ def test_a_mistake_of_ours_is_flagged(capfd):
     assert (said.out, said.err) == ("to be taken back\n\n", "")
 
 
-def test_a_world_may_be_drawn_from_the_seed_without_showing_it(monkeypatch):
-    monkeypatch.setenv("COURSE_SECRET", "d1ce")
-    maze = Exercise(
-        "talk",
-        "A talker",
-        [sends],
-        seconds=1,
-        world=lambda seed: World.generate("maze", seed=seed),
-        seeds=[1, 2],
-    )
-    score = maze.grade(misfits.SilentTalker)
-    seeds = [recording.seed for recording in score.recordings]
-    assert seeds == [private_seed("d1ce", "talk", index) for index in (0, 1)]
-    walls = [World.generate("maze", seed=seed).walls for seed in seeds]
-    assert [(r.world.name, r.world.walls) for r in score.recordings] == [
-        ("maze", walls[0]),
-        ("maze", walls[1]),
-    ]
-    assert "Run: 1 of 2, world maze" in score.text
-
-
-def test_a_world_that_does_not_exist_is_a_mistake_of_ours():
-    score = Exercise("talk", "A talker", checks=[sends], world="rom").grade(misfits.Talker)
-    assert (score, statuses(score)) == (0.0, {"sends": "broken"})
-    assert "Did you mean 'room'?" in score.broken[0].alarm
-
-
-class Questioner(Node):
-    """A companion that asks once, at 1 s."""
-
-    def __init__(self):
-        super().__init__("questioner")
-        self.publisher = self.create_publisher(String, "/chatter", 10)
-        self.create_timer(1.0, self.ask)
-
-    def ask(self):
-        self.publisher.publish(String(data="?"))
-
-
-class FaultyCompanion(Questioner):
-    def ask(self):
-        raise KeyError("ours")
-
-
-@check(points=1)
-def hears(recording):
-    """The node logs what it hears."""
-    logs(recording, "heard")
-
-
-def test_companions_run_beside_the_students_node():
-    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
-    assert listen.grade(misfits.Listener) == 1.0
-    assert listen.grade(misfits.Empty) == 0.0
-
-
-def test_companions_are_up_before_the_students_node():
-    listen = Exercise("listen", "A listener", checks=[hears], companions=[Questioner])
-    assert listen.grade(misfits.Listener).recordings[0].graph.nodes == ["/questioner", "/listener"]
-
-
-def test_companions_may_depend_on_the_seed():
-    asked = []
-    listen = Exercise(
-        "listen",
-        "A listener",
-        checks=[hears],
-        seeds=(3, 5),
-        companions=lambda seed: asked.append(seed) or [Questioner],
-    )
-    assert listen.grade(misfits.Listener) == 1.0
-    assert asked == [3, 5]
-
-
-@pytest.mark.parametrize("companion", [FaultyCompanion, Process(FaultyCompanion, name="asker")])
-def test_an_error_of_a_companion_is_a_mistake_of_ours(companion):
-    score = Exercise("listen", "A listener", checks=[hears], companions=[companion]).grade(misfits.Listener)
-    assert (score, statuses(score)) == (0.0, {"hears": "broken"})
-    assert "CompanionError: /" in score.broken[0].alarm
-    assert "KeyError: 'ours'" in score.broken[0].alarm
-
-
-def test_an_error_of_the_student_beside_a_companion_is_the_students():
-    score = Exercise("listen", "A listener", checks=[hears], companions=[Questioner]).grade(
-        mistakes.DividesByZero
-    )
-    assert statuses(score) == {"runs": "failed", "hears": "skipped"}
-
-
 @check(points=1)
 def in_room(recording):
     """It does well in the room."""
@@ -295,11 +375,6 @@ def test_a_check_holds_only_if_it_holds_in_all_scenarios():
         ("yard", 1.0, 0),
         ("room", 2.0, 2),
     ]
-
-
-def test_a_run_can_end_early():
-    brief = Exercise("talk", "A talker", checks=[sends], until=lambda recording: recording.stamp >= 2.0)
-    assert brief.grade(misfits.Talker).recordings[0].ended.reason == "goal"
 
 
 def test_seeds_are_public_without_a_secret(monkeypatch):
@@ -428,14 +503,36 @@ def test_a_check_may_hold_in_some_scenarios_only():
         ValueError, match=r"^exercise two: asks is handed what in_the_yard measures only in wide$"
     ):
         two.check(1, after=in_the_yard)(asks)
+    wide = two.check(1, after=in_the_yard, only="wide")(asks)
+    assert two.checks[-1] is wide
     with pytest.raises(
         ValueError, match=r"^exercise two: unnamed holds in 'narrow', which is not a scenario of it$"
     ):
         two.check(1, only="narrow")(unnamed)
 
 
+def test_a_check_is_handed_what_another_one_measured_in_the_same_scenarios_or_in_more():
+    three = Exercise("three", "Three", scenarios=[Scenario(name=name) for name in ("one", "two", "three")])
+    measures = three.check(1, only=("one", "two"))(unnamed)
+    three.check(1, only="two", after=measures)(asks)
+    three.check(1, only=("two", "one"), after=measures)(asks_again)
+    match = r"^exercise three: asks_more is handed what unnamed measures only in one, two$"
+    for only in ((), "three", ("one", "three")):
+        with pytest.raises(ValueError, match=match):
+            three.check(1, only=only, after=measures)(asks_more)
+    assert three.check(1, after=measures)(documented).after == (measures,)
+
+
 def unnamed(run):
     """A sentence."""
+
+
+def asks_again(run, measured):
+    """It asks once more."""
+
+
+def asks_more(run, measured):
+    """It asks for more."""
 
 
 def asks(run, measured):
@@ -458,19 +555,3 @@ def test_a_check_waits_for_another_one_only_where_that_one_holds():
 
     assert statuses(two.grade(misfits.Talker)) == {"in_the_yard": "failed", "everywhere": "skipped"}
     assert judged == ["room"]
-
-
-def test_a_node_with_the_name_of_one_of_ours_is_told_so():
-    listen = Exercise("listen", "A listener", companions=[Questioner])
-
-    @listen.check(1)
-    def is_asked(run):
-        """It is asked."""
-        if "/questioner" not in run.course_nodes:
-            raise Missed("questions", "none of ours")
-
-    *_, line = listen.grade(Process(misfits.Talker, name="questioner")).verdicts
-    assert line.hint == (
-        "Two nodes are called /questioner, yours and one that takes part in this exercise, and nobody can tell "
-        "them apart: give yours a name of its own, in super().__init__('...')."
-    )

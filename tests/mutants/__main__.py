@@ -5,7 +5,6 @@ python -m tests.mutants MODULE --tests tests/exercises -k smooth     run by othe
 python -m tests.mutants MODULE --sample 50 --seed 1                  50 of its mutants
 
 It ends with 1 when fewer than nine of ten mutants of a module are killed, or tests fail without a mutant.
-Give one module a command: a later one may be imported before it is changed, and then nothing is killed.
 No file is changed. Mutants that no test can tell from the module are in equivalent.txt, each with its reason.
 """
 

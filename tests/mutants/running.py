@@ -67,12 +67,20 @@ def survivors(target: Target, chosen: list[int]) -> dict[int, bool]:
     """Whether each of these mutants, given by their index, survives the tests.
 
     A function is changed in forks of a process that has imported the tests already. What was run by importing
-    them is changed in forks that import the module anew, which takes about half a second.
+    them is changed in forks that import the module anew, which takes about half a second. All of that is done
+    in a fork of this process, so that the next module finds nothing imported.
     Raises NotTested where the tests fail without a mutant.
     """
+    found: dict[int, bool] | str = result_of(lambda: _survivors(target, chosen))
+    if isinstance(found, str):
+        raise NotTested(found)
+    return found
+
+
+def _survivors(target: Target, chosen: list[int]) -> dict[int, bool] | str:
     found: Found = result_of(lambda: _run_pytest(target, _Warm(target, chosen), noting(target.tree())).found)
     if found.failures:
-        raise NotTested("\n\n".join(found.failures))
+        return "\n\n".join(found.failures)
     for name in _independent_of(target.module, found.imported):
         with contextlib.suppress(Exception):
             importlib.import_module(name)

@@ -63,7 +63,7 @@ def project(tmp_path, monkeypatch):
     """A folder with a module and its tests, in which the script runs."""
     for name, text in {"robot/speeds.py": MODULE, "tests/robot/test_speeds.py": TESTS}.items():
         path = tmp_path / name
-        path.parent.mkdir(parents=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -86,6 +86,14 @@ def test_a_sample_is_the_same_each_time_and_other_tests_can_be_named(project):
     first, second = (mutants("robot", "--sample", "4", "--seed", "2", "--tests", "more.py") for _ in range(2))
     assert first.stdout == second.stdout
     assert first.stdout.splitlines()[-1] == "robot/speeds.py        4       1         3           0"
+
+
+def test_each_of_several_modules_is_imported_anew(project):
+    (project / "robot" / "turns.py").write_text(MODULE.replace("speed", "turn"))
+    (project / "tests" / "robot" / "test_turns.py").write_text(TESTS.replace("speed", "turn"))
+    turns = OUTCOMES.replace("speed", "turn").splitlines()[-1]
+    *_, first, second = mutants("robot").stdout.splitlines()
+    assert (first, second) == (OUTCOMES.splitlines()[-1], turns.replace("turns.py ", "turns.py  "))
 
 
 def test_a_mutant_that_nothing_can_notice_is_excused_and_a_reason_for_no_mutant_is_refused(project):

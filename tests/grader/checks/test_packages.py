@@ -1,0 +1,85 @@
+"""Measures over a package's files."""
+
+import pytest
+
+from grader import Missed
+from grader.checks.packages import imports, installs_by_itself, names_what_it_imports, package_of, parsed
+from grader.workspace.building import Built
+from grader.workspace.package import Package, PackageRun
+from grader.workspace.package_xml import PackageXml
+from sim import Recording
+
+
+def packaged(sources=(), depend=(), output=""):
+    """A run of the package `patrol` with these sources, as pairs of a path below it and a text."""
+    files = {f"patrol/{path}": text.encode() for path, text in dict(sources).items()}
+    package = Package(files, PackageXml("patrol", {"depend": frozenset(depend)}), Built(output=output))
+    return PackageRun.of(Recording(), package)
+
+
+def missed(function, *arguments):
+    with pytest.raises(Missed) as caught:
+        function(*arguments)
+    return caught.value
+
+
+@pytest.mark.parametrize("run", [Recording(), PackageRun()])
+def test_a_run_without_a_package_is_the_authors_mistake(run):
+    with pytest.raises(ValueError, match=r"^this exercise has no package: give it one$"):
+        package_of(run)
+
+
+SOURCES = {
+    "patrol/node.py": "import rclpy\nimport math\nfrom geometry_msgs.msg import Twist\nfrom . import parts",
+    "launch/all.launch.py": "from launch import LaunchDescription\nimport launch_ros.actions\nimport my_interfaces",
+    "patrol/rclpy_helpers.py": "import rclpyx, std_srvs.srv, tf2_ros",
+    "setup.py": "import sensor_msgs",
+    "test/test_node.py": "import nav_msgs",
+    "tests/test_more.py": "import nav_msgs",
+    "README.md": "import nav_msgs",
+}
+WANTED = ["geometry_msgs", "launch", "launch_ros", "my_interfaces", "rclpy", "std_srvs", "tf2_ros"]
+
+
+def test_a_package_names_what_its_modules_and_launch_files_import_of_ros():
+    names_what_it_imports(packaged(SOURCES, WANTED))
+    miss = missed(names_what_it_imports, packaged(SOURCES, WANTED[2:]))
+    assert miss.expected == f"<depend> or <exec_depend> for each of {', '.join(WANTED)} in package.xml"
+    assert miss.saw == "none for geometry_msgs, launch"
+    assert miss.hint == (
+        "Whoever installs your package gets what package.xml names. Here all of ROS is there, so it runs all the same. "
+        "Add <depend>geometry_msgs</depend>."
+    )
+
+
+@pytest.mark.parametrize(
+    ("line", "pair", "what"),
+    [
+        (
+            "WARNING: package.xml: doesn't explicitly install a marker",
+            "('share/ament_index/resource_index/packages', ['resource/patrol'])",
+            "marker",
+        ),
+        ("WARNING: doesn't explicitly install the 'package.xml' file", "('share/patrol', ['package.xml'])", "package.xml"),
+        ("WARNING: doesn't explicitly install something", "('share/patrol', ['package.xml'])", "package.xml"),
+    ],
+)
+def test_a_package_installs_itself_what_colcon_would_add(line, pair, what):
+    miss = missed(installs_by_itself, packaged(output=f"Starting >>> patrol\n{line}\nFinished <<< patrol\n"))
+    assert miss.expected == f"{pair} in data_files"
+    assert miss.saw == f"none: colcon did it in its place, and says that it won't for ever ({what})"
+    assert miss.hint == "Add this pair to data_files in setup.py, with a comma after it."
+
+
+def test_a_package_that_installs_all_itself_passes():
+    installs_by_itself(packaged(output="Starting >>> patrol\nFinished <<< patrol\n"))
+
+
+def test_imports_are_full_names_and_those_of_the_same_package_begin_with_dots():
+    source = b"import a.b, c\ndef f():\n    from d.e import g, h\nfrom . import i\nfrom ..j import k"
+    assert list(imports(source)) == ["a.b", "c", ".", ".i", "..j", "..j.k", "d.e", "d.e.g", "d.e.h"]
+
+
+@pytest.mark.parametrize("source", [b"def f(:", b"\x00", "(" * 100_000, "-" * 100_000 + "1"])
+def test_what_python_cannot_parse_imports_nothing(source):
+    assert parsed(source).body == []
