@@ -149,9 +149,20 @@ class Exercise:
             return grading.hand_over(self.name, nodes)
         return self.judge(LocalPrograms(nodes), grading.secret)
 
-    def judge(self, source: ProgramSource, secret: str = "") -> Score:
+    def in_order(self, *nodes: Any, order: int | str) -> tuple[Recording, bool]:
+        """Run the nodes with all runs in this order, for `sim.explore`.
+
+        Returns the run to look at, and whether the nodes earn full points.
+        """
+        score = self.judge(LocalPrograms(nodes), order="" if order == 0 else str(order))
+        missed = (verdict.run for verdict in score.verdicts if verdict.status != "passed")
+        recordings = score.recordings or (Recording(),)
+        return recordings[next(missed, 0)], float(score) == score.max
+
+    def judge(self, source: ProgramSource, secret: str = "", order: str = "") -> Score:
         """The same for programs wherever they live, on private worlds where there is a secret.
 
+        order: of all runs; "" for the usual one.
         Raises ValueError without a check that gives points, and what the cast raises.
         """
         if not self.points > 0:
@@ -163,16 +174,19 @@ class Exercise:
                 verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
                 return Score(self.name, verdicts, title=self.title)
             try:
-                return self._run_and_judge(source, secret, found)
+                return self._run_and_judge(source, secret, found, order)
             finally:
                 source.leave()
 
-    def _run_and_judge(self, source: ProgramSource, secret: str, package: Package | None) -> Score:
+    def _run_and_judge(
+        self, source: ProgramSource, secret: str, package: Package | None, order: str
+    ) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
         for scenario, seed in self.runs(secret):
+            run = functools.partial(Scenario.run, source=source, seed=seed, package=package)
             try:
-                recording, verdicts = self._judged(scenario, seed, source, package)
+                recording, verdicts = self._judged(scenario, functools.partial(run, order=order))
             except Exception as error:
                 recording = Recording(seed=seed)
                 verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
@@ -180,11 +194,8 @@ class Exercise:
             judged.append(verdicts)
         return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
 
-    def _judged(
-        self, scenario: Scenario, seed: int, source: ProgramSource, package: Package | None
-    ) -> tuple[Recording, list[Verdict]]:
+    def _judged(self, scenario: Scenario, run: Callable[..., Recording]) -> tuple[Recording, list[Verdict]]:
         """One run and its verdicts; where it shows a typo, with half of what the corrected program earns."""
-        run = functools.partial(Scenario.run, source=source, seed=seed, package=package)
         recording = run(scenario)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
         return recording, partial_credit(verdicts, self._without_typos(scenario, run, recording, verdicts))

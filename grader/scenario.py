@@ -43,15 +43,18 @@ class Scenario:
     network: Network | None = None
     fair: Sequence[int] = ()
 
-    def run(self, source: ProgramSource, seed: int, package: Package | None = None) -> Recording:
+    def run(
+        self, source: ProgramSource, seed: int, package: Package | None = None, order: str = ""
+    ) -> Recording:
         """Run the student's nodes, or programs of the package: then the recording is a `PackageRun`.
 
-        The course's programs start first, as a robot's drivers do. Raises CompanionError if one raised.
+        order: as in sim.run; "" for the usual one. The course's programs start first, as a robot's drivers
+        do. Raises CompanionError if one raised.
         """
-        recording = self._run(source, seed) if self.seconds else Recording(seed=seed)
+        recording = self._run(source, seed, order) if self.seconds else Recording(seed=seed)
         return recording if package is None else PackageRun.of(recording, package)
 
-    def _run(self, source: ProgramSource, seed: int) -> Recording:
+    def _run(self, source: ProgramSource, seed: int, order: str) -> Recording:
         from sim import run
 
         recording = run(
@@ -64,6 +67,7 @@ class Scenario:
             quiet=True,
             network=self.network,
             expect_error=True,  # the score reports it
+            order=order or 0,
         )
         for error in recording.course_errors:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")

@@ -9,6 +9,7 @@ from sim.evidence import Recording, since_start  # noqa: E402
 from sim.network import Network  # noqa: E402
 from sim.play import play, replay  # noqa: E402
 from sim.ros.engine.program import Process  # noqa: E402
+from sim.ros.exploring import explore  # noqa: E402
 from sim.ros.hooks.install import install  # noqa: E402
 from sim.ros.packages import executable  # noqa: E402
 from sim.ros.play.teleop import Teleop  # noqa: E402
@@ -29,6 +30,7 @@ __all__ = [
     "Teleop",
     "World",
     "executable",
+    "explore",
     "play",
     "run",
     "since_start",

@@ -22,6 +22,7 @@ def play(
     until: Callable[[Recording], bool] | None = None,
     quiet: bool = False,
     network: Network | None = None,
+    order: int | str = 0,
     speed: float = 1.0,
     expect_error: bool = False,
 ) -> Player:
@@ -36,7 +37,8 @@ def play(
     """
     raise_if_outdated(nodes)
     pace = Pace(speed)
-    player = Player(Session(nodes, world, seconds, seed, until, quiet, caller="play", network=network), pace)
+    more = {"caller": "play", "network": network, "order": order}
+    player = Player(Session(nodes, world, seconds, seed, until, quiet, **more), pace)
     if in_notebook():
         from sim.view.live_view import (
             LiveView,  # imported here because it is slow, and scripts don't need Jupyter

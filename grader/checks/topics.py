@@ -42,7 +42,7 @@ def subscribes(recording: Recording, topic: str, type: str = "") -> list[Endpoin
 def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1) -> float:
     """The mean rate on a topic in Hz of simulated time. Raises Missed when it is off, or after a long pause.
 
-    tolerance: as a fraction of `hz`. The first message may come late by two periods.
+    tolerance: as a fraction of `hz`. The first message may come two periods after the nodes' start.
     """
     stamps = [heard.stamp for heard in publishes(recording, topic, at_least=2)]
     expected = f"{hz:.4g} Hz on {topic}, within {tolerance:.0%}"
@@ -51,7 +51,7 @@ def rate(recording: Recording, topic: str, hz: float, *, tolerance: float = 0.1)
     if abs(measured - hz) > tolerance * hz:
         saw = f"{measured:.4g} Hz ({len(stamps)} messages in {recording.ended.stamp:.3g} s)"
         raise Missed(expected, saw, _rate_hint(recording, measured, hz), picture="topics")
-    pause, since = longest_pause([0.0, *stamps, worked_until(recording)])
+    pause, since = longest_pause([recording.started_at, *stamps, worked_until(recording)])
     if pause > 2.5 / hz:
         saw = f"no message for {pause:.3g} s, from {since:.3g} s on"
         raise Missed(

@@ -74,6 +74,12 @@ class Recording(RunData):
         return self.path[min(index, len(self.path) - 1)]
 
     @property
+    def started_at(self) -> Seconds:
+        """When the last of the programs under test started: 0, but for an order in which one is late."""
+        late = (departure.stamp for departure in self.departures if departure.kind == "start")
+        return max(late, default=0.0)
+
+    @property
     def bodies(self) -> tuple[Body, ...]:
         """All that moved: what the world began with, and what came later and looks like the first of that."""
         known = self.world.bodies if self.world is not None else ()

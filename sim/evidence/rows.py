@@ -107,6 +107,19 @@ class NodeFact(NamedTuple):
     fact: str
 
 
+class Departure(NamedTuple):
+    """A choice that another order than the usual one made differently, where nothing fixes it."""
+
+    stamp: Seconds
+    node: str  # the node or program that it concerns
+    kind: str  # turn, callback, message, start or thread
+    text: str  # what was different, such as "takes /b before /a"
+    id: str  # by which an order names it
+
+    def __str__(self) -> str:
+        return f"at {self.stamp:.6g} s, {self.text}"
+
+
 class Pose(NamedTuple):
     """Where the robot really was (ground truth, map frame)."""
 

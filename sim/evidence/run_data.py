@@ -12,6 +12,7 @@ from sim.evidence.rows import (
     BusyLoop,
     CallbackError,
     CallbackRun,
+    Departure,
     Ended,
     LogLine,
     Message,
@@ -64,3 +65,5 @@ class RunData:
     hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network
     node_facts: list[NodeFact] = field(default_factory=list)  # for the diagnosis; no part of the digest
+    order: str = ""  # the text of the `Order` in which it ran; empty for the usual one
+    departures: list[Departure] = field(default_factory=list)  # what that order made differently

@@ -26,6 +26,7 @@ def run(
     quiet: bool = False,
     network: Network | None = None,
     expect_error: bool = False,
+    order: int | str = 0,
 ) -> Recording:
     """Run ROS 2 nodes in simulated time, and return the evidence of what they did.
 
@@ -43,13 +44,16 @@ def run(
         so.
     expect_error: the programs fail on purpose. Otherwise the first error in them, or why they got stuck, is
         shown at the end in a notebook or a terminal, also with `quiet`.
+    order: 0 for the usual order of what happens at the same time. Any other number, or a text such as "k3f9",
+        names another order that is possible on a robot: of callbacks, programs and messages.
 
-    Equal nodes, world and seed give equal recordings. Raises TypeError or ValueError for arguments that
-    can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
+    Equal nodes, world, seed and order give equal recordings. Raises TypeError or ValueError for arguments
+    that can't be run, WorldError for a bad world, KeyboardInterrupt when the user interrupts; in a notebook
     OutdatedCodeError, when a node's cell has failed since, or was changed and not run.
     """
     raise_if_outdated(nodes)
-    session = Session(nodes, world, seconds, seed, until, quiet, companions=companions, network=network)
+    more = {"companions": companions, "network": network, "order": order}
+    session = Session(nodes, world, seconds, seed, until, quiet, **more)
     latest.recording = session.recording
     session.advance()
     if session.interrupted:

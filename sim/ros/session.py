@@ -15,9 +15,11 @@ from rclpy.node import Node
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.network import Network
+from sim.order import Order
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
 from sim.ros.engine.engine import Engine, never
 from sim.ros.engine.main_loop import MainLoop
+from sim.ros.engine.preemption import Preemption
 from sim.ros.engine.process_state import ProcessState, SeededRandom
 from sim.ros.engine.program import Process, as_process
 from sim.ros.engine.running_program import RunningProgram
@@ -50,6 +52,7 @@ class Session:
         caller: str = "run",
         companions: Sequence[Any] = (),
         network: Network | None = None,
+        order: int | str = 0,
     ) -> None:
         self._companions = [as_process(node, caller) for node in companions]
         self._specs = [as_process(as_launch_program(node), caller) for node in nodes]
@@ -63,12 +66,14 @@ class Session:
         if not isinstance(network, Network | None):
             raise TypeError(f"network must be a Network, such as Network(loss=0.2); it is {network!r}.")
         world = World.load(world) if isinstance(world, str) else world
-        self.recording = Recording(world=world, seconds=float(seconds), seed=seed, network=network)
+        chosen = str(Order.parse(order) or "")
+        self.recording = Recording(world, float(seconds), seed, network=network, order=chosen)
         self.truth: GroundTruth | None = None  # while the run lasts, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
         self._until = until
         self._loop: MainLoop | None = None
+        self._preemption: Preemption | None = None  # in another order than the usual one
         self._reached: Nanoseconds = 0  # up to which all is done
         self._process, self._random, self._stderr = ProcessState(), SeededRandom(seed), FileDescriptor2()
         self._screen = Screen(quiet)
@@ -158,6 +163,8 @@ class Session:
             rebind(_names_around(spec.target))
         if self.recording.world is not None:
             self.truth = GroundTruth(self.recording)
+        if self.engine.choices is not None:
+            self._preemption = Preemption([spec.target for spec in self._specs])
         self.engine.open(self.truth)
         for spec in programs_of(self.truth.scene) if self.truth is not None else []:
             self.engine.start(spec, from_course=True)
@@ -174,6 +181,8 @@ class Session:
         if self._loop is not None:
             self._loop = None
             self.engine.close()
+        if self._preemption is not None:
+            self._preemption.restore()
 
     def _clean_up(self) -> None:
         self.engine.recorder.add_stderr(self._stderr.close())

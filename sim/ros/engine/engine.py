@@ -9,6 +9,7 @@ from typing import Protocol
 
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
+from sim.order import Order
 from sim.ros.engine.callbacks import Callbacks
 from sim.ros.engine.guard import Guard
 from sim.ros.engine.limits import RunLimits
@@ -17,6 +18,7 @@ from sim.ros.engine.process_state import RclpyState, SeededBytes
 from sim.ros.engine.program import Process
 from sim.ros.engine.running_program import RunningProgram, destroy
 from sim.ros.engine.simtime import SimulatedTime
+from sim.ros.fibers.choices import Choices
 from sim.ros.fibers.exceptions import Livelock, RemoteLost, RunOver
 from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.scheduler import Scheduler, activate
@@ -49,6 +51,8 @@ class Engine(Scheduler):
     def __init__(self, recording: Recording, screen: Callable[[str], None]) -> None:
         super().__init__()
         self.recording = recording
+        order = Order.parse(recording.order or None)
+        self.choices = order and Choices(order, recording.departures, lambda: self.now)
         self.recorder = Recorder(self, recording)
         self.output = ProgramOutput(self, self.recorder, screen)
         self.limits = RunLimits(self)
@@ -149,6 +153,7 @@ class Engine(Scheduler):
 
     def close(self) -> None:
         """End all programs, and free everything of the run."""
+        self.choices = None
         self.recorder.close()
         try:
             self.guard.impatient = True
@@ -194,7 +199,8 @@ class Engine(Scheduler):
 
     def start(self, spec: Process, *, from_course: bool = False) -> RunningProgram:
         """Add a program; it runs when the engine does. from_course: it is not the student's."""
-        program = RunningProgram(self, self.rclpy, spec, from_course)
+        number = sum(program.from_course == from_course for program in self.programs)
+        program = RunningProgram(self, self.rclpy, spec, from_course, number)
         self.programs.append(program)
         program.main = self.spawn(program.run, program.name, program)
         return program

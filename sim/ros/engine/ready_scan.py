@@ -14,6 +14,7 @@ from rclpy.subscription import Subscription
 from sim.evidence import SPUN
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
+from sim.ros.engine.ready_order import ReadyOrder
 from sim.ros.engine.service_work import response_work, service_work
 from sim.ros.engine.waitables import is_ready
 from sim.ros.fibers.waiter import Waiter
@@ -27,7 +28,6 @@ RCLError = _rclpy.RCLError
 # What an event of the middleware counts: matched or incompatible endpoints.
 CHANGES = "total_count_change", "current_count_change", "alive_count_change", "not_alive_count_change"
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
-
 
 Entry = tuple[Callable[..., Work | None], Any, Any]  # what checks an entity, the entity, its node
 
@@ -50,6 +50,8 @@ class ReadyScan:
         self._transport = engine.transport
         self._busy = busy
         self._entries: list[Entry] = []
+        is_fixed = engine.choices is None or engine.current.process.from_course
+        self._order = None if is_fixed else ReadyOrder(engine.choices)
 
     def ready(self, nodes: Collection[Any] | None = None) -> Iterator[Work]:
         """One pass over all entities: the work of each that is ready when its turn comes.
@@ -59,12 +61,16 @@ class ReadyScan:
         if self.executor._tasks:
             yield from self._ready_tasks()
         entries = self.scan_order(nodes)
+        if self._order is not None:
+            entries = self._order.arranged(entries, self.engine.now)
         for check, entity, node in entries:
             try:
                 work = check(self, entity, node)
             except (InvalidHandle, RCLError):  # destroyed since the pass began
                 continue
             if work is not None:
+                if self._order is not None:
+                    self._order.note(entity)
                 yield work
 
     def _ready_tasks(self) -> Iterator[Work]:
@@ -224,9 +230,8 @@ class ReadyScan:
 
     def _counted_event(self, handler: Any, node: Any) -> Work | None:
         data = handler._sim.take() if self._free(handler) else None
-        if data is None:
-            return None
-        return self._waitable(handler, node, data, "event")._replace(names=handler.callback)
+        work = None if data is None else self._waitable(handler, node, data, "event")
+        return work and work._replace(names=handler.callback)
 
     def _waitable(self, waitable: Any, node: Any, data: Any, kind: str) -> Work:
         for future in waitable._futures:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import inspect
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import count, pairwise
 from typing import Any
@@ -79,14 +80,18 @@ class RunningProgram:
     """One program in a run, with its state.
 
     rclpy: the state of rclpy that all programs of the run share. from_course: it is the course's, not the
-    student's.
+    student's. number: among the programs of its kind.
     """
 
     loaded: RunningProgram | None = None  # whose state is the module-level one at the moment
 
-    def __init__(self, scheduler: Scheduler, rclpy: RclpyState, spec: Process, from_course: bool) -> None:
+    def __init__(
+        self, scheduler: Scheduler, rclpy: RclpyState, spec: Process, from_course: bool, number: int
+    ) -> None:
         self.scheduler, self.rclpy, self.from_course = scheduler, rclpy, from_course
         self._become(spec)
+        self.key, self.fibers_started, self.fibers_alive = f"{self.name} {number}", 0, 0  # as in `Program`
+        self.visits: Counter[tuple[str, int]] = Counter()
         self.context: Context | None = None
         self.executor: Any = None
         self.nodes: list[Node] = []
@@ -142,8 +147,20 @@ class RunningProgram:
 
     def run(self) -> None:
         """The body of the program's first fiber: what `python3 node.py` would do."""
+        self._wait_for_start()
         with lenient_fields() if self.spec.lenient else contextlib.nullcontext():
             self._run()
+
+    def _wait_for_start(self) -> None:
+        """In another order than the usual one, a program may start later, unless another process has it."""
+        scheduler = self.scheduler
+        here = not (self.from_course or hasattr(self.target, "runs_elsewhere"))
+        if scheduler.choices is not None and here:
+            delay = scheduler.choices.start_delay(self)
+            if delay:
+                scheduler.wait("the start", until=scheduler.now + delay)
+                if scheduler.choices is not None:  # the run is not over
+                    scheduler.choices.started_late(self)
 
     def _run(self) -> None:
         self._read_settings()

@@ -9,6 +9,7 @@ import asyncio
 import contextvars
 import ctypes
 import threading
+from collections import Counter
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -23,11 +24,15 @@ class Program(Protocol):
     """What a fiber belongs to: one program, with its own module-level state of rclpy."""
 
     name: str
+    key: str  # its name and a number, by which an order names it
     nodes: list[Any]
     from_course: bool  # the course's, not the student's
     bundled: bool  # of a ROS package that the course includes
     host: str  # the computer that it runs on
     reader: Callable[[str, str], Any] | None  # called with "stdout" or "stderr", and text
+    fibers_started: int
+    fibers_alive: int
+    visits: Counter[tuple[str, int]]  # of a function's lines, where a thread may be preempted
     steps: int  # its callbacks, and its fibers' turns except those that only poll an executor
 
     def load(self) -> None:
@@ -46,6 +51,7 @@ class Fiber:
 
     def __init__(self, scheduler: FiberHost, body: Callable[[], Any], name: str, process: Program) -> None:
         self.name, self.process = name, process
+        self.number = 0  # among the fibers of its program
         self.done = False
         self.result: Any = None
         self.error: BaseException | None = None

@@ -13,6 +13,7 @@ from typing import Any, NoReturn
 import greenlet
 
 from sim.nanoseconds import Nanoseconds
+from sim.ros.fibers.choices import Choices
 from sim.ros.fibers.exceptions import Livelock
 from sim.ros.fibers.fiber import Fiber, Program
 from sim.ros.fibers.waiter import NEVER, Waiter, Waiters
@@ -28,6 +29,7 @@ class Scheduler:
     def __init__(self) -> None:
         self.now: Nanoseconds = 0
         self.waiters = Waiters()
+        self.choices: Choices | None = None  # None in the usual order
         self.switches = 0
         self.livelock: str | None = None
         self.current: Fiber | None = None
@@ -40,6 +42,9 @@ class Scheduler:
     ) -> Fiber:
         """Add a fiber; it starts when its turn comes, right before `before` if that is given."""
         fiber = Fiber(self, body, name, process)
+        fiber.number = process.fibers_started
+        process.fibers_started += 1
+        process.fibers_alive += 1
         index = self.fibers.index(before) if before in self.fibers else len(self.fibers)
         self.fibers.insert(index, fiber)
         return fiber
@@ -73,6 +78,12 @@ class Scheduler:
             error, fiber.thrown = fiber.thrown, None
             raise error
 
+    def preemption_point(self, function: str, line: int) -> None:
+        """The current fiber is about to execute this line of a student's function: it may have to wait."""
+        delay = self.choices.preemption(self.current, function, line)
+        if delay is not None:
+            self.wait("its turn", ready=lambda: self.now >= until, until=(until := self.now + delay))
+
     def wake_all(self) -> None:
         """Something happened that may concern any executor: let each that is waiting look for work."""
         self.waiters.wake_all()
@@ -105,8 +116,8 @@ class Scheduler:
     # -- what the main loop calls ------------------------------------------------------------------
 
     def turn_order(self) -> list[Fiber]:
-        """The fibers in the order in which they take their turns in a round: that of their creation."""
-        return list(self.fibers)
+        """The fibers in the order of their turns in a round: usually that of their creation."""
+        return list(self.fibers) if self.choices is None else self.choices.turns(self.fibers)
 
     def run_round(self) -> bool:
         """Give each fiber that can go on one turn; whether there was one."""
@@ -134,6 +145,7 @@ class Scheduler:
             if fiber.running_loop is not None:
                 set_running_loop(None)
         if fiber.done:
+            fiber.process.fibers_alive -= 1
             self.wake_all()  # it may have been a parallel callback whose group is free now
             if fiber in self.fibers:
                 self.fibers.remove(fiber)

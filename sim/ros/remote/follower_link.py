@@ -112,6 +112,7 @@ class FollowerLink(ProcessLink):
             "node_facts": NewItems(recording.node_facts),
             "errors": NewItems(recording.errors),
             "callbacks": NewItems(recording.callbacks),
+            "departures": NewItems(recording.departures),
         }
         self._calls: list[_OpenCall] = []
         self._goals: list[_OpenGoal] = []

@@ -32,6 +32,8 @@ class Remote:
     deadline: returns the time by which a run must be over, by the clock `monotonic`; it may change meanwhile.
     """
 
+    runs_elsewhere = True  # so the other process decides when its programs start, in another order
+
     def __init__(
         self,
         wire: Wire,
@@ -70,6 +72,7 @@ class Remote:
         """
         program = functools.partial(self, preparation)
         program.__name__ = type(self).__name__
+        program.runs_elsewhere = True
         return program
 
     def __call__(self, preparation: Sequence[Any] = ()) -> None:
@@ -148,8 +151,8 @@ class _RunExchange:
         self.alive, self._busy = True, False
         seed = remote.derived_seed(run.recording.seed)
         try:
-            seconds = run.recording.seconds
-            remote.wire.send(do="run", seconds=seconds, seed=seed, preparation=list(preparation))
+            about = {"seconds": run.recording.seconds, "seed": seed, "order": run.recording.order}
+            remote.wire.send(do="run", preparation=list(preparation), **about)
         except WireError as error:
             remote._lose(error)
         remote._open = True

@@ -13,6 +13,7 @@ from sim.evidence import (
     BusyLoop,
     CallbackError,
     CallbackRun,
+    Departure,
     LogLine,
     ParameterName,
     TimerInfo,
@@ -29,6 +30,8 @@ MAX_REPORTS_PER_MESSAGE = 100_000  # of each kind
 MAX_REPORTS_PER_RUN = 2_000_000
 MAX_TIMER_PERIOD = 1e9  # s
 KINDS = ("timer", "subscription", "service", "client", "action", "event", "guard condition", "task")
+
+DEPARTURES = ("turn", "callback", "message", "start", "thread")
 
 
 class SelfReports:
@@ -49,6 +52,7 @@ class SelfReports:
             "parameters": (3, self._parameter),
             "node_facts": (2, self._node_fact),
             "callbacks": (5, self._callback),
+            "departures": (5, self._departure),
         }
 
     def record(self, reports: dict[str, Any]) -> None:
@@ -123,3 +127,10 @@ class SelfReports:
         length = valid_float(lasted, "a callback's duration", 0, now - begin + 1 / SECOND)
         run = CallbackRun(begin, length, self._name(node), self._name(callback), kind)
         self._recording.callbacks.append(run)
+
+    def _departure(self, stamp: Any, node: Any, kind: Any, text: Any, id_: Any) -> None:
+        if kind not in DEPARTURES:
+            raise ProtocolError("a departure of unknown kind")
+        at = valid_float(stamp, "the time of a departure", 0, self._now)
+        texts = self._name(node), kind, self._texts.take(text, "a departure"), self._name(id_)
+        self._recording.departures.append(Departure(at, *texts))

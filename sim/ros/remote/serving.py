@@ -46,21 +46,22 @@ def _function(name: str) -> Callable[..., Any]:
         raise WireBroken(f"unknown function {name!r}") from None
 
 
-def _run(wire: Wire, nodes: Sequence[Any], order: dict[str, Any]) -> None:
-    orders = Orders(wire)
+def _run(wire: Wire, nodes: Sequence[Any], command: dict[str, Any]) -> None:
+    commands = Commands(wire)
     try:
-        name, *arguments = order["preparation"] or [""]
+        name, *arguments = command["preparation"] or [""]
         prepare = _function(name) if name else None
         programs = prepared(nodes, prepare, arguments)
-        session = Follower(orders, programs, order["seconds"], order["seed"])
+        about = command["seconds"], command["seed"], command["order"]
+        session = Follower(commands, programs, *about)
         session.advance()
-        orders.answer(stderr=session.recording.stderr[:MAX_STDERR_LENGTH])
+        commands.answer(stderr=session.recording.stderr[:MAX_STDERR_LENGTH])
     except (WireClosed, WireTimeout):
         raise
     except BaseException as error:  # keep serving, whatever ended the run
         # Leave out an OSError's file name, which would describe this machine.
         text = getattr(error, "strerror", None) or error
-        orders.answer(failed=f"{type(error).__name__}: {text}")
+        commands.answer(failed=f"{type(error).__name__}: {text}")
 
 
 def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, arguments: Sequence[str]) -> list[Any]:
@@ -71,20 +72,20 @@ def prepared(nodes: Sequence[Any], prepare: Callable[..., Any] | None, arguments
     return [program for each in made for program in (each if isinstance(each, list) else [each])]
 
 
-class Orders:
-    """Receives the leader's orders during a run, and sends an answer to each."""
+class Commands:
+    """Receives the leader's commands during a run, and sends an answer to each."""
 
     def __init__(self, wire: Wire) -> None:
         self._wire, self._due = wire, False
 
     def next(self) -> dict[str, Any]:
-        """The next order."""
-        order = self._wire.receive()
+        """The next command."""
+        command = self._wire.receive()
         self._due = True
-        return order
+        return command
 
     def answer(self, **message: Any) -> None:
-        """Answer the last order or, if that is answered already, the next one."""
+        """Answer the last command or, if that is answered already, the next one."""
         if not self._due:
             self.next()
         self._wire.send(**message)
@@ -94,12 +95,14 @@ class Orders:
 class Follower(Session):
     """A run whose simulated time is set by the leader."""
 
-    def __init__(self, orders: Orders, nodes: tuple[Any, ...], seconds: float, seed: int) -> None:
-        super().__init__(nodes, None, seconds, seed, None, True, "grade")
-        self._orders = orders
+    def __init__(
+        self, commands: Commands, nodes: tuple[Any, ...], seconds: float, seed: int, order: str
+    ) -> None:
+        super().__init__(nodes, None, seconds, seed, None, True, "grade", order=order or 0)
+        self._commands = commands
 
     def _main_loop(self, end: Nanoseconds, watched: list[RunningProgram]) -> FollowerLoop:
-        return FollowerLoop(self.engine, self._orders, end)
+        return FollowerLoop(self.engine, self._commands, end)
 
 
 class FollowerLoop:
@@ -107,19 +110,19 @@ class FollowerLoop:
 
     due: Nanoseconds = 0
 
-    def __init__(self, engine: Engine, orders: Orders, end: Nanoseconds) -> None:
-        self._engine, self._orders, self._end = engine, orders, end
+    def __init__(self, engine: Engine, commands: Commands, end: Nanoseconds) -> None:
+        self._engine, self._commands, self._end = engine, commands, end
         self._link = FollowerLink(engine)
         engine.transport.connect(self._link)
 
     def run(self, last: Nanoseconds, enough: Callable[[], bool]) -> Ended:
         """As `MainLoop.run`, until the leader ends the run."""
-        while (order := self._orders.next()).get("do") == "go":
-            moment, events = order["now"], order["events"]
+        while (command := self._commands.next()).get("do") == "go":
+            moment, events = command["now"], command["events"]
             self._engine.transport.events.schedule_arrival(moment, partial(self._link.apply, events))
             busy = self._engine.step(moment, _Pause(self._engine, self._link).is_due)
             self._link.collect()
-            self._orders.answer(**self._answer(busy))
+            self._commands.answer(**self._answer(busy))
         return Ended("time", self._engine.recorder.now, "The other side has ended the run.")
 
     def _answer(self, busy: bool) -> dict[str, Any]:
@@ -145,4 +148,6 @@ class _Pause:
         self._engine.limits.check_pace()
         self._link.collect()
         self._rounds += 1
-        return bool(self._link.outgoing) or self._rounds >= MAX_ROUNDS_PER_TURN
+        # In another order than the usual one, both processes take turns round by round, as one process does.
+        another = self._engine.choices is not None
+        return another or bool(self._link.outgoing) or self._rounds >= MAX_ROUNDS_PER_TURN

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from sim.nanoseconds import Nanoseconds
 from sim.ros.fibers.scheduler import Scheduler
 from sim.ros.recorder.recorder import Recorder
+from sim.ros.transport.arrivals import Arrivals
 from sim.ros.transport.event_queue import EventQueue
 from sim.ros.transport.links import HostLinks
 from sim.ros.transport.peer import Peer
@@ -28,3 +29,4 @@ class TransportContext:
         self.links = None if network is None else HostLinks(network, recorder.recording.seed)
         self.sent: Counter[str] = Counter()  # messages on each topic, except those that C++ code publishes
         self.peer: Peer | None = None
+        self.arrivals = None if scheduler.choices is None else Arrivals(scheduler.choices)

@@ -52,6 +52,7 @@ class DataReader(TopicEndpoint):
         super().__init__(run, node, handle, topic, profile, find, on_close)
         self.message_class, self.raw, self.subscriber = type_, raw, subscriber
         self.queue: deque[Sample] = deque(maxlen=queue_length(profile))
+        self.closed = False
         self.waiter = NO_EXECUTOR  # the executor that takes from the queue, once that has listed its entities
         counts = event_counts(run, events, OF_READER)
         self.liveliness = liveliness_monitor(run, self.profile, counts.get(CHANGED))
@@ -86,6 +87,7 @@ class DataReader(TopicEndpoint):
 
     def close(self) -> None:
         """Its subscription was destroyed."""
+        self.closed = True
         self.queue.clear()
         if self._deadline is not None:
             self._deadline.cancel()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any, Protocol
 
 from rclpy.event_handler import EventHandler
@@ -93,13 +94,22 @@ class DataWriter(PublisherEndpoint):
         self._latched.append(sample)
         for reader in self.readers:
             if now > self._all_known_after or self.has_discovered(reader):
-                reader.receive(sample)
-                if reader.liveliness is not None:
-                    reader.liveliness.assert_liveliness(self)
+                arrival = now if self.run.arrivals is None else self.run.arrivals.at(self, reader, now)
+                if arrival == now:
+                    self._arrive(sample, reader)
+                else:
+                    self.run.events.schedule_arrival(arrival, partial(self._arrive, sample, reader))
             else:
                 self.run.recorder.undelivered(self.sender, self.topic)
         if self.outgoing is not None:
             self.outgoing.send(sample)
+
+    def _arrive(self, sample: Sample, reader: DataReader) -> None:
+        if reader.closed:
+            return
+        reader.receive(sample)
+        if reader.liveliness is not None:
+            reader.liveliness.assert_liveliness(self)
 
     def match(self, reader: DataReader) -> None:
         """If a subscription is compatible, send messages there from now on, and the latched ones at once."""

@@ -214,3 +214,38 @@ def test_a_drive_is_the_same_to_the_last_bit(follower):
     with follower.serving("tests.bench.avoider", "main") as remote:
         there = [run(remote, world="room", seconds=10, quiet=True) for _ in range(2)]
     assert [drive.digest for drive in there] == [run(main, world="room", seconds=10, quiet=True).digest] * 2
+
+
+def in_any_order(recording: Recording) -> dict:
+    """All but the list of departures, which has those of both processes one after the other."""
+    return evidence(recording) | {"departures": []}
+
+
+@pytest.mark.parametrize("order", ["1", "2", "any-4", "host-6"])
+@pytest.mark.parametrize(
+    ("module", "name"), [("threads", "two_groups_in_parallel"), ("mains", "two_nodes_one_executor")]
+)
+def test_another_order_leaves_an_equal_recording(follower, module, name, order):
+    with follower.serving(f"{ENGINE}.{module}", name) as remote:
+        there = run(remote, seconds=6, quiet=True, order=order)
+    here = run(found(module, name), seconds=6, quiet=True, order=order)
+    assert in_any_order(there) == in_any_order(here)
+    assert there.digest == here.digest
+
+
+@pytest.mark.parametrize("order", ["1", "2", "any-4", "host-6"])
+@pytest.mark.parametrize(("ours", "theirs"), [TOGETHER[1], TOGETHER[9], TOGETHER[14], *TOO_EARLY])
+def test_two_programs_leave_an_equal_recording_in_another_order(follower, ours, theirs, order):
+    with follower.serving(f"{ENGINE}.{theirs[0]}", theirs[1]) as remote:
+        there = run(remote, companions=[found(*ours)], seconds=6, quiet=True, order=order)
+    here = run(found(*theirs), companions=[found(*ours)], seconds=6, quiet=True, order=order)
+    assert in_any_order(there) == in_any_order(here)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("order", [1, 2, 3, 5, 8, "any-4", "host-6"])
+@pytest.mark.parametrize(("module", "name"), [(m, name) for m, names in ALONE.items() for name in names])
+def test_a_program_in_the_other_process_is_equal_in_another_order(follower, module, name, order):
+    with follower.serving(f"{ENGINE}.{module}", name) as remote:
+        there = run(remote, seconds=6, quiet=True, order=order)
+    assert in_any_order(there) == in_any_order(run(found(module, name), seconds=6, quiet=True, order=order))

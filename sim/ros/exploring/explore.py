@@ -1,0 +1,145 @@
+"""`explore` runs nodes in many orders, until they fail in one; then it looks for the fewest differences."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from sim.evidence import Recording
+from sim.notebook import in_notebook, raise_if_outdated
+from sim.order import LEVELS, NETWORK, SPREAD, Order
+from sim.ros.exploring.explored import Explored
+from sim.ros.exploring.shrink import shrink
+from sim.ros.run import run
+
+MOST_SHRINKING = 300  # runs
+
+Holds = Callable[[Recording], bool]
+Attempt = Callable[[str | int], tuple[Recording, bool]]
+
+
+class Judge(Protocol):
+    """An exercise: it runs the nodes itself."""
+
+    def in_order(self, *nodes: Any, order: str | int) -> tuple[Recording, bool]:
+        """Run the nodes in this order: the run to look at, and whether they earn full points."""
+
+
+def explore(
+    *nodes: Any,
+    holds: Holds | Judge,
+    orders: int = 100,
+    level: str = NETWORK,
+    spread: float = SPREAD,
+    **arguments: Any,
+) -> Explored:
+    """Run nodes in many orders that are possible on a robot, until something does not hold in one.
+
+    holds: called with each run's recording; or an exercise, which runs the nodes itself: full points hold.
+    orders: how many to try. level: "host" varies what varies between the programs of one machine, and
+        between threads; "network" also what varies between machines; "any" all that nothing guarantees.
+    spread: by how much a message may be late, in seconds.
+    arguments: those of `run`; what the nodes print and log is not shown.
+
+    Raises ValueError for a level or a number of orders that can't be, and what `run` raises. Ctrl-C ends the
+    search, and the result is the best so far.
+    """
+    if level not in LEVELS:
+        raise ValueError(f"level must be 'host', 'network' or 'any'; it is {level!r}.")
+    if isinstance(orders, bool) or not isinstance(orders, int) or orders < 1:
+        raise ValueError(f"orders must be a whole number, 1 or more; it is {orders!r}.")
+    if not 0 < spread <= 1:
+        raise ValueError(f"spread must be seconds, more than 0 and at most 1; it is {spread!r}.")
+    raise_if_outdated(nodes)
+    search = _Search(_attempt(nodes, holds, arguments), orders, level, spread)
+    try:
+        search.run()
+    except KeyboardInterrupt:
+        search.found.interrupted = True
+        if search.found.usual.stamp == 0:
+            raise
+    finally:
+        search.progress.end()
+    return search.found
+
+
+def _attempt(nodes: tuple[Any, ...], holds: Holds | Judge, arguments: dict[str, Any]) -> Attempt:
+    if hasattr(holds, "in_order"):
+        return lambda order: holds.in_order(*nodes, order=order)
+
+    def attempt(order: str | int) -> tuple[Recording, bool]:
+        recording = run(*nodes, **({"quiet": True} | arguments), order=order)
+        return recording, bool(holds(recording))
+
+    return attempt
+
+
+class _Search:
+    """One search. The result grows in `found`."""
+
+    def __init__(self, attempt: Attempt, orders: int, level: str, spread: float) -> None:
+        self.progress = _Progress(orders)
+        self.found = Explored(Recording(), level=level)
+        self._attempt, self._orders, self._level, self._spread = attempt, orders, level, spread
+
+    def run(self) -> None:
+        """Try the usual order, then the others; shrink the first that fails."""
+        found = self.found
+        found.usual, holds = self._attempt(0)
+        if not holds:
+            found.failed, found.recording = 0, found.usual
+            return
+        for number in range(1, self._orders + 1):
+            self.progress.show(f"order {number} of {self._orders}", number)
+            order = Order(str(number), self._level, self._spread)
+            recording, holds = self._attempt(str(order))
+            found.tried = number
+            if not holds:
+                found.failed, found.number, found.recording = str(order), number, recording
+                self._shrink(order)
+                return
+
+    def _shrink(self, order: Order) -> None:
+        """Keep the fewest departures with which it still fails."""
+        runs = 0
+
+        def fails(ids: list[str]) -> bool:
+            nonlocal runs
+            runs += 1
+            if runs > MOST_SHRINKING:
+                return False
+            self.progress.show(f"order {self.found.number} fails; {len(ids)} departures", self.found.number)
+            limited = str(order.limited_to(frozenset(ids)))
+            recording, holds = self._attempt(limited)
+            if not holds and len(recording.departures) <= len(self.found.departures):
+                self.found.failed, self.found.recording = limited, recording
+            return not holds
+
+        ids = [departure.id for departure in self.found.departures]
+        if ids and fails(ids):
+            for _ in shrink(ids, fails):
+                pass
+
+
+@dataclass
+class _Progress:
+    """A line with a bar, in a notebook and in a terminal."""
+
+    orders: int
+    shown: bool = field(default_factory=lambda: in_notebook() or sys.stderr.isatty())
+    width: int = 0
+
+    def show(self, text: str, done: int) -> None:
+        """Replace the line."""
+        if self.shown:
+            bar = "#" * (20 * done // self.orders)
+            line = f"[{bar:<20}] {text}"
+            print(f"\r{line:<{self.width}}", end="", file=sys.stderr, flush=True)
+            self.width = len(line)
+
+    def end(self) -> None:
+        """Remove the line."""
+        if self.width:
+            print("\r" + " " * self.width + "\r", end="", file=sys.stderr, flush=True)

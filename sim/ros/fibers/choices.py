@@ -1,0 +1,120 @@
+"""The choices of a run in another order than the usual one: what the programs' code does not fix."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from sim.evidence import Departure
+from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
+from sim.order import Draw, Order
+from sim.ros.fibers.fiber import Fiber, Program
+
+LATEST_START: Nanoseconds = SECOND // 2
+MOST_PREEMPTIONS = 8  # in a run: almost all known faults need one or two
+FIRST, USUAL, LAST = -1, 0, 1
+
+
+class Choices:
+    """Makes the choices of one run, and lists those that depart from the usual order.
+
+    departures: the list to fill. now: returns the simulated time.
+    """
+
+    def __init__(self, order: Order, departures: list[Departure], now: Callable[[], Nanoseconds]) -> None:
+        self.order = order
+        self._departures, self._now = departures, now
+        self._preemptions = 0
+        self._listed: set[tuple[Nanoseconds, str]] = set()
+
+    def list(self, draw: Draw, node: str, kind: str, text: str) -> None:
+        """A choice departs from the usual one. Each is listed once at a time."""
+        now = self._now()
+        if (now, draw.id) not in self._listed:
+            self._listed.add((now, draw.id))
+            self._departures.append(Departure(now / SECOND, node, kind, text, draw.id))
+
+    def rank(self, draw: Draw, probability: float) -> int:
+        """Whether something comes first, last or in its usual place."""
+        if not self.order.departs(draw, probability):
+            return USUAL
+        return FIRST if draw.value < 0.5 else LAST
+
+    # -- programs ----------------------------------------------------------------------------------
+
+    def start_delay(self, program: Program) -> Nanoseconds:
+        """How much later than usual a program starts."""
+        draw = self.order.draw("start", program.key)
+        return int(draw.value * LATEST_START) if self.order.departs(draw, self.order.intensity) else 0
+
+    def started_late(self, program: Program) -> None:
+        """A program starts now, after its delay."""
+        draw = self.order.draw("start", program.key)
+        self.list(draw, program.key, "start", f"{program.name} starts {self._now() / SECOND:.3f} s later")
+
+    def turns(self, fibers: Sequence[Fiber]) -> list[Fiber]:
+        """The fibers in the order in which they take their turns in a round.
+
+        The course's programs keep their own order; the student's may come first, and in any order.
+        """
+        course = [fiber for fiber in fibers if fiber.process.from_course]
+        students = [fiber for fiber in fibers if not fiber.process.from_course]
+        ready = [fiber for fiber in students if not fiber.done and fiber.runnable()]
+        if len(ready) > 1:
+            students = self._arranged(students, ready)
+        if ready and any(not fiber.done and fiber.runnable() for fiber in course):
+            draw = self.order.draw("first", self._now())
+            if self.order.departs(draw, self.order.intensity):
+                self.list(draw, "", "turn", "the programs under test run before the others")
+                return students + course
+        return course + students
+
+    def _arranged(self, students: list[Fiber], ready: list[Fiber]) -> list[Fiber]:
+        now, intensity = self._now(), self.order.intensity
+        draws = {fiber: self.order.draw("turn", now, fiber.process.key, fiber.number) for fiber in ready}
+        ranks = {fiber: self.rank(draw, intensity) for fiber, draw in draws.items()}
+        arranged = sorted(students, key=lambda fiber: ranks.get(fiber, USUAL))
+        places = {fiber: index for index, fiber in enumerate(fiber for fiber in arranged if fiber in ranks)}
+        for index, fiber in enumerate(ready):
+            passed = [
+                _label(other)
+                for place, other in enumerate(ready)
+                if (places[other] - places[fiber]) * (place - index) < 0
+            ]
+            if ranks[fiber] != USUAL and passed:
+                where = "before" if places[fiber] < index else "after"
+                text = f"{_label(fiber)} runs {where} {' and '.join(passed)}"
+                self.list(draws[fiber], fiber.process.key, "turn", text)
+        return arranged
+
+    # -- messages ----------------------------------------------------------------------------------
+
+    def delay(self, sender: str, topic: str, receiver: str) -> tuple[Draw, Nanoseconds]:
+        """How late the messages that are sent now by a node on a topic reach another; and their draw."""
+        draw = self.order.draw("message", self._now(), sender, topic, receiver)
+        if not self.order.departs(draw, self.order.intensity / 2):
+            return draw, 0
+        return draw, 1 + int(draw.value * nanoseconds(self.order.spread))
+
+    # -- threads -----------------------------------------------------------------------------------
+
+    def preemption(self, fiber: Fiber, function: str, line: int) -> Nanoseconds | None:
+        """How long a thread has to wait before it executes a line; None where it isn't preempted.
+
+        0 is until all others have had a turn.
+        """
+        program = fiber.process
+        program.visits[function, line] += 1
+        draw = self.order.draw("thread", program.key, function, line, program.visits[function, line])
+        if self.order.only is None and self._preemptions >= MOST_PREEMPTIONS:
+            return None
+        if not self.order.departs(draw, self.order.intensity**2 / 2):
+            return None
+        self._preemptions += 1
+        text = f"{_label(fiber)} is preempted before line {line} of {function}"
+        self.list(draw, program.key, "thread", text)
+        return int(max(0.0, 2 * draw.value - 1) * nanoseconds(self.order.spread))
+
+
+def _label(fiber: Fiber) -> str:
+    main = fiber.thread is None
+    return fiber.process.name if main else f"{fiber.name} of {fiber.process.name}"
