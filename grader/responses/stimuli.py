@@ -10,9 +10,6 @@ from grader.checks.no_data import no_data
 from grader.responses.comparison import same, text_of
 from grader.responses.window import EDGE, Row, Window
 from sim.evidence import Call, Message, Recording, Seconds
-from sim.order import SPREAD
-
-LATE: Seconds = 2 * SPREAD  # by which a message and its response may be late together, in another order
 
 
 def from_course(
@@ -20,11 +17,11 @@ def from_course(
 ) -> list[Message]:
     """Return the messages that the course's programs published on a topic.
 
+    Their stamps are those at which the student's programs received them; see `Recording.received`.
     settled: leave out those of the last seconds of the run, which had no time for a response.
     what: their name in a sentence; by default "messages on" the topic. Raises as `no_data` for fewer.
     """
-    found = [row for row in run.messages(topic) if row.from_course]
-    settled += LATE if run.order else 0.0
+    found = run.received(topic)
     if settled:
         found = [row for row in found if Window.after(row.stamp, settled).is_over(run)]
     if len(found) < at_least:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
+from sim.evidence.arrived import arrived
 from sim.evidence.by_topic import ByTopic
 from sim.evidence.digest import digest_of
 from sim.evidence.exchanges import Call, Goal, is_node_service
@@ -21,6 +22,8 @@ from sim.evidence.rows import (
     Seconds,
 )
 from sim.evidence.run_data import RunData
+from sim.nanoseconds import SECOND
+from sim.order import Order
 from sim.world import Body
 
 
@@ -76,8 +79,12 @@ class Recording(RunData):
     @property
     def started_at(self) -> Seconds:
         """When the last of the programs under test started: 0, but for an order in which one is late."""
-        late = (departure.stamp for departure in self.departures if departure.kind == "start")
-        return max(late, default=0.0)
+        order = Order.parse(self.order or None)
+        if order is None:
+            return 0.0
+        # A process that is not trusted reports its starts: it can't claim more than the order allows.
+        reported = max((item.stamp for item in self.departures if item.kind == "start"), default=0.0)
+        return min(reported, order.all_started / SECOND)
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -120,6 +127,19 @@ class Recording(RunData):
     @functools.cached_property
     def _by_topic(self) -> ByTopic:
         return ByTopic()
+
+    def received(self, topic: str) -> list[Message]:
+        """The course's messages on a topic, with the stamps at which the nodes under test received them.
+
+        In the usual order that is when they were sent. In another one, what was sent before the nodes had
+        started, or arrives after the end, is left out.
+        """
+        sent = [message for message in self.messages(topic) if message.from_course]
+        order = Order.parse(self.order or None)
+        if order is None:
+            return sent
+        receivers = {end.node for end in self.graph.subscriptions(topic) if not end.from_course}
+        return arrived(sent, receivers, order, self.started_at, self.ended.stamp)
 
     def calls_of(
         self, service: str | None = None, client: str | None = None, server: str | None = None

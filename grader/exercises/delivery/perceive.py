@@ -55,7 +55,7 @@ def knows_its_place(run: Recording) -> None:
 @perceive.check(3, after=knows_its_place)
 def stamps_by_the_scan(run: Recording) -> None:
     """All three carry the stamp of the scan that they come from, and the frame map, five times a second."""
-    stamps = {_nanoseconds(row) for row in from_course(run, "/scan")}
+    stamps = {_nanoseconds(row) for row in run.messages("/scan") if row.from_course}
     hint = "Pass scan.header.stamp on, and not the time of now."
     for topic in (POSE, PEOPLE, OBSTACLES):
         rows = from_student(run, topic)

@@ -83,7 +83,7 @@ def _looks(run: Recording, begin: Seconds, end: Seconds) -> list[tuple[Seconds, 
     rows = run.messages(SENT)
     moments = [begin + index * STEP + 0.012 for index in range(max(0, int((end - begin) / STEP)))]
     looks = [(moment, _last(rows, moment)) for moment in moments]
-    looks += [(row.stamp, speeds(row)) for row in Window(begin, end).rows(rows)]
+    looks += [(row.stamp, speeds(row)) for row in Window(begin, end).before(end).rows(rows)]
     return sorted(looks, key=lambda look: look[0])
 
 

@@ -46,7 +46,7 @@ def subscribes_to_all_three(run: Recording) -> None:
 }, guess='Log each message: self.get_logger().info(f"{topic}: {msg.data}").')
 def knows_the_topic(run: Recording) -> None:
     """Each message is logged at info level as `chatter0: word`: its topic, a colon, a space and its value."""
-    sent = [row for topic in CHATTERS for row in run.messages(topic) if not _is_logged(run, row, topic)]
+    sent = [row for topic in CHATTERS for row in run.received(topic) if not _is_logged(run, row, topic)]
     missing = [next(rows) for _, rows in itertools.groupby(sent, key=lambda row: row.topic)]
     if missing:
         first, right = min(missing, key=lambda row: row.stamp), len(CHATTERS) - len(missing)

@@ -90,6 +90,7 @@ class RunningProgram:
     ) -> None:
         self.scheduler, self.rclpy, self.from_course = scheduler, rclpy, from_course
         self._become(spec)
+        self.number = number
         self.key, self.fibers_started, self.fibers_alive = f"{self.name} {number}", 0, 0  # as in `Program`
         self.visits: Counter[tuple[str, int]] = Counter()
         self.context: Context | None = None

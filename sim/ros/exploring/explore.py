@@ -15,6 +15,7 @@ from sim.ros.exploring.shrink import shrink
 from sim.ros.run import run
 
 MOST_SHRINKING = 300  # runs
+SILENT = {"quiet": True, "expect_error": True}
 
 Holds = Callable[[Recording], bool]
 Attempt = Callable[[str | int], tuple[Recording, bool]]
@@ -70,7 +71,7 @@ def _attempt(nodes: tuple[Any, ...], holds: Holds | Judge, arguments: dict[str, 
         return lambda order: holds.in_order(*nodes, order=order)
 
     def attempt(order: str | int) -> tuple[Recording, bool]:
-        recording = run(*nodes, **({"quiet": True} | arguments), order=order)
+        recording = run(*nodes, **(SILENT | arguments), order=order)
         return recording, bool(holds(recording))
 
     return attempt

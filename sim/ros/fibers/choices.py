@@ -9,7 +9,6 @@ from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
 from sim.order import Draw, Order
 from sim.ros.fibers.fiber import Fiber, Program
 
-LATEST_START: Nanoseconds = SECOND // 2
 MOST_PREEMPTIONS = 8  # in a run: almost all known faults need one or two
 FIRST, USUAL, LAST = -1, 0, 1
 
@@ -43,13 +42,12 @@ class Choices:
 
     def start_delay(self, program: Program) -> Nanoseconds:
         """How much later than usual a program starts."""
-        draw = self.order.draw("start", program.key)
-        return int(draw.value * LATEST_START) if self.order.departs(draw, self.order.intensity) else 0
+        return self.order.start(program.number)[1]
 
     def started_late(self, program: Program) -> None:
         """A program starts now, after its delay."""
-        draw = self.order.draw("start", program.key)
-        self.list(draw, program.key, "start", f"{program.name} starts {self._now() / SECOND:.3f} s later")
+        draw, delay = self.order.start(program.number)
+        self.list(draw, program.key, "start", f"{program.name} starts {delay / SECOND:.3f} s later")
 
     def turns(self, fibers: Sequence[Fiber]) -> list[Fiber]:
         """The fibers in the order in which they take their turns in a round.
@@ -85,15 +83,6 @@ class Choices:
                 text = f"{_label(fiber)} runs {where} {' and '.join(passed)}"
                 self.list(draws[fiber], fiber.process.key, "turn", text)
         return arranged
-
-    # -- messages ----------------------------------------------------------------------------------
-
-    def delay(self, sender: str, topic: str, receiver: str) -> tuple[Draw, Nanoseconds]:
-        """How late the messages that are sent now by a node on a topic reach another; and their draw."""
-        draw = self.order.draw("message", self._now(), sender, topic, receiver)
-        if not self.order.departs(draw, self.order.intensity / 2):
-            return draw, 0
-        return draw, 1 + int(draw.value * nanoseconds(self.order.spread))
 
     # -- threads -----------------------------------------------------------------------------------
 

@@ -24,7 +24,8 @@ class Program(Protocol):
     """What a fiber belongs to: one program, with its own module-level state of rclpy."""
 
     name: str
-    key: str  # its name and a number, by which an order names it
+    number: int  # among the programs of the course, or of the student
+    key: str  # its name and number, by which an order names it
     nodes: list[Any]
     from_course: bool  # the course's, not the student's
     bundled: bool  # of a ROS package that the course includes

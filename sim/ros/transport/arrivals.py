@@ -42,7 +42,7 @@ class Arrivals:
         if self._is_fixed(writer, reader):
             return now
         pair = writer.sender, reader.subscriber
-        draw, delay = self._choices.delay(pair[0], writer.topic, pair[1])
+        draw, delay = self._choices.order.delay(now, pair[0], writer.topic, pair[1])
         if delay:
             text = f"{writer.topic} of {pair[0]} reaches {pair[1]} {1000 * delay / SECOND:.1f} ms later"
             self._choices.list(draw, pair[1], "message", text)
