@@ -12,6 +12,7 @@ from grader.checks.check import Check, Hints, new_check
 from grader.checks.verdicts import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
+from grader.orders import USUAL, is_full, order_of_run, worst_order
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation
 from grader.scenario import Companions, Scenario
 from grader.score import Score
@@ -159,10 +160,10 @@ class Exercise:
         recordings = score.recordings or (Recording(),)
         return recordings[next(missed, 0)], float(score) == score.max
 
-    def judge(self, source: ProgramSource, secret: str = "", order: str = "") -> Score:
+    def judge(self, source: ProgramSource, secret: str = "", order: str | None = None) -> Score:
         """The same for programs wherever they live, on private worlds where there is a secret.
 
-        order: of all runs; "" for the usual one.
+        order: of all runs; None for that of each run, see `grader.orders`.
         Raises ValueError without a check that gives points, and what the cast raises.
         """
         if not self.points > 0:
@@ -179,20 +180,32 @@ class Exercise:
                 source.leave()
 
     def _run_and_judge(
-        self, source: ProgramSource, secret: str, package: Package | None, order: str
+        self, source: ProgramSource, secret: str, package: Package | None, order: str | None
     ) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
-        for scenario, seed in self.runs(secret):
+        for index, (scenario, seed) in enumerate(self.runs(secret)):
             run = functools.partial(Scenario.run, source=source, seed=seed, package=package)
             try:
-                recording, verdicts = self._judged(scenario, functools.partial(run, order=order))
+                if order is None:
+                    recording, verdicts = self._judged_in_orders(scenario, run, order_of_run(index, seed))
+                else:
+                    recording, verdicts = self._judged(scenario, functools.partial(run, order=order))
             except Exception as error:
                 recording = Recording(seed=seed)
                 verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
             recordings.append(recording)
             judged.append(verdicts)
         return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
+
+    def _judged_in_orders(
+        self, scenario: Scenario, run: Callable[..., Recording], order: str
+    ) -> tuple[Recording, list[Verdict]]:
+        """The same in this order; where something is missed, in the usual one as well, which explains it."""
+        found = self._judged(scenario, functools.partial(run, order=order))
+        if order == USUAL or is_full(found[1]):
+            return found
+        return worst_order(found, self._judged(scenario, run))
 
     def _judged(self, scenario: Scenario, run: Callable[..., Recording]) -> tuple[Recording, list[Verdict]]:
         """One run and its verdicts; where it shows a typo, with half of what the corrected program earns."""

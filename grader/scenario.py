@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from grader.orders import without_late_start
 from grader.programs import Prepare, ProgramSource
 from grader.workspace.package import Package, PackageRun
 from sim.evidence import Recording, Seconds
@@ -31,6 +32,7 @@ class Scenario:
     name: by which checks that hold in some scenarios only name this one.
     network: what lies between the robot and the student's nodes, as in sim.run.
     fair: the seeds of which students get one each when they are marked, where luck decides in others.
+    waits: the world waits for the student's nodes, so that in another order they may start later.
     """
 
     world: Any = None
@@ -42,6 +44,7 @@ class Scenario:
     name: str = ""
     network: Network | None = None
     fair: Sequence[int] = ()
+    waits: bool = True
 
     def run(
         self, source: ProgramSource, seed: int, package: Package | None = None, order: str = ""
@@ -67,7 +70,7 @@ class Scenario:
             quiet=True,
             network=self.network,
             expect_error=True,  # the score reports it
-            order=order or 0,
+            order=order if self.waits else without_late_start(order),
         )
         for error in recording.course_errors:
             raise CompanionError(f"{error.node}: {error.type}{error.says}\n{error.traceback}")

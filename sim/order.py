@@ -54,8 +54,8 @@ class Order:
 
         Raises TypeError for anything else, ValueError for a text that is no order.
         """
-        if order is None or isinstance(order, Order):
-            return order
+        if order is None or order == "" or isinstance(order, Order):
+            return order or None
         if isinstance(order, bool) or not isinstance(order, int | str):
             raise TypeError(f"order must be a whole number, or a text such as 'k3f9'; it is {order!r}.")
         form = _FORM.fullmatch(str(order))

@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 KEPT = ROOT / ".pytest_cache" / "d"  # pytest's own place for such things; `make clean` removes it
 LEAST = 0.2  # s of computing: a run that takes less is not worth a file
 ENGINE = ("sim", "ros_packages", "requirements.lock")
-OURS = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py")
+OURS = (*ENGINE, "grader/programs.py", "grader/exercise.py", "grader/scenario.py", "grader/seeds.py", "grader/orders.py")
 OURS += ("grader/workspace",)
 OURS += "grader/companions", "grader/worlds", "grader/geometry"
 
@@ -87,7 +87,7 @@ class Evidence:
         at_hand = Evidence._latest[1]
 
         def kept_or_made(*programs: Any, **scenario: Any) -> Recording:
-            plain = repr([scenario[name] for name in ("world", "seconds", "seed")])
+            plain = repr([scenario[name] for name in ("world", "seconds", "seed", "order")])
             plain += "".join(map(_slips, programs))
             name = f"{program}-{hashlib.sha256(plain.encode()).hexdigest()[:16]}"
             if name not in at_hand:
