@@ -12,7 +12,7 @@ from grader.checks.check import Check, Hints, new_check
 from grader.checks.verdicts import Verdict, broken, faulty, judge, skipped, worst
 from grader.diagnosis.fault import Fault
 from grader.grading import current_grading
-from grader.orders import USUAL, is_full, order_of_run, worst_order
+from grader.orders import OrderDifference, judge_in_orders, order_of_run
 from grader.programs import LocalPrograms, ProgramSource, serialize_preparation
 from grader.scenario import Companions, Scenario
 from grader.score import Score
@@ -184,31 +184,30 @@ class Exercise:
     ) -> Score:
         recordings: list[Recording] = []
         judged: list[list[Verdict]] = []
+        differences: list[OrderDifference] = []
         for index, (scenario, seed) in enumerate(self.runs(secret)):
             run = functools.partial(Scenario.run, source=source, seed=seed, package=package)
+            in_order = functools.partial(self._judged, scenario, run)
             try:
                 if order is None:
-                    recording, verdicts = self._judged_in_orders(scenario, run, order_of_run(index, seed))
+                    chosen, public = order_of_run(index, seed), not secret
+                    (recording, verdicts), difference = judge_in_orders(chosen, in_order, index, public)
+                    differences += filter(None, [difference])
                 else:
-                    recording, verdicts = self._judged(scenario, functools.partial(run, order=order))
+                    recording, verdicts = in_order(order)
             except Exception as error:
                 recording = Recording(seed=seed)
                 verdicts = [broken(item, error) for item in self.checks if item.holds_in(scenario.name)]
             recordings.append(recording)
             judged.append(verdicts)
-        return Score(self.name, worst(self.checks, judged), recordings, title=self.title)
+        verdicts = worst(self.checks, judged)
+        return Score(self.name, verdicts, recordings, title=self.title, differences=differences)
 
-    def _judged_in_orders(
+    def _judged(
         self, scenario: Scenario, run: Callable[..., Recording], order: str
     ) -> tuple[Recording, list[Verdict]]:
-        """The same in this order; where something is missed, in the usual one as well, which explains it."""
-        found = self._judged(scenario, functools.partial(run, order=order))
-        if order == USUAL or is_full(found[1]):
-            return found
-        return worst_order(found, self._judged(scenario, run))
-
-    def _judged(self, scenario: Scenario, run: Callable[..., Recording]) -> tuple[Recording, list[Verdict]]:
         """One run and its verdicts; where it shows a typo, with half of what the corrected program earns."""
+        run = functools.partial(run, order=order)
         recording = run(scenario)
         verdicts = judge(self.checks, recording, scenario.name, may_end=self.may_end)
         return recording, partial_credit(verdicts, self._without_typos(scenario, run, recording, verdicts))

@@ -7,16 +7,20 @@ its seed, so that it is private when a class is marked.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from grader.checks.verdicts import Verdict
 from sim.evidence import Recording
 from sim.order import Order
+from sim.ros.exploring import failure_of, list_departures, shrink
 
 USUAL = ""
 LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"  # without those that look alike
 KEY_LENGTH = 4
+MOST_RUNS = 24  # to find the fewest differences that explain a miss
+
+Judged = tuple[Recording, list[Verdict]]
 
 
 def order_of_run(index: int, seed: int) -> str:
@@ -29,7 +33,7 @@ def order_of_run(index: int, seed: int) -> str:
 
 def without_late_start(order: str) -> str:
     """The same order, in which all programs start at once."""
-    chosen = Order.parse(order or 0)
+    chosen = Order.parse(order)
     return USUAL if chosen is None else str(replace(chosen, late=0.0))
 
 
@@ -38,33 +42,81 @@ def is_full(verdicts: Sequence[Verdict]) -> bool:
     return all(verdict.status == "passed" for verdict in verdicts)
 
 
-def worst_order(
-    other: tuple[Recording, list[Verdict]], usual: tuple[Recording, list[Verdict]]
-) -> tuple[Recording, list[Verdict]]:
-    """Return the verdicts on one run in two orders, and the recording to show.
+@dataclass(frozen=True)
+class OrderDifference:
+    """Why nodes miss points in another order alone: for the student, as text and as HTML.
+
+    run: the index of the exercise's run. usual, other: that run in both orders. public: its world is no
+    secret, so that the student may try the order.
+    """
+
+    run: int
+    usual: Recording
+    other: Recording
+    public: bool
+
+    def __repr__(self) -> str:
+        differences = list_departures(self.other.departures)
+        text = f"On a robot this order is possible, too: {differences}. {failure_of(self.other)}".rstrip()
+        again = f" Try it: explore(..., holds=EXERCISE), or in_order(..., order={self.other.order!r})."
+        return text + (again if self.public else "")
+
+    def _repr_html_(self) -> str:
+        from sim.view.order_comparison import comparison
+
+        return comparison(repr(self), self.usual, self.other)
+
+
+def judge_in_orders(
+    order: str, judge: Callable[[str], Judged], run: int, public: bool
+) -> tuple[Judged, OrderDifference | None]:
+    """Judge one run in an order; where something is missed, in the usual one as well.
 
     What is missed in the usual order is explained there. Only what is missed in the other order alone is due
-    to the order, and says so.
+    to the order, and says so; then the run with the fewest differences is shown.
     """
+    found = judge(order)
+    if order == USUAL or is_full(found[1]):
+        return found, None
+    usual = judge(USUAL)
     passed = {verdict.name for verdict in usual[1] if verdict.status == "passed"}
-    missed = {v.name: v for v in other[1] if v.status != "passed" and v.name in passed}
-    first = [verdict for verdict in other[1] if not verdict.points and verdict.name not in _names(usual[1])]
-    if not missed:
-        return usual
-    verdicts = [missed.get(verdict.name, verdict) for verdict in usual[1]]
-    verdicts = [*(first if is_full(usual[1]) else []), *verdicts]
-    noted = [_with_note(v, other[0]) if missed.get(v.name) is v or v in first else v for v in verdicts]
-    return other[0], noted
+    missed = {verdict.name: verdict for verdict in found[1] if verdict.status != "passed"}
+    due = {name: verdict for name, verdict in missed.items() if name in passed}
+    if not due:
+        return usual, None
+    known = {verdict.name for verdict in usual[1]}
+    errors = [v for v in found[1] if v.name not in known and is_full(usual[1])]
+    recording = _fewest_differences(found[0], order, judge, set(due))
+    verdicts = [*errors, *(due.get(verdict.name, verdict) for verdict in usual[1])]
+    noted = [_with_note(v, recording) if v in errors or v.name in due else v for v in verdicts]
+    return (recording, noted), OrderDifference(run, usual[0], recording, public)
 
 
-def _names(verdicts: Sequence[Verdict]) -> set[str]:
-    return {verdict.name for verdict in verdicts}
+def _fewest_differences(
+    recording: Recording, order: str, judge: Callable[[str], Judged], due: set[str]
+) -> Recording:
+    """The run with the fewest departures in which one of these checks still misses."""
+    best, whole, runs = recording, Order.parse(order), 0
+
+    def fails(ids: list[str]) -> bool:
+        nonlocal best, runs
+        runs += 1
+        if runs > MOST_RUNS:
+            return False
+        tried, verdicts = judge(str(whole.limited_to(frozenset(ids))))
+        missed = any(verdict.name in due and verdict.status != "passed" for verdict in verdicts)
+        if missed and tried.departures and len(tried.departures) <= len(best.departures):
+            best = tried
+        return missed
+
+    for _ in shrink([departure.id for departure in recording.departures], fails):
+        pass
+    return best
 
 
 def _with_note(verdict: Verdict, recording: Recording) -> Verdict:
     """The same verdict, which says that it is due to an order, and where the orders part."""
-    if verdict.status != "failed":
+    if verdict.status != "failed" or not recording.departures:
         return verdict
-    begin = recording.departures[0].stamp if recording.departures else 0.0
-    note = f"in another order of what happened at {begin:.3g} s: {verdict.saw}"
-    return replace(verdict, saw=note)
+    begin = recording.departures[0].stamp
+    return replace(verdict, saw=f"in another order of what happened at {begin:.3g} s: {verdict.saw}")

@@ -10,6 +10,7 @@ from typing import Any
 
 from grader import page
 from grader.checks.verdicts import Verdict, halves
+from grader.orders import OrderDifference
 from grader.stderr_redirect import redirect_stderr
 from sim.evidence import Recording
 
@@ -25,6 +26,7 @@ class Score(float):
     verdicts: one per check, and one for an error of the student's, if any.
     capped: more was earned than `UNSAFE` allows, for a robot that is unsafe.
     recordings: what the verdicts speak of; `Verdict.run` is an index into it.
+    differences: for each run that misses points in another order alone.
     """
 
     exercise: str
@@ -32,6 +34,7 @@ class Score(float):
     max: float
     verdicts: tuple[Verdict, ...]
     recordings: tuple[Recording, ...]
+    differences: tuple[OrderDifference, ...]
     capped: bool
 
     def __new__(
@@ -41,6 +44,7 @@ class Score(float):
         recordings: Sequence[Recording] = (),
         *,
         title: str = "",
+        differences: Sequence[OrderDifference] = (),
     ) -> Score:
         """Add up the verdicts. `exercise` is its name."""
         verdicts = tuple(verdicts)
@@ -51,6 +55,7 @@ class Score(float):
         score.capped = earned > limit
         score.exercise, score.title, score.max = exercise, title or exercise, most
         score.verdicts, score.recordings = verdicts, tuple(recordings)
+        score.differences = tuple(differences)
         return score
 
     @property
@@ -72,7 +77,8 @@ class Score(float):
         """
         from grader.pictures import score_pictures
 
-        return score_pictures(self.verdicts, self.recordings)
+        orders = [("Another order of what happened", found) for found in self.differences]
+        return [*score_pictures(self.verdicts, self.recordings), *orders]
 
     @cached_property
     def _graph(self) -> tuple[int, str]:

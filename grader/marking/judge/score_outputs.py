@@ -16,7 +16,8 @@ from grader.score import Score
 def for_student(score: Score) -> Score:
     """The score for the student's page: without the errors of the course's checks."""
     verdicts = [replace(verdict, alarm="") for verdict in score.verdicts]
-    return Score(score.exercise, verdicts, score.recordings, title=score.title)
+    about = {"title": score.title, "differences": score.differences}
+    return Score(score.exercise, verdicts, score.recordings, **about)
 
 
 def alarms(score: Score) -> list[str]:

@@ -1,6 +1,7 @@
 """The search for an order in which a run's nodes fail."""
 
 from sim.ros.exploring.explore import explore
-from sim.ros.exploring.explored import Explored
+from sim.ros.exploring.explored import Explored, failure_of, list_departures
+from sim.ros.exploring.shrink import shrink
 
-__all__ = ["Explored", "explore"]
+__all__ = ["Explored", "explore", "failure_of", "list_departures", "shrink"]

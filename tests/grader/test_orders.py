@@ -1,0 +1,118 @@
+"""Tests that an exercise's runs happen in different orders, and that a miss says where they part."""
+
+import pytest
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+from grader import Exercise
+from grader.checks import Missed
+from grader.orders import order_of_run, without_late_start
+from grader.programs import LocalPrograms
+from sim import explore
+
+SEEDS = (1, 2, 3, 4)
+
+
+class Source(Node):
+    """Publishes one number on /a and on /b, ten times a second."""
+
+    def __init__(self):
+        super().__init__("source")
+        self.number, self.publishers_ = 0, [self.create_publisher(Int32, topic, 10) for topic in ("a", "b")]
+        self.create_timer(0.1, self.tick)
+
+    def tick(self):
+        self.number += 1
+        for publisher in self.publishers_:
+            publisher.publish(Int32(data=self.number))
+
+
+class PairsByArrival(Node):
+    """Adds the newest /a to each /b."""
+
+    def __init__(self):
+        super().__init__("adder")
+        self.last = Int32()
+        self.publisher = self.create_publisher(Int32, "sum", 10)
+        self.create_subscription(Int32, "a", self.on_a, 10)
+        self.create_subscription(Int32, "b", self.on_b, 10)
+
+    def on_a(self, message):
+        self.last = message
+
+    def on_b(self, message):
+        self.publisher.publish(Int32(data=self.last.data + message.data))
+
+
+class PairsByNumber(PairsByArrival):
+    """Waits until it has both."""
+
+    def __init__(self):
+        super().__init__()
+        self.known = set()
+
+    def on_a(self, message):
+        if message.data in self.known:
+            self.publisher.publish(Int32(data=2 * message.data))
+        self.known ^= {message.data}
+
+    on_b = on_a
+
+
+@pytest.fixture
+def adds():
+    exercise = Exercise("adds", "A sum", seconds=3, companions=[Source], seeds=SEEDS)
+
+    @exercise.check(4)
+    def sends(run):
+        """Each sum is even."""
+        odd = [row.message.data for row in run.messages("/sum") if row.message.data % 2]
+        if odd or not run.messages("/sum"):
+            raise Missed("even sums on /sum", f"{odd[0] if odd else 'nothing'}")
+
+    return exercise
+
+
+def test_the_first_run_has_the_usual_order_and_each_other_one_its_own():
+    orders = [order_of_run(index, seed) for index, seed in enumerate(SEEDS)]
+    assert orders[0] == ""
+    assert len(set(orders)) == len(SEEDS)
+    assert {len(order) for order in orders[1:]} == {4}
+
+
+def test_a_run_whose_world_does_not_wait_has_no_late_start():
+    assert without_late_start("k3f9") == "k3f9+0s"
+    assert without_late_start("") == ""
+
+
+def test_a_node_that_is_right_in_every_order_earns_everything(adds):
+    score = adds.grade(PairsByNumber)
+    assert float(score) == 4
+    assert score.differences == ()
+
+
+def test_a_node_that_is_right_by_luck_misses_and_is_told_where_the_orders_part(adds):
+    score = adds.grade(PairsByArrival)
+    assert float(score) == 0
+    (verdict,) = score.verdicts
+    (difference, *_) = score.differences
+    assert verdict.saw.startswith("in another order of what happened at ")
+    assert 1 <= len(difference.other.departures) <= 3
+    assert repr(difference).startswith("On a robot this order is possible, too: ")
+    assert f"order={difference.other.order!r}" in repr(difference)
+    assert "The usual order" in difference._repr_html_()
+    recording, holds = adds.in_order(PairsByArrival, order=difference.other.order)
+    assert not holds
+    assert recording.departures
+
+
+def test_a_private_order_is_not_shown(adds):
+    score = adds.judge(LocalPrograms([PairsByArrival]), "a secret")
+    assert "order=" not in repr(score.differences[0])
+
+
+def test_explore_takes_an_exercise(adds):
+    found = explore(PairsByArrival, holds=adds)
+    assert found.failed
+    assert len(found.departures) <= 3
+    assert explore(PairsByNumber, holds=adds, orders=5).failed is None
