@@ -15,7 +15,7 @@ from sim.evidence import SPUN
 from sim.ros.engine.callbacks import Work, state_of
 from sim.ros.engine.engine import Engine
 from sim.ros.engine.ready_order import ReadyOrder
-from sim.ros.engine.service_work import response_work, service_work
+from sim.ros.engine.service_work import is_called, response_work, service_work
 from sim.ros.engine.waitables import is_ready
 from sim.ros.fibers.waiter import Waiter
 from sim.ros.recorder.records import ActionRecord, ServiceRecord
@@ -30,11 +30,6 @@ CHANGES = "total_count_change", "current_count_change", "alive_count_change", "n
 MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 Entry = tuple[Callable[..., Work | None], Any, Any]  # what checks an entity, the entity, its node
-
-
-def _is_called(service: Any) -> bool:
-    record: ServiceRecord | None = service.__dict__.get("_sim")
-    return record is not None and record.called
 
 
 class ReadyScan:
@@ -112,7 +107,7 @@ class ReadyScan:
                 *((ReadyScan._subscription, s, node) for s in subscriptions),
                 *((ReadyScan._guard_condition, guard, node) for guard in node.guards),
                 *((ReadyScan._client, client, node) for client in node.clients),
-                *((ReadyScan._service, service, node) for service in node.services if _is_called(service)),
+                *((ReadyScan._service, service, node) for service in node.services if is_called(service)),
             ]
         return events
 

@@ -8,8 +8,15 @@ from typing import Any
 from sim.ros.engine.callbacks import Work
 from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.calls import Calls
+from sim.ros.recorder.records import ServiceRecord
 
 COMPLETE = "Questions._complete"  # the name of a response's callback in recordings: digests depend on it
+
+
+def is_called(service: Any) -> bool:
+    """Whether a client has sent a request to a service of the run."""
+    record: ServiceRecord | None = service.__dict__.get("_sim")
+    return record is not None and record.called
 
 
 def service_work(calls: Calls, service: Any, node: Any, request: Any, header: Any) -> Work:
