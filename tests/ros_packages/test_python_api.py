@@ -64,3 +64,19 @@ def test_an_installation_of_ros_wins(tmp_path):
         check=True,
     )
     assert done.stdout.split() == [str(tmp_path / "ros" / name / "__init__.py") for name in PACKAGES]
+
+
+def test_tf2_ros_has_the_names_that_upstreams_modules_import():
+    """The official tutorial on URDF imports TransformStamped from it."""
+    import tf2_py
+    import tf2_ros
+    from geometry_msgs.msg import TransformStamped
+
+    names: dict = {}
+    exec("from tf2_ros import *", names)
+    assert names["TransformStamped"] is tf2_ros.TransformStamped is TransformStamped
+    assert names["tf2"] is tf2_py
+    found = [name for module in tf2_ros.IMPORTED_UPSTREAM.values() for name in module]
+    assert all(getattr(tf2_ros, name).__name__ == name for name in found)
+    with pytest.raises(AttributeError, match=r"^module 'tf2_ros' has no attribute 'TransformStampd'$"):
+        tf2_ros.TransformStampd  # noqa: B018

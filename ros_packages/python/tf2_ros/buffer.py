@@ -149,9 +149,7 @@ class Buffer(BufferCore, BufferInterface):
             lambda: self.can_transform_full_core(*query), lambda: self.lookup_transform_full_core(*query)
         )
 
-    def _future(
-        self, can_transform: Callable[[], tuple[bool, str]], lookup: Callable[[], Any]
-    ) -> Future:
+    def _future(self, can_transform: Callable[[], tuple[bool, str]], lookup: Callable[[], Any]) -> Future:
         future = Future()
 
         def on_new_data() -> None:
