@@ -236,10 +236,10 @@ def test_a_file_is_included_with_its_folder_and_arguments(tmp_path):
             "launch file at '{}' does not contain the required function 'generate_launch_description()'",
         ),
         (
-            "no.launch.xml",
-            "<launch/>",
-            "'{}' is no launch file that can be read here: they are in Python (.py) or YAML (.yaml); "
-            "XML is not supported.",
+            "no.launch.toml",
+            "",
+            "'{}' is no launch file that can be read here: they are in Python (.py), XML (.xml, .launch) "
+            "or YAML (.yaml).",
         ),
         ("no.launch", None, "[Errno 2] No such file or directory: '{}'"),
         (

@@ -47,6 +47,7 @@ COURSE = re.compile(rf"sim|grader|{JUPYTER.pattern}|{PICTURES.pattern}|{NBGRADER
 # The modules of launch and launch_ros, from the bottom: each imports from its own layer and those before it.
 LAUNCH_LAYERS = (
     ("launch.event", "launch.processes", "launch.launch_context", "launch.launch_description_entity"),
+    ("launch.located",),
     ("launch.events", "launch.events.*", "launch.event_handler", "launch.condition", "launch.action"),
     ("launch.logging", "launch.unsupported", "launch.substitution", "launch.utilities"),
     ("launch.substitutions", "launch.substitutions.*", "launch.conditions"),

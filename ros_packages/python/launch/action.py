@@ -8,6 +8,7 @@ from launch.condition import Condition
 from launch.events import ExecutionComplete
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.located import place_in_python
 
 
 class Action(LaunchDescriptionEntity):
@@ -15,6 +16,8 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
+        self.place: str | None = None  # of its entity in a launch file in XML or YAML: "FILE, line N"
+        self.place_in_python = place_in_python()
 
     @property
     def condition(self) -> Condition | None:

@@ -1,4 +1,4 @@
-"""The sources of launch descriptions: launch files in Python and YAML."""
+"""The sources of launch descriptions: launch files in Python, YAML and XML."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import NoReturn
 
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
+from launch.located import PYTHON_FILE
 from launch.logging import get_logger
 from launch.substitution import SomeSubstitutionsType
 from launch.unsupported import refuse
@@ -37,7 +38,7 @@ class InvalidLaunchFileError(Exception):
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
     """The result of `generate_launch_description()` in a file. Raises InvalidPythonLaunchFileError."""
-    loader = SourceFileLoader("python_launch_file", str(python_launch_file_path))
+    loader = SourceFileLoader(PYTHON_FILE, str(python_launch_file_path))
     module = module_from_spec(spec_from_loader(loader.name, loader))
     exec(loader.source_to_code(Path(loader.path).read_bytes(), loader.path), vars(module))  # never cached
     if not hasattr(module, "generate_launch_description"):
@@ -53,6 +54,11 @@ def get_launch_description_from_yaml_launch_file(path: str) -> LaunchDescription
     return importlib.import_module(YAML_FRONTEND).read(path)
 
 
+def get_launch_description_from_xml_launch_file(path: str) -> LaunchDescription:
+    """The launch description in an XML file."""
+    return importlib.import_module(YAML_FRONTEND).read_xml(path)
+
+
 def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
     """The launch description in a file, by its suffix. Raises InvalidLaunchFileError for an unknown one."""
     kind = Path(launch_file_path).suffix
@@ -60,11 +66,13 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
         return get_launch_description_from_python_launch_file(launch_file_path)
     if kind in (".yaml", ".yml"):
         return get_launch_description_from_yaml_launch_file(launch_file_path)
+    if kind in (".xml", ".launch") and Path(launch_file_path).is_file():
+        return get_launch_description_from_xml_launch_file(launch_file_path)
     if not Path(launch_file_path).is_file():
         raise FileNotFoundError(f"[Errno 2] No such file or directory: '{launch_file_path}'")
     raise InvalidLaunchFileError(
-        f"'{launch_file_path}' is no launch file that can be read here: they are in Python (.py) "
-        "or YAML (.yaml); XML is not supported."
+        f"'{launch_file_path}' is no launch file that can be read here: they are in Python (.py), "
+        "XML (.xml, .launch) or YAML (.yaml)."
     )
 
 
@@ -129,7 +137,7 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """A launch file in Python or YAML, by its suffix."""
+    """A launch file in Python, YAML or XML, by its suffix."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(None, launch_file_path, "interpreted launch file")

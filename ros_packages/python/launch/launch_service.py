@@ -17,6 +17,7 @@ from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity, as_list
+from launch.located import add_place
 from launch.logging import get_logger, launch_config, log_launch_config
 
 
@@ -27,6 +28,14 @@ class _OnInclude(BaseEventHandler):
     def handle(self, event: Event, context: LaunchContext) -> LaunchDescription:
         super().handle(event, context)
         return event.launch_description
+
+
+def _place_of(entity: LaunchDescriptionEntity, error: Exception) -> str | None:
+    """Where an entity is in a launch file; one in Python has tracebacks, but for values that are missing."""
+    place = getattr(entity, "place", None)
+    if place is None and str(error).startswith("launch configuration"):
+        place = getattr(entity, "place_in_python", None)
+    return place
 
 
 class LaunchService:
@@ -136,7 +145,11 @@ class LaunchService:
     def _visit(self, entity: Any) -> None:
         if not isinstance(entity, LaunchDescriptionEntity):
             raise RuntimeError(f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'")
-        inner = entity.visit(self.__context)
+        try:
+            inner = entity.visit(self.__context)
+        except Exception as error:
+            add_place(error, _place_of(entity, error))
+            raise
         future = entity.get_asyncio_future()
         if future is not None and not future.done() and future not in self.__futures:
             self.__futures.add(future)

@@ -1,12 +1,14 @@
-"""The actions for nodes in launch files in YAML."""
+"""The actions for nodes in launch files in YAML and XML."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import yaml
 from launch.action import Action
 from launch.yaml_frontend.actions import parse_command, process_options
 from launch.yaml_frontend.entity import Entity, expose_action
+from launch.yaml_frontend.xml_file import XmlText
 
 from launch_ros.actions import Node, PushRosNamespace, SetParameter
 from launch_ros.parameters import ParameterFile, ParameterValue
@@ -65,10 +67,22 @@ def _value(entity: Entity) -> Any:
         raise ValueError(f"'{kind}' is no type of a parameter here: there are {', '.join(TYPES)}.")
     if not isinstance(value, str):
         return value if kind is None else ParameterValue(value, value_type=TYPES[kind])
+    separator = entity.get("value-sep", str, optional=True)
+    if isinstance(value, XmlText) and kind is None and "$(" not in value:
+        return _typed(value) if separator is None else [_typed(part) for part in value.split(separator)]
     text = entity.get_text("value")
     if kind is not None:
         return ParameterValue(text, value_type=TYPES[kind])
     return value if "$(" not in value else text
+
+
+def _typed(text: str) -> Any:
+    """What an attribute of XML holds: a number, true or false, or a list of such; else the text."""
+    try:
+        found = yaml.safe_load(text)
+    except yaml.YAMLError:
+        return str(text)
+    return found if isinstance(found, bool | int | float | list) else str(text)
 
 
 @expose_action("push_ros_namespace", "push-ros-namespace")

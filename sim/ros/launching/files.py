@@ -9,6 +9,8 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+from sim.suggestions import closest_match
+
 BUNDLED_FILES = Path(__file__).parent / "bundled"  # launch files of ROS packages, unless installed
 SUFFIXES = (".py", ".yaml", ".yml", ".xml", ".launch")
 
@@ -27,7 +29,8 @@ def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
         return first, rest
     if not rest or ":=" in rest[0]:
         if os.sep in first or Path(first).suffix in SUFFIXES:
-            raise NoLaunchFile(f"There is no launch file {first!r} in {os.getcwd()}.")
+            near = _suggestion(Path(first).name, Path(first).absolute().parent)
+            raise NoLaunchFile(f"There is no launch file {first!r} in {os.getcwd()}.{near.removeprefix('.')}")
         raise NoLaunchFile(f"Package '{first}' has launch files: say which, as in {first} bringup.launch.py.")
     return _in_package(first, rest[0]), rest[1:]
 
@@ -41,6 +44,7 @@ def _in_package(package: str, file: str) -> str:
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"
+            f"{_suggestion(file, Path(share), BUNDLED_FILES / package)}"
         )
     if len(paths) > 1:
         shown = ", ".join(f"'{path}'" for path in paths)
@@ -52,6 +56,13 @@ def _in_package(package: str, file: str) -> str:
 
 def _matches(folder: Path, name: str) -> list[str]:
     return sorted(str(path) for path in folder.rglob(name) if path.is_file())
+
+
+def _suggestion(name: str, *folders: Path) -> str:
+    """The launch file in these folders whose name is nearly this one, as a sentence; "" if there is none."""
+    names = {path.name for folder in folders for path in folder.rglob("*") if path.suffix in SUFFIXES}
+    near = closest_match(name, sorted(names))
+    return f". Did you mean '{near}'?" if near else ""
 
 
 def parse_arguments(arguments: Iterable[str]) -> dict[str, str]:

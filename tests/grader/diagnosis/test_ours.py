@@ -6,6 +6,7 @@ from rclpy.node import Node
 from grader.diagnosis import explain, find_flaw
 from grader.exercises.silence import silent_systems, terminal
 from sim import run
+from sim.evidence import BUNDLED
 from tests.students import misfits
 
 BROKEN = {
@@ -37,3 +38,25 @@ def test_a_tool_may_speak_before_it_was_found():
     recording = run(misfits.Listener, command, seconds=2, quiet=True)
     assert [row.node for row in recording.undelivered] == ["/_ros2cli"]
     assert find_flaw(recording) == ""
+
+
+MIMIC = """
+<launch>
+  <node pkg="turtlesim" exec="turtlesim_node" name="sim" namespace="turtlesim1"/>
+  <node pkg="turtlesim" exec="turtlesim_node" name="sim" namespace="turtlesim2"/>
+  <node pkg="turtlesim" exec="mimic" name="mimic">
+    <remap from="/input/pose" to="/turtlesim1/turtle1/pose"/>
+    <remap from="/output/cmd_vel" to="/turtlesim2/turtle1/cmd_vel"/>
+  </node>
+</launch>
+"""
+
+
+def test_programs_that_a_launch_file_starts_and_the_course_includes_are_not_the_students(tmp_path):
+    file = tmp_path / "mimic.launch.xml"
+    file.write_text(MIMIC)
+    recording = run(str(file), world="turtlesim", seconds=2, quiet=True)
+    assert {row.node for row in recording.node_facts if row.fact == BUNDLED} == {
+        *("/turtlesim1/sim", "/turtlesim2/sim", "/mimic"),
+    }
+    assert find_flaw(recording) == explain(recording) == ""

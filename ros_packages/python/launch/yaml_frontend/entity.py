@@ -1,4 +1,4 @@
-"""The entities of launch files in YAML, and the actions that are made of them."""
+"""The entities of launch files in YAML and XML, and the actions that are made of them."""
 
 from __future__ import annotations
 
@@ -7,9 +7,35 @@ from typing import Any
 
 from launch.action import Action
 from launch.conditions import IfCondition, UnlessCondition
+from launch.located import ERRORS, add_place
 from launch.substitution import Substitution
 from launch.yaml_frontend.substitutions import parse_substitution
+from launch.yaml_frontend.xml_file import XmlText
 
+
+def _to_bool(type_name: str, key: str, text: str) -> bool:
+    if text.lower() not in ("true", "false"):
+        raise TypeError(
+            f"Attribute '{key}' of Entity '{type_name}' has to be true or false, not {str(text)!r}"
+        )
+    return text.lower() == "true"
+
+
+def _to_number(kind: type) -> Callable[[str, str, str], Any]:
+    def convert(type_name: str, key: str, text: str) -> Any:
+        try:
+            return kind(text)
+        except ValueError:
+            name = "an int" if kind is int else "a float"
+            raise TypeError(
+                f"Attribute '{key}' of Entity '{type_name}' has to be {name}, not {str(text)!r}"
+            ) from None
+
+    return convert
+
+
+# What an attribute of XML is converted with, where a type is wanted.
+CONVERSIONS = {bool: _to_bool, int: _to_number(int), float: _to_number(float)}
 ACTIONS: dict[str, Callable[[Entity], Action]] = {}
 
 
@@ -27,6 +53,8 @@ class Entity:
             raise AttributeError(f"Can not find attribute '{key}' in Entity '{self.type_name}'")
         self.keys_read.add(key)
         found = self.content[key]
+        if isinstance(found, XmlText) and kind in CONVERSIONS and "$(" not in found:
+            found = CONVERSIONS[kind](self.type_name, key, found)
         if not isinstance(found, kind if kind is not float else (int, float)) and not isinstance(found, str):
             raise TypeError(
                 f"Attribute '{key}' of Entity '{self.type_name}' expected to be of type '{kind}', "
@@ -73,7 +101,18 @@ class Entity:
 
 
 def create_action(child: Any) -> Action:
-    """The action of a dictionary with one key, which is the entity's type."""
+    """The action of a dictionary with one key, which is the entity's type. Errors say where it is."""
+    place = getattr(child, "place", None)
+    try:
+        action = _create_action(child)
+    except ERRORS as error:
+        add_place(error, place)
+        raise
+    action.place = place
+    return action
+
+
+def _create_action(child: Any) -> Action:
     if not isinstance(child, dict) or len(child) != 1:
         raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
     ((type_name, content),) = child.items()
