@@ -12,6 +12,7 @@ import inspect
 import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
+from inspect import getattr_static
 from itertools import count, pairwise
 from typing import Any
 
@@ -106,7 +107,7 @@ class RunningProgram:
 
     def _become(self, spec: Process) -> None:
         self.spec, self.target, self.name = spec, spec.target, program_name(spec.target)
-        self.bundled = getattr(spec.target, "bundled", False) is True  # see `bundled_programs`
+        self.bundled = getattr_static(spec.target, "bundled", False) is True  # see `bundled_programs`
         self.host = spec.host or (ROBOT if self.from_course else LAPTOP)
         self.global_arguments: list[str] = []  # those of init() that are ROS's
         self.argv, self.stdin = [self.name], keyboard(self.spec.stdin)
