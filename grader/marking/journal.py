@@ -21,6 +21,7 @@ from grader.marking.task import MarkingTask
 
 SETTINGS = ".settings.json"  # hidden: no student's name begins with a dot
 LOCK = ".lock"
+PAGES = ".pages.json"
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,17 @@ class Journal:
     def save_settings(self, settings: dict[str, Any]) -> None:
         """Store the settings of a run."""
         write_atomically(self.folder / SETTINGS, json.dumps(settings, indent=2) + "\n")
+
+    def pages(self) -> dict[str, str]:
+        """The standing that each student's page shows, as a digest."""
+        try:
+            return dict(json.loads((self.folder / PAGES).read_text()))
+        except (OSError, ValueError, TypeError):
+            return {}
+
+    def save_pages(self, digests: dict[str, str]) -> None:
+        """Store the standings that the pages show."""
+        write_atomically(self.folder / PAGES, json.dumps(digests, indent=1) + "\n", 0o600)
 
     def settings(self) -> dict[str, Any] | None:
         """The settings of the last run, or None if there was none."""

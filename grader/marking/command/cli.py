@@ -99,11 +99,11 @@ def _open_pool(settings: Settings, secret: str) -> AbstractContextManager[TaskPo
 
 
 def _report(options: argparse.Namespace, course: Course, settings: Settings, outcome: Outcome) -> None:
-    summary = summarise(options.assignment, outcome.worth, outcome.results)
+    summary = summarise(options.assignment, outcome.worth, outcome.results, outcome.standings, outcome.notes)
     if outcome.results:
         print(as_text(summary))
     if settings.csv:
-        write_atomically(Path(settings.csv), as_csv(options.assignment, outcome.results))
+        write_atomically(Path(settings.csv), as_csv(options.assignment, outcome.results, outcome.standings))
     if settings.html:
         links = page_links(course, options.assignment, outcome.results, Path(settings.html))
         write_atomically(Path(settings.html), as_page(summary, links))

@@ -6,19 +6,21 @@ have the id of the marking that they show; so when a run is killed, the next one
 import contextlib
 import itertools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 
 from grader.marking import secret
 from grader.marking.command.check_release import check_release
 from grader.marking.command.task_reader import TaskReader
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
-from grader.marking.gradebook.course import Course, timestamp
+from grader.marking.gradebook.course import Course, time_problem, timestamp
 from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
+from grader.marking.gradebook.student_standings import Standing
 from grader.marking.journal import Journal, JournalEntry
 from grader.marking.mark_evidence import evidence
 from grader.marking.progress_line import ProgressLine
@@ -55,7 +57,8 @@ class Outcome:
 
     results: of all submissions that are marked, now or before, by student; without the notebooks' contents.
     worth: the points of each test cell, by notebook and cell. fresh: the students marked now. seconds: of the
-    whole run. problems: a sentence for each thing that is left to do. interrupted: whether Ctrl-C ended it.
+    whole run. problems: a sentence for each thing that is left to do. standings: what the gradebook says, by
+    student. notes: of whom, and what the instructor should know. interrupted: whether Ctrl-C ended it.
     """
 
     results: dict[str, Result]
@@ -64,6 +67,8 @@ class Outcome:
     fresh: list[str] = field(default_factory=list)
     seconds: float = 0.0
     problems: list[str] = field(default_factory=list)
+    standings: dict[str, Standing] = field(default_factory=dict)
+    notes: list[tuple[str, str]] = field(default_factory=list)
     interrupted: bool = False
 
 
@@ -89,14 +94,24 @@ def mark_class(course: Course, assignment: str, settings: Settings, open_pool: O
             unmarked = [student for student in submissions if student not in outcome.results]
             outcome.problems += [f"{student} was not marked: mark again" for student in unmarked]
             run.write_late()
+            outcome.standings = run.standings(assignment)
             if settings.feedback:
                 run.give_feedback(assignment, settings.jobs)
         except KeyboardInterrupt:
             outcome.interrupted = True
             with contextlib.suppress(KeyboardInterrupt):
                 run.find_marked(tasks)  # the summary is of all results
+        outcome.notes += _notes(course, assignment, submissions)
     outcome.seconds = time.monotonic() - begin
     return outcome
+
+
+def _notes(course: Course, assignment: str, submissions: Mapping[str, Path]) -> Iterator[tuple[str, str]]:
+    for name in course.hidden_students(assignment):
+        yield name, "the folder begins with a dot, and is left out: rename it"
+    for student, folder in submissions.items():
+        if problem := time_problem(folder):
+            yield student, problem
 
 
 class _ClassRun:
@@ -183,9 +198,25 @@ class _ClassRun:
                 self.outcome.problems.append(f"{error}. {left}.")
                 return
 
+    def standings(self, assignment: str) -> dict[str, Standing]:
+        """What the gradebook says of all students; {} if it can't be read."""
+        try:
+            return self.book.standings(assignment)
+        except GradebookError:
+            return {}  # it is among the problems already
+
     def give_feedback(self, assignment: str, jobs: int) -> None:
         """Make the pages that are missing or older than the marks."""
-        stale = [name for name in sorted(self.outcome.results) if is_stale(self.course, assignment, name)]
-        for student in make_feedback(self.course, assignment, stale, jobs) if stale else ():
+        known, now = self.journal.pages(), self.outcome.standings
+        digests = {name: now[name].digest if name in now else "" for name in sorted(self.outcome.results)}
+        stale = [
+            name
+            for name, digest in digests.items()
+            if known.get(name, digest) != digest or is_stale(self.course, assignment, name)
+        ]
+        failed = make_feedback(self.course, assignment, stale, jobs) if stale else []
+        made = {name: digest for name, digest in digests.items() if name not in failed}
+        self.journal.save_pages(known | made)
+        for student in failed:
             why = f"`nbgrader generate_feedback {assignment} --force --student {student}` says why"
             self.outcome.problems.append(f"the page of {student} could not be made: {why}")

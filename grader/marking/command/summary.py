@@ -3,11 +3,12 @@ import math
 import re
 import statistics
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from grader.diagnosis.fault import NOT_STARTED
+from grader.marking.gradebook.student_standings import Standing
 from grader.marking.result import CellResult, Result
 from grader.marking.submission.quoting import quote
 
@@ -18,13 +19,14 @@ NUMBER = re.compile(r"\d+(\.\d+)?(e[+-]?\d+)?")
 
 @dataclass(frozen=True)
 class StudentRow:
-    """A student's row in the class table; points by notebook and cell."""
+    """A student's row in the class table; points by notebook and cell. late: days, and what they cost."""
 
     student: str
     points: dict[tuple[str, str], float]
     total: float
     verdict: str
     flags: int
+    late: str = ""
 
 
 @dataclass(frozen=True)
@@ -71,21 +73,36 @@ class Summary:
     concerns: list[Concern]
     times: MarkingTimes | None
 
+    @property
+    def any_late(self) -> bool:
+        """Whether a submission was late."""
+        return any(row.late for row in self.rows)
+
 
 def summarise(
-    assignment: str, worth: Mapping[tuple[str, str], float], results: Mapping[str, Result]
+    assignment: str,
+    worth: Mapping[tuple[str, str], float],
+    results: Mapping[str, Result],
+    standings: Mapping[str, Standing] | None = None,
+    notes: Iterable[tuple[str, str]] = (),
 ) -> Summary:
-    """Summarise the results of a class. worth: points by notebook and cell. results: by student."""
+    """Summarise the results of a class. worth: points by notebook and cell. results: by student.
+
+    standings: what the gradebook says of these students. notes: further concerns, of whom and what.
+    """
+    standings = standings or {}
     ordered = [results[student] for student in sorted(results)]
     names = dict.fromkeys(worth, "")
     for result in ordered:
         names |= {key: cell.exercise for key, cell in cells(result) if key in names}
     titles = {key: name or key[1] for key, name in names.items()}
-    concerns = [*_by_hand(worth, ordered), *(concern for result in ordered for concern in _concerns(result))]
+    concerns = [Concern(*note) for note in notes]
+    concerns += _by_hand(worth, ordered, standings)
+    concerns += [concern for result in ordered for concern in _concerns(result)]
     every = [(result.student, cell) for result in ordered for _, cell in cells(result)]
     unstarted = Counter(cell.exercise for _, cell in every if _is_unstarted(cell))
     begun = [(student, cell) for student, cell in every if not _is_unstarted(cell)]
-    rows, times = [_student_row(result) for result in ordered], _times(ordered)
+    rows, times = [_student_row(each, standings.get(each.student)) for each in ordered], _times(ordered)
     return Summary(assignment, worth, titles, rows, unstarted, _mistakes(begun), concerns, times)
 
 
@@ -101,9 +118,16 @@ def missed_checks(cell: CellResult) -> list[dict[str, Any]]:
     return [verdict for verdict in cell.verdicts if verdict.get("status") == "failed"]
 
 
-def _student_row(result: Result) -> StudentRow:
-    points = {key: cell.points for key, cell in cells(result)}
-    return StudentRow(result.student, points, result.points, result.verdict, len(result.flags))
+def _student_row(result: Result, standing: Standing | None) -> StudentRow:
+    """With points by hand and the penalty, where the gradebook has them."""
+    points, late, penalty = {key: cell.points for key, cell in cells(result)}, "", 0.0
+    if standing:
+        points |= {key: standing.points[key] or 0.0 for key in standing.by_hand}
+        penalty = standing.penalty
+        if standing.days_late:
+            late = f"{standing.days_late:.1f} d: -{penalty:g}"
+    total = max(0.0, math.fsum(points.values()) - penalty)
+    return StudentRow(result.student, points, total, result.verdict, len(result.flags), late)
 
 
 def _is_unstarted(cell: CellResult) -> bool:
@@ -130,8 +154,16 @@ def _most_frequent(words: list[tuple[str, str]]) -> tuple[str, str]:
     return words[kinds.index(most)]
 
 
-def _by_hand(worth: Mapping[tuple[str, str], float], results: list[Result]) -> Iterator[Concern]:
-    ran = [dict(cells(result)) for result in results if result.verdict != "refused"]
+def _by_hand(
+    worth: Mapping[tuple[str, str], float], results: list[Result], standings: Mapping[str, Standing]
+) -> Iterator[Concern]:
+    """How many answers of each cell are still to be marked by hand."""
+    none = Standing({})
+    ran = [
+        {key for key, _ in cells(result)} | standings.get(result.student, none).by_hand
+        for result in results
+        if result.verdict != "refused"
+    ]
     for key in worth:
         waiting = sum(key not in marked for marked in ran)
         if waiting:

@@ -5,14 +5,17 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from grader.marking.command.summary import Summary, cells, missed_checks
+from grader.marking.gradebook.student_standings import Cell, Standing
 from grader.marking.progress_line import printable
 from grader.marking.result import Result
+from grader.marking.spreadsheet import inert
 
 WIDTH = 100
 MISTAKES = 8
+NAME = 40  # characters of a name in the table
 ABOUT = "student assignment verdict notebook cell exercise points max missed needs_look"
-FIELDS = [*ABOUT.split(), "flags", "repairs", "reason", "seconds"]
-RUNS = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet takes text that begins so for a formula
+BY_HAND = ["by_hand", "comment", "days_late", "penalty"]
+FIELDS = [*ABOUT.split(), "flags", "repairs", "reason", "seconds", *BY_HAND]
 
 
 def as_text(summary: Summary, mistakes: int = MISTAKES) -> str:
@@ -45,30 +48,36 @@ def _lines(summary: Summary, mistakes: int) -> Iterator[str]:
 
 
 def _table(summary: Summary) -> Iterator[str]:
-    head = ["student", *summary.names.values(), "total", "verdict", "flags"]
+    late = ["late"] if summary.any_late else []
+    head = ["student", *summary.names.values(), "total", *late, "verdict", "flags"]
     whole = sum(summary.worth.values())
-    rows = [head, ["of", *(f"{points:g}" for points in (*summary.worth.values(), whole)), "", ""]]
+    most = (f"{points:g}" for points in (*summary.worth.values(), whole))
+    rows = [head, ["of", *most, *([""] * len(late)), "", ""]]
     for row in summary.rows:
         points = [f"{row.points[key]:g}" if key in row.points else "-" for key in summary.worth]
-        rows.append([row.student, *points, f"{row.total:g}", row.verdict, str(row.flags or "")])
+        late = [row.late] if summary.any_late else []
+        name = row.student if len(row.student) <= NAME else f"{row.student[: NAME - 1]}…"
+        rows.append([name, *points, f"{row.total:g}", *late, row.verdict, str(row.flags or "")])
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
     for first, *rest in rows:
         cells = (word.rjust(width) for word, width in zip(rest, widths[1:], strict=True))
         yield "  ".join([first.ljust(widths[0]), *cells]).rstrip()
 
 
-def as_csv(assignment: str, results: Mapping[str, Result]) -> str:
-    """One row for each student and test cell; one with empty cells for a student without any."""
+def as_csv(
+    assignment: str, results: Mapping[str, Result], standings: Mapping[str, Standing] | None = None
+) -> str:
+    """One row for each student and graded cell; one with empty cells for a student without any."""
     file = io.StringIO()
     table = csv.DictWriter(file, FIELDS, restval="", lineterminator="\n")
     table.writeheader()
     for student in sorted(results):
-        for row in _csv_rows(assignment, results[student]):
-            table.writerow({key: _inert(value) for key, value in row.items()})
+        for row in _csv_rows(assignment, results[student], (standings or {}).get(student, Standing({}))):
+            table.writerow({key: inert(value) for key, value in row.items()})
     return file.getvalue()
 
 
-def _csv_rows(assignment: str, result: Result) -> Iterator[dict[str, object]]:
+def _csv_rows(assignment: str, result: Result, standing: Standing) -> Iterator[dict[str, object]]:
     about: dict[str, object] = {
         "student": result.student,
         "assignment": assignment,
@@ -76,25 +85,27 @@ def _csv_rows(assignment: str, result: Result) -> Iterator[dict[str, object]]:
         "flags": "; ".join(result.flags),
         "repairs": "; ".join(result.repairs),
         "reason": result.reason,
+        "days_late": round(standing.days_late, 2) or "",
+        "penalty": standing.penalty or "",
     }
-    marked = list(cells(result))
+    marked, comments = list(cells(result)), dict(standing.comments)
     for (notebook, name), cell in marked:
         yield about | {
-            "notebook": notebook,
-            "cell": name,
+            **_by_hand((notebook, name), standing, comments),
             "exercise": cell.exercise,
-            "points": cell.points,
+            "points": standing.points.get((notebook, name), cell.points),
             "max": cell.max,
             "missed": "; ".join(verdict["sentence"] for verdict in missed_checks(cell)),
             "needs_look": "yes" if cell.needs_look else "",
             "seconds": result.timings.get(f"{notebook}/{name}", ""),
         }
-    if not marked:
+    rest = sorted({*standing.by_hand, *comments} - {key for key, _ in marked})
+    for key in rest:
+        yield about | _by_hand(key, standing, comments) | {"points": standing.points.get(key, "")}
+    if not marked and not rest:
         yield about
 
 
-def _inert(value: object) -> object:
-    """The value without control characters, and quoted where a spreadsheet would take it for a formula."""
-    if not isinstance(value, str):
-        return value
-    return f"'{printable(value)}" if value.startswith(RUNS) else printable(value)
+def _by_hand(key: Cell, standing: Standing, comments: Mapping[Cell, str]) -> dict[str, object]:
+    by_hand = "yes" if key in standing.by_hand else ""
+    return {"notebook": key[0], "cell": key[1], "by_hand": by_hand, "comment": comments.get(key, "")}

@@ -15,13 +15,13 @@ from nbgrader.api import (
     SubmittedAssignment,
     SubmittedNotebook,
 )
-from nbgrader.preprocessors import AssignLatePenalties
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, is_task
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.student_standings import Standing, penalise, read_standings
 from grader.marking.result import CellResult, Result
 
 PATIENCE = 60.0  # seconds to wait for a locked SQLite file, if its address has no timeout
@@ -105,6 +105,17 @@ class Book:
             submissions = [found for each in book.assignments for found in each.submissions]
             return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
 
+    def standings(self, assignment: str) -> dict[str, Standing]:
+        """The standings by student, with penalties for the due date and the extensions as they are now."""
+        with self._transaction() as book:
+            submissions = book.assignment_submissions(assignment)
+            for submission in submissions:
+                for notebook in submission.notebooks:
+                    penalise(self._app, book, submission, notebook)
+            book.db.flush()
+            book.db.expire_all()
+            return read_standings(submissions)
+
     def students(self) -> list[GradebookStudent]:
         """Everyone in the gradebook."""
         with self._transaction() as book:
@@ -126,23 +137,7 @@ class Book:
             submission = book.find_submission(result.assignment, result.student)
             for notebook in submission.notebooks:
                 _enter(notebook, result, _graded_cells(pages.get(notebook.name)))
-                self._penalise(book, submission, notebook)
-
-    def _penalise(
-        self, book: Gradebook, submission: SubmittedAssignment, notebook: SubmittedNotebook
-    ) -> None:
-        """Set the penalty of the late submission plugin, if there is one."""
-        notebook.late_submission_penalty = None
-        book.db.flush()
-        book.db.refresh(notebook)  # its score is a sum that the database computes
-        if submission.total_seconds_late > 0:
-            step = AssignLatePenalties(parent=self._app)
-            step.init_plugin()
-            penalty = step.plugin_inst.late_submission_penalty(
-                submission.student.id, notebook.score, submission.total_seconds_late
-            )
-            if penalty is not None:
-                notebook.late_submission_penalty = step._check_late_penalty(notebook, penalty)
+                penalise(self._app, book, submission, notebook)
 
     @contextlib.contextmanager
     def _transaction(self) -> Iterator[Gradebook]:

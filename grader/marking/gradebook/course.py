@@ -5,9 +5,11 @@ import logging
 import os
 import re
 import stat
-from datetime import datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import dateutil.parser
+import dateutil.tz
 from nbgrader.apps import NbGrader
 from nbgrader.utils import parse_utc
 
@@ -15,7 +17,11 @@ from grader.marking.errors import CourseError
 
 CONFIGURATION = "nbgrader_config.py"
 TIMESTAMP = "timestamp.txt"
-MAX_TIMESTAMP_BYTES = 200
+SUBMISSION_SECRET = "submission_secret.txt"  # of nbgrader's exchange: names the feedback of an attempt
+MAX_SMALL_BYTES = 200
+OFFSET = re.compile(r"[+-]\d\d:?\d\d")
+A_YEAR = timedelta(days=366)
+FORBIDDEN = set('<>"&')  # in a student's id, which nbgrader writes into its pages as it is
 MAX_NAME_BYTES = 200  # a file's name may have 255, and students' files have longer names than the students
 SHOWN = 60  # characters of a name that can't be used
 
@@ -101,6 +107,12 @@ class Course:
             _check_name(student, found[student])
         return {student: folder for student, folder in found.items() if student not in left_out}
 
+    def hidden_students(self, assignment: str) -> list[str]:
+        """The names of folders with the assignment that begin with a dot, which nbgrader leaves out."""
+        pattern = str(self.submitted(".*", glob.escape(assignment)))
+        top = self.submitted("STUDENT", assignment).parents[1]
+        return sorted(Path(path).relative_to(top).parts[0] for path in glob.glob(pattern))
+
     def _path(self, step: str, student: str, assignment: str) -> Path:
         return Path(os.path.normpath(self.directory.format_path(step, student, assignment)))
 
@@ -109,12 +121,14 @@ def _check_name(student: str, folder: Path) -> None:
     """Raise CourseError for a name that can't be the name of a file or a text in the gradebook."""
     length = len(os.fsencode(student))
     plain = student.encode(errors="replace").decode()
-    if plain == student and length <= MAX_NAME_BYTES and "\n" not in student:
+    odd = sorted(FORBIDDEN & set(student))
+    if plain == student and length <= MAX_NAME_BYTES and "\n" not in student and not odd:
         return
     saw = f"{length} bytes" if plain == student else "bytes that are no UTF-8"
+    saw = f"with {' and '.join(odd)}" if odd else saw
     saw = "two lines" if "\n" in student else saw
     shown = plain if len(plain) <= SHOWN else f"{plain[:SHOWN]}..."
-    expected = f"expected one line of at most {MAX_NAME_BYTES} bytes"
+    expected = f"expected one line of at most {MAX_NAME_BYTES} bytes" + (" without < > \" &" if odd else "")
     raise CourseError(
         f"a student's folder has the name {shown!r}, {saw}; {expected}: "
         f"rename it in {str(folder.parent.parent).encode(errors='replace').decode()}"
@@ -126,10 +140,40 @@ def timestamp(folder: Path) -> tuple[datetime | None, str]:
 
     None and "" if there is none, if it is not a regular file, or if it has no time.
     """
+    text = small_text(folder, TIMESTAMP)
+    return (None, "") if not text.strip() or time_problem(folder) else (_parse_time(text), text)
+
+
+def time_problem(folder: Path) -> str:
+    """Why the time in a submission's timestamp.txt can't be used, without a full stop; or ""."""
+    text = small_text(folder, TIMESTAMP).strip()
+    if not text:
+        return ""
+    saw = f"{TIMESTAMP} has {text[:SHOWN]!r}"
     try:
-        with open(os.open(folder / TIMESTAMP, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as file:
+        when = _parse_time(text)
+    except (ValueError, OverflowError):
+        return f"{saw}, which is no time, so nothing is late: write one such as 2026-03-01 18:00:00 +0100"
+    if when > datetime.now(UTC).replace(tzinfo=None) + A_YEAR:
+        return f"{saw}, which is far in the future, so nothing is late: correct it"
+    return ""
+
+
+def small_text(folder: Path, name: str) -> str:
+    """The text of a small file that came with a submission; "" if it is missing or no regular file."""
+    try:
+        with open(os.open(folder / name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as file:
             regular = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
-            text = file.read(MAX_TIMESTAMP_BYTES).decode() if regular else ""
-        return (parse_utc(text.strip()), text) if text.strip() else (None, "")
-    except (OSError, ValueError, OverflowError):
-        return None, ""
+            return file.read(MAX_SMALL_BYTES).decode(errors="replace") if regular else ""
+    except OSError:
+        return ""
+
+
+def _parse_time(text: str) -> datetime:
+    """UTC. nbgrader takes an offset such as +0200 for 200 s, and an unknown zone for UTC."""
+    *_, zone = text.split()
+    if OFFSET.fullmatch(zone):
+        return parse_utc(dateutil.parser.parse(text))
+    if len(text.split()) == 3 and dateutil.tz.gettz(zone) is None:
+        raise ValueError(f"unknown zone {zone}")
+    return parse_utc(text.strip())

@@ -12,7 +12,7 @@ from nbgrader.converters import GenerateFeedback
 from nbgrader.converters.base import NbGraderException
 from nbgrader.utils import temp_attrs
 
-from grader.marking.gradebook.course import Course
+from grader.marking.gradebook.course import SUBMISSION_SECRET, Course, small_text
 from grader.marking.sandbox.linux import die_with_parent
 
 SHARE = 10  # students whose pages take as long as the start of a process
@@ -62,9 +62,11 @@ def _make_apart(root: Path, assignment: str, students: Sequence[str]) -> None:
 
 
 def is_stale(course: Course, assignment: str, student: str) -> bool:
-    """Whether a page is missing, older than its notebook, or truncated."""
-    folder = course.feedback(student, assignment)
-    notebooks = course.autograded(student, assignment).glob("*.ipynb")
+    """Whether a page is missing, older than its notebook, truncated, or of another attempt."""
+    folder, marked = course.feedback(student, assignment), course.autograded(student, assignment)
+    notebooks = marked.glob("*.ipynb")
+    if small_text(folder, SUBMISSION_SECRET) != small_text(marked, SUBMISSION_SECRET):
+        return True
     return any(not _shows(folder / f"{notebook.stem}.html", notebook) for notebook in notebooks)
 
 

@@ -26,6 +26,8 @@ def find_submissions(course: Course, assignment: str, chosen: Collection[str] = 
     for student in chosen:
         if student not in found:
             here = course.submitted(student, assignment)
+            if not here.parent.exists() and not _near(student, found):
+                raise CourseError(f"there is no student {student}: {here.parent} is missing")
             advice = _near(student, found) or f"{len(found)} students have handed it in"
             raise CourseError(f"{student} has not handed in {assignment}, {here} is missing: {advice}")
     return {student: folder for student, folder in sorted(found.items()) if not chosen or student in chosen}

@@ -7,7 +7,7 @@ import nbformat
 from nbformat import NotebookNode
 
 from grader.marking.atomic_file import write_atomically
-from grader.marking.gradebook.course import TIMESTAMP, Course
+from grader.marking.gradebook.course import SUBMISSION_SECRET, TIMESTAMP, Course, small_text
 from grader.marking.journal import JournalEntry
 from grader.marking.result import Result
 from grader.marking.submission.assignment_release import Release
@@ -56,10 +56,12 @@ def write_notebooks(
     student, assignment = result.student, result.assignment
     folder = course.autograded(student, assignment)
     mode = 0o664 if course.directory.groupshared else 0o444
-    if time:
-        write_atomically(folder / TIMESTAMP, time, mode)
-    else:
-        (folder / TIMESTAMP).unlink(missing_ok=True)
+    secret = small_text(course.submitted(student, assignment), SUBMISSION_SECRET)
+    for name, text in ((TIMESTAMP, time), (SUBMISSION_SECRET, secret)):
+        if text:
+            write_atomically(folder / name, text, mode)
+        else:
+            (folder / name).unlink(missing_ok=True)
     for old in folder.glob("*.ipynb"):
         if old.stem not in shown:
             old.unlink()
@@ -70,7 +72,9 @@ def write_notebooks(
 def is_shown(course: Course, entry: JournalEntry, names: Iterable[str]) -> bool:
     """Whether the notebooks in the student's folder are those of this marking."""
     folder = course.autograded(entry.result.student, entry.result.assignment)
-    return all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
+    submitted = course.submitted(entry.result.student, entry.result.assignment)
+    same = small_text(submitted, SUBMISSION_SECRET) == small_text(folder, SUBMISSION_SECRET)
+    return same and all(_marking(folder / f"{name}.ipynb") == entry.id for name in names)
 
 
 def _marking(path: Path) -> str | None:

@@ -12,12 +12,27 @@ from collections.abc import Callable
 from pathlib import Path
 
 from nbgrader.converters import GenerateAssignment
-from nbgrader.utils import capture_log
+from nbgrader.utils import capture_log, temp_attrs
 
-from grader.marking.errors import MarkingError
+from grader.marking.errors import CommandFailed, MarkingError
 from grader.marking.gradebook.course import Course
 from grader.marking.release.nbgrader_command import assignments, failure
 from grader.notebook_format import normalise
+
+ASIDE = ".exercises.part"
+REASONS = {  # what nbgrader's log has, and what to do
+    "Cannot add or remove cells": (
+        "students have submitted it, and solutions/{assignment} has other graded cells than the gradebook. "
+        "Take that change back, or give it another name and hand it out anew"
+    ),
+    "Cannot modify existing assignment": (
+        "students have submitted it, and solutions/{assignment} has other notebooks than the gradebook. "
+        "Take that change back, or give it another name and hand it out anew"
+    ),
+    "readonly database": "the gradebook is read-only. Run this as the user who owns it",
+    "database is locked": "another program holds the gradebook. Close it, then run this again",
+    "disk is full": "the disk is full. Make room, then run this again",
+}
 
 
 def tidy(assignment: str, **_: object) -> None:
@@ -47,13 +62,37 @@ def release(course: Path, report: Callable[[str], None] = lambda line: None) -> 
     names = assignments(course)
     for number, assignment in enumerate(names, 1):
         report(f"{number} of {len(names)}: exercises/{assignment}")
-        here.directory.assignment_id = assignment
-        made = capture_log(GenerateAssignment(coursedir=here.directory, parent=here.app, force=True))
-        if not made["success"]:
-            raise failure(course, f"generate_assignment {assignment} --force", made.get("log", made["error"]))
+        _release_one(here, assignment)
     for folder in (course / "exercises").glob("*"):
         if folder.name not in assignments(course):
             shutil.rmtree(folder)
+
+
+def _release_one(course: Course, assignment: str) -> None:
+    """Make one assignment aside, and move it to exercises/ when it is complete."""
+    aside, target = course.root / ASIDE / assignment, course.root / "exercises" / assignment
+    try:
+        with temp_attrs(course.directory, assignment_id=assignment, release_directory=ASIDE):
+            converter = GenerateAssignment(coursedir=course.directory, parent=course.app, force=True)
+            converter.post_convert_hook = _no_hook  # it is for a release that is made in place
+            made = capture_log(converter)
+        if not made["success"]:
+            log = made.get("log") or made["error"]
+            reason = next((text for sign, text in REASONS.items() if sign in log), "")
+            if reason:
+                why = reason.format(assignment=assignment)
+                raise CommandFailed(f"exercises/{assignment} is as it was: {why}")
+            raise failure(course.root, f"generate_assignment {assignment} --force", log)
+        normalise([aside])
+        shutil.rmtree(target, ignore_errors=True)
+        target.parent.mkdir(exist_ok=True)
+        aside.rename(target)
+    finally:
+        shutil.rmtree(course.root / ASIDE, ignore_errors=True)
+
+
+def _no_hook(**_: object) -> None:
+    """Does nothing."""
 
 
 def copy_of_course(course: Path, target: Path) -> Path:

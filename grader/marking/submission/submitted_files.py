@@ -15,7 +15,7 @@ from grader.workspace.sources import InvalidFiles, read_files
 
 MAX_NOTEBOOK_BYTES = 128_000_000
 MAX_CANDIDATES = 20  # notebooks under other names that are read
-IGNORED_FILES = {"timestamp.txt"}  # nbgrader's own
+IGNORED_FILES = {"timestamp.txt", "submission_secret.txt"}  # nbgrader's own
 WORKSPACE = "ws"  # the folder that assignments on packages write
 
 

@@ -75,8 +75,11 @@ def test_a_student_who_has_not_handed_in_is_named_with_the_nearest(course):
         return f"{student} has not handed in {ASSIGNMENT}, {folder} is missing: "
 
     assert problem(find_submissions, course, ASSIGNMENT, ["ana"]) == missing("ana") + "did you mean anna?"
+    course.submitted("x", "02_other").mkdir(parents=True)
     three = missing("x") + "3 students have handed it in"
     assert problem(find_submissions, course, ASSIGNMENT, ["x"]) == three
+    nobody = f"there is no student nobody: {course.root / 'class' / 'submitted' / 'nobody'} is missing"
+    assert problem(find_submissions, course, ASSIGNMENT, ["nobody"]) == nobody
 
 
 def test_a_release_that_agrees_with_source_and_gradebook_is_fine(course):

@@ -9,6 +9,7 @@ from grader.diagnosis.fault import NOT_STARTED
 from grader.marking.command.summary import CommonMistake, Concern, summarise
 from grader.marking.command.summary_page import as_page, page_links
 from grader.marking.command.summary_text import as_csv, as_text
+from grader.marking.gradebook.student_standings import Standing
 from grader.marking.result import CellResult, NotebookResult, Result
 from tests.marking.classroom import verdict
 
@@ -163,7 +164,7 @@ def test_the_csv_has_a_row_for_each_student_and_exercise(results):
     rows = list(csv.DictReader(io.StringIO(text)))
     assert text.splitlines()[0] == (
         "student,assignment,verdict,notebook,cell,exercise,points,max,missed,needs_look,"
-        "flags,repairs,reason,seconds"
+        "flags,repairs,reason,seconds,by_hand,comment,days_late,penalty"
     )
     assert [" ".join((row["student"], row["exercise"], row["points"])) for row in rows[:4]] == [
         "anna counter 4", "anna line 3.0", "bob counter 1.0", "bob line 3.0",
@@ -225,3 +226,34 @@ def test_what_a_submission_says_is_text_in_the_page(results):
     page = Page(as_page(summarise("01_class", WORTH, results)))
     assert not page.tags & {"script", "img"}
     assert page.words.count(evil) >= 4
+
+
+STANDINGS = {
+    "anna": Standing(
+        {("nodes", "essay"): 4.5, ("nodes", "test_line"): 2.0},
+        frozenset({("nodes", "essay"), ("nodes", "test_line")}),
+        ((("nodes", "essay"), "=Well argued"),),
+        1.5,
+        2.0,
+    )
+}
+
+
+def test_points_by_hand_comments_and_penalties_are_in_table_csv_and_page(results):
+    results = {"anna": results["anna"], "x" * 200: replace(results["bob"], student="x" * 200)}
+    summary = summarise("01_class", WORTH, results, STANDINGS, [(".hidden", "is left out")])
+    first, _, second, third = as_text(summary).splitlines()[:4]
+    assert first.split() == ["student", "counter", "line", "essay", "total", "late", "verdict", "flags"]
+    assert second.split() == ["anna", "4", "2", "4.5", "9", "2.0", "d:", "-1.5", "marked"]
+    assert third.startswith("x" * 39 + "…  ") and len(third) < 100
+    told = "For you to look at\n  .hidden: is left out\n  nodes/essay: 1 answers are marked by hand"
+    assert told in as_text(summary)
+    rows = list(csv.DictReader(io.StringIO(as_csv("01_class", results, STANDINGS))))
+    about = ("cell", "points", "by_hand", "comment", "days_late", "penalty")
+    assert [[row[name] for name in about] for row in rows[:3]] == [
+        ["test_counter", "4", "", "", "2.0", "1.5"],
+        ["test_line", "2.0", "yes", "", "2.0", "1.5"],
+        ["essay", "4.5", "yes", "'=Well argued", "2.0", "1.5"],
+    ]
+    page = as_page(summary)
+    assert "<th>late</th>" in page and "<td>2.0 d: -1.5</td>" in page

@@ -4,7 +4,7 @@ from datetime import datetime
 import pytest
 
 from grader.marking.errors import CourseError
-from grader.marking.gradebook.course import Course, timestamp
+from grader.marking.gradebook.course import Course, time_problem, timestamp
 from tests.marking.classroom import ASSIGNMENT, submit
 
 
@@ -95,3 +95,48 @@ def test_a_timestamp_that_is_no_ordinary_file_is_none_and_does_not_block(tmp_pat
     (tmp_path / "timestamp.txt").unlink()
     os.mkfifo(tmp_path / "timestamp.txt")
     assert timestamp(tmp_path) == (None, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "hour"),
+    [("2026-03-01 12:00:00 +0200", 10), ("2026-03-01 12:00:00 -01:30", 13), ("2026-03-01 12:00:00 UTC", 12)],
+)
+def test_an_offset_is_in_hours_and_not_in_seconds(tmp_path, text, hour):
+    (tmp_path / "timestamp.txt").write_text(text)
+    assert timestamp(tmp_path)[0].hour == hour
+    assert time_problem(tmp_path) == ""
+
+
+NO_TIME = "which is no time, so nothing is late: write one such as 2026-03-01 18:00:00 +0100"
+FAR = "which is far in the future, so nothing is late: correct it"
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("yesterday", f"timestamp.txt has 'yesterday', {NO_TIME}"),
+        ("2026-03-01 12:00 Mars/Base", f"timestamp.txt has '2026-03-01 12:00 Mars/Base', {NO_TIME}"),
+        ("9999-01-01 00:00:00 UTC", f"timestamp.txt has '9999-01-01 00:00:00 UTC', {FAR}"),
+    ],
+)
+def test_a_time_that_can_t_be_used_is_named(tmp_path, text, problem):
+    (tmp_path / "timestamp.txt").write_text(text)
+    assert time_problem(tmp_path) == problem
+    assert timestamp(tmp_path) == (None, "")
+
+
+def test_a_name_that_would_run_in_the_formgrader_is_refused(course):
+    name = "<img src=x onerror=alert(1)>"
+    course.submitted(name, ASSIGNMENT).mkdir(parents=True)
+    with pytest.raises(CourseError) as failed:
+        course.students(ASSIGNMENT)
+    assert str(failed.value) == (
+        f"a student's folder has the name {name!r}, with < and >; expected one line of at most 200 bytes "
+        f'without < > " &: rename it in {course.root / "class" / "submitted"}'
+    )
+
+
+def test_folders_that_begin_with_a_dot_are_known(course):
+    course.submitted(".hidden", ASSIGNMENT).mkdir(parents=True)
+    assert course.hidden_students(ASSIGNMENT) == [".hidden"]
+    assert ".hidden" not in course.students(ASSIGNMENT)

@@ -1,14 +1,16 @@
 import re
+import shutil
 from pathlib import Path
 
 import nbformat
 import pytest
+from nbgrader.api import Gradebook
 
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences, main, release
 from grader.marking.release.nbgrader_command import assignments, nbgrader
 from grader.notebook_format import normalise
-from tests.marking.tiny import ROOT
+from tests.marking.tiny import ROOT, grade
 
 HIDDEN = re.compile(r"^\s*### BEGIN (SOLUTION|HIDDEN TESTS)$(.*?)^\s*### END \1$", re.M | re.S)
 
@@ -96,6 +98,51 @@ def test_a_release_that_fails_stops_with_what_nbgrader_said(tiny_course, monkeyp
     assert main([]) == 1
     command = "nbgrader generate_assignment 01_tiny --force"
     assert capsys.readouterr().err.startswith(f"`{command}` failed in {tiny_course}:\n    ")
+
+
+ASK = "exercises/01_class is as it was: "
+OTHER = "students have submitted it, and solutions/01_class has other"
+ANEW = "Take that change back, or give it another name and hand it out anew"
+
+
+def more_cells(course):
+    path = course.source("01_class") / "nodes.ipynb"
+    notebook = nbformat.read(path, 4)
+    notebook.cells.append(grade("test_more", 1, "nodes.more.grade(More)"))
+    nbformat.write(notebook, path)
+
+
+def more_notebooks(course):
+    shutil.copy(course.source("01_class") / "nodes.ipynb", course.source("01_class") / "more.ipynb")
+
+
+def read_only(course):
+    path = course.source("01_class") / "nodes.ipynb"
+    path.write_text(path.read_text().replace('"points": 4', '"points": 3'))
+    text = (course.root / "nbgrader_config.py").read_text()
+    address = "sqlite:///file:{Path('class', 'gradebook.db').absolute()}?mode=ro&uri=true"
+    text = text.replace("sqlite:///{Path('class', 'gradebook.db').absolute()}", address)
+    (course.root / "nbgrader_config.py").write_text(text)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (more_cells, f"{OTHER} graded cells than the gradebook. {ANEW}"),
+        (more_notebooks, f"{OTHER} notebooks than the gradebook. {ANEW}"),
+        (read_only, "the gradebook is read-only. Run this as the user who owns it"),
+    ],
+)
+def test_a_release_that_can_t_be_made_leaves_the_one_that_there_is(course, capsys, change, sentence):
+    with Gradebook(course.database, course.name) as book:
+        book.add_submission("01_class", book.update_or_create_student("anna").id)
+    released = course.release("01_class") / "nodes.ipynb"
+    before = released.read_bytes()
+    change(course)
+    assert main([]) == 1
+    assert capsys.readouterr().err == f"{ASK}{sentence}\n"
+    assert released.read_bytes() == before
+    assert not (course.root / ".exercises.part").exists()
 
 
 def test_the_exercises_of_the_course_are_what_its_solutions_give():
