@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from grader.checks.check import Missed
 from grader.workspace.package import Package, PackageRun
 
-ROS = re.compile(r"rclpy|tf2_ros|message_filters|launch|launch_ros|std_srvs|\w+_msgs|\w+_interfaces")
+ROS = re.compile(r"rclpy|tf2_ros|message_filters|launch(_ros)?|rosbag2_py|std_srvs|\w+_msgs|\w+_interfaces")
 TESTS = ("test", "tests")
 
 

@@ -1,0 +1,1 @@
+"""Message types by their names. Of upstream's package it has the module utilities."""
