@@ -15,6 +15,7 @@ from rclpy.node import Node
 from sim.evidence import Ended, Recording
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.network import Network
+from sim.notebook.run_programs import remember_programs
 from sim.order import Order
 from sim.ros.engine.capture import FileDescriptor2, Screen, student_streams
 from sim.ros.engine.engine import Engine, never
@@ -68,6 +69,7 @@ class Session:
         world = World.load(world) if isinstance(world, str) else world
         chosen = str(Order.parse(order) or "")
         self.recording = Recording(world, float(seconds), seed, network=network, order=chosen)
+        remember_programs(self.recording, [spec.target for spec in self._specs])
         self.truth: GroundTruth | None = None  # while the run lasts, if it has a world
         self.engine: Engine | None = None
         self.over = self._interrupted = False
