@@ -17,7 +17,11 @@ c.LabApp.default_url = "/lab/tree/course/start.ipynb"
 c.ServerApp.allow_root = os.geteuid() == 0
 # Students don't need nbgrader's extensions: its panels are hidden in labconfig/page_config.json, and the
 # course has its own Validate button, which shows points and doesn't block the server.
+# Notebook 7 has neither the robot panel nor Validate: its addresses lead to JupyterLab.
+sys.path.append(str(HERE))  # the folder of lab_addresses
 c.ServerApp.jpserver_extensions = {
+    "notebook": False,
+    "lab_addresses": True,
     "nbgrader.server_extensions.validate_assignment": False,
     "nbgrader.server_extensions.formgrader": False,
     "nbgrader.server_extensions.assignment_list": False,
