@@ -57,7 +57,7 @@ class LiveView(anywidget.AnyWidget):
         bundle = self._repr_mimebundle_()
         data = bundle[0] if isinstance(bundle, tuple) else bundle
         # The course's JupyterLab extension shows it in a panel and a line here; other pages ignore PANEL.
-        self._display = display({PANEL: {}, **data}, raw=True, display_id=True)
+        self._display = display({PANEL: {"model": self.model_id}, **data}, raw=True, display_id=True)
         notebook_page().show({WIDGET: data[WIDGET]})
 
     def frame(self, stamp: float, poses: Sequence[tuple[float, float, float]], scan: Scan | None) -> None:

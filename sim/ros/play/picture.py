@@ -31,8 +31,8 @@ class Picture(Protocol):
         """Show the state; called at most 4 times a second, and whenever speed, paused or ended changes.
 
         Keys: stamp (s), speed (requested; may be inf), pace (measured), paused, topics (a list of dicts of
-        name, type, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason, detail]), numbers
-        and topic as `Telemetry.update` returns them, and drawing if the world has pens.
+        name, type, count of messages, and rate in Hz), contacts (a list of [x, y]), ended (None, or [reason,
+        detail]), numbers and topic as `Telemetry.update` returns them, and drawing if the world has pens.
         """
 
     def connections(self, recording: Recording) -> None:
@@ -111,6 +111,7 @@ class PictureUpdater:
             {
                 "name": name,
                 "type": type_,
+                "count": sent.get(name, 0),
                 "rate": (sent.get(name, 0) - before.get(name, 0)) / (till - since) if till > since else 0.0,
             }
             for name, type_ in session.recording.topics.items()

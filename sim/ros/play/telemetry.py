@@ -15,6 +15,7 @@ from sim.ros.session import Session
 PLOT_PERIOD, MAX_POINTS = 10.0, 400  # s of simulated time, and points of a topic's plot
 MAX_LINES, MAX_ITEMS = 40, 6  # shown of a message, and of each list in it
 MAX_CURVES = 2
+SLIDING = ("slider_joint",)  # moves along a line
 SKIPPED_FIELDS = ("header", "covariance", "stamp")
 
 
@@ -47,29 +48,48 @@ class Telemetry:
         settings = teleop_settings(world)
         names = [body.name for body in truth.scene.bodies] if truth is not None else []
         if settings is None or world.driven_body not in names:
+            yield from self._joints()
             return
         x, y, yaw = truth.scene.poses[names.index(world.driven_body)]
-        yield "Pose", f"x {x:.2f} m, y {y:.2f} m, yaw {yaw:.2f} rad"
+        yield from (("x", f"{x:.2f} m"), ("y", f"{y:.2f} m"), ("yaw", f"{yaw:.2f} rad"))
         odom = self._message("/odom", "nav_msgs/msg/Odometry")
         if odom is not None:
-            yield "Speed", _twist(odom.twist.twist)
-        topic = f"/{settings.topic}"
-        command = self._message(topic, "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-        ago = f", {session.stamp - self._newest[topic].stamp:.1f} s ago" if command is not None else ""
-        yield "Last command", _twist(command) + ago if command is not None else "none yet"
+            yield "v", f"{odom.twist.twist.linear.x:.2f} m/s"
+            yield "ω", f"{odom.twist.twist.angular.z:.2f} rad/s"
+        yield from self._command(f"/{settings.topic}")
         yield from self._sensors(truth.scene.last_scan, world)
         if world.goal is not None:
-            yield "Goal", f"{math.dist((x, y), world.goal):.2f} m away"
+            yield "goal", f"{math.dist((x, y), world.goal):.2f} m"
+        contacts = session.recording.contacts
+        if world.driven_body == names[0] and odom is not None:
+            yield "contacts", f"{len(contacts)}, at {contacts[-1].stamp:.1f} s" if contacts else "none"
+
+    def _command(self, topic: str) -> Iterator[tuple[str, str]]:
+        command = self._message(topic, "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+        twist = getattr(command, "twist", command)  # of a TwistStamped
+        yield "command v", "none yet" if twist is None else f"{twist.linear.x:.2f} m/s"
+        yield "command ω", "none yet" if twist is None else f"{twist.angular.z:.2f} rad/s"
+
+    def _joints(self) -> Iterator[tuple[str, str]]:
+        """The positions of a machine's joints: radians, or metres of a cart."""
+        joints = self._message("/joint_states", "sensor_msgs/msg/JointState")
+        if joints is not None:
+            for name, position in list(zip(joints.name, joints.position, strict=False))[:MAX_ITEMS]:
+                yield name, f"{position:.2f} {'m' if name in SLIDING else 'rad'}"
 
     def _sensors(self, scan: Any, world: Any) -> Iterator[tuple[str, str]]:
         if scan is not None:
             hits = [(float(reach), ray) for ray, reach in enumerate(scan.ranges) if math.isfinite(reach)]
             reach, ray = min(hits, default=(math.inf, 0))
             angle = math.remainder(ray * world.lidar.angle_increment + world.lidar.yaw, math.tau)
-            yield "Nearest", f"{reach:.2f} m, at {angle:.2f} rad" if hits else "nothing in reach"
+            yield "nearest", f"{reach:.2f} m" if hits else "none"
+            yield "at", f"{angle:.2f} rad" if hits else "none"
         bumper = self._message("/bumper", "std_msgs/msg/Bool")
         if bumper is not None:
-            yield "Bumper", "pressed" if bumper.data else "free"
+            yield "bumper", "pressed" if bumper.data else "free"
+        battery = self._message("/battery_state", "sensor_msgs/msg/BatteryState")
+        if battery is not None:
+            yield "battery", f"{100 * battery.percentage:.0f} %"
 
     def _message(self, topic: str, *kinds: str) -> Any:
         item = self._newest.get(topic)
@@ -115,11 +135,6 @@ def _decoded(item: Message) -> Any:
         return item.message
     except Exception:  # invalid bytes
         return None
-
-
-def _twist(twist: Any) -> str:
-    twist = getattr(twist, "twist", twist)  # of a TwistStamped
-    return f"{twist.linear.x:.2f} m/s, turning {twist.angular.z:.2f} rad/s"
 
 
 def _fields(message: Any) -> Iterator[tuple[str, Any]]:

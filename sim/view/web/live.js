@@ -2,10 +2,13 @@
 // and a reloaded page, start with the kernel's latest status.
 
 const REPEAT = 100; // ms between commands while a key or button is held
-const TIMEOUT = 3000; // ms without messages after which the view shows a notice
+const TIMEOUT = 1500; // ms without messages after which the view shows a notice
+const FOLDED = ["/tf", "/tf_static", "/clock", "/joint_states", "/robot_description", "/parameter_events", "/rosout"];
+const RARE = 0.5; // Hz; of rarer messages the number is shown
 const MAX_TRAIL = 4000; // points
 const HOW = "Click the picture, then drive with the arrow keys or W A S D. Space stops the robot.";
 const DIRECTIONS = { up: [1, 0], down: [-1, 0], left: [0, 1], right: [0, -1] };
+const SIGHT = 100; // px, the least side of a picture to drive by
 const KEYS = {
   ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right",
   KeyW: "up", KeyS: "down", KeyA: "left", KeyD: "right",
@@ -100,23 +103,23 @@ class View {
     this.topics = make("div");
     this.rows = new Map(); // topic name -> its row; rows are kept, to preserve clicks and focus
     this.numbers = make("dl", { className: "numbers" });
+    this.more = make("details", { className: "more", hidden: true }, make("summary", {}, "More topics"));
     this.topic = new Topic();
     this.graph = new Graph(() => this.requestGraph());
     this.head = make("div", { className: "head" });
-    const rows = [this.numbers, make("div", {}, this.head, this.topics), this.topic.root];
     this.root = make("div", { className: "ros2-view live" }, make("style", {}, STYLE));
     this.root.dataset.lmSuppressShortcuts = "true"; // keys drive the robot instead of the notebook
     this.turtles = this.world?.bodies[0].kind === "turtle"; // their number changes: a frame's length follows from it
     this.drives = this.turtles || this.world?.bodies.some((body) => body.kind === "robot"); // otherwise it is a machine
     if (this.drives) {
       this.pad = new Pad(this.root, (command) => this.send(command));
-      // Above the topics: driving adds a topic, which must not move the pad away from the pointer.
-      rows.unshift(make("div", {}, make("div", { className: "head" }, "DRIVE"), this.pad.root));
+      this.stage.append(this.pad.root); // in the picture: nobody drives a robot that is out of sight
     }
     const how = this.drives ? HOW : "Watch the run; the buttons pause it, go on step by step, and end it.";
-    const row = make("div", { className: "row" }, ...(this.world ? [this.stage] : []),
-      make("div", { className: "side" }, ...rows));
-    this.root.append(make("div", { className: "how" }, how), this.controls(), row, this.graph.root);
+    this.how = make("div", { className: "how" }, how);
+    this.statusLine = make("div", { className: "say", role: "status" });
+    this.root.append(this.how, this.controls(), ...(this.world ? [this.stage] : []), this.statusLine, this.numbers,
+      make("div", { className: "topics" }, this.head, this.topics, this.more), this.graph.root);
     this.tick = setInterval(() => { this.showTimeout(); this.requestGraph(); }, TIMEOUT / 3);
     this.onFrame = (_, [buffer]) => this.frame(buffer);
     this.onStatus = () => this.showStatus();
@@ -151,6 +154,8 @@ class View {
   }
 
   send(command) {
+    if ("drive" in command && !this.isInSight()) return;
+    if ("drive" in command) this.how.hidden = true; // once it drives, the hint has done its work
     if (!this.status.ended) this.model.send(command);
   }
 
@@ -161,14 +166,18 @@ class View {
     this.select = speeds([0.25, 0.5, 1, 2, 4, 10], (speed) => this.send({ speed }));
     this.clock = make("b", {}, "0.00");
     this.pace = make("span");
-    this.statusLine = make("div", { className: "say", role: "status" });
     return make("div", { className: "bar" },
       make("div", { className: "group" }, this.toggle, this.step, this.halt), this.select,
-      make("div", { className: "time" }, this.clock, " s"), this.pace, this.statusLine);
+      make("div", { className: "time" }, this.clock, " s"), this.pace);
   }
 
   get status() {
     return this.model.get("status") || {};
+  }
+
+  /** Whether the robot's picture is large enough to drive by. */
+  isInSight() {
+    return Boolean(this.picture) && this.picture.width >= SIGHT && this.picture.height >= SIGHT;
   }
 
   /** Show a frame; ../live_view.py defines its format. */
@@ -209,11 +218,14 @@ class View {
     if (speed !== undefined) this.select.put(speed ?? Infinity); // null means infinity, which JSON doesn't have
     if (!this.picture || paused || ended) this.clock.textContent = stamp.toFixed(2);
     this.pace.textContent = ended ? "ended" : paused ? "paused" : `runs at ${pace.toFixed(pace < 10 ? 1 : 0)} ×`;
-    this.statusLine.textContent = ended ? ended[1] : "";
-    for (const { name, type, rate } of topics) this.showTopic(name, type, rate);
+    this.showEvent(ended);
+    for (const topic of topics) this.showTopic(topic);
     const { numbers: counts, topic = null } = this.status; // a stand-alone robot sends neither
     this.head.textContent = counts ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS";
-    this.numbers.replaceChildren(...(counts ?? []).flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]));
+    this.numbers.replaceChildren(...(counts ?? []).map(([label, value]) => make("div", { className: label === "contacts" && value !== "none" ? "event" : "" },
+      make("dt", {}, label), make("dd", {}, value))));
+    const selected = topic && this.rows.get(topic.name);
+    if (selected && selected.nextSibling !== this.topic.root) selected.after(this.topic.root);
     this.topic.show(topic);
     for (const [name, row] of this.rows) {
       row.disabled = !counts;
@@ -225,7 +237,14 @@ class View {
     this.picture.requestPaint();
   }
 
-  showTopic(name, type, rate) {
+  /** The end of the run, or the newest contact: both are announced to screen readers. */
+  showEvent(ended) {
+    const [, contact] = this.status.numbers?.find(([label]) => label === "contacts") ?? [];
+    const told = ended ? ended[1] : contact && contact !== "none" ? `Contacts: ${contact}.` : "";
+    if (told !== this.event) this.statusLine.textContent = this.event = told;
+  }
+
+  showTopic({ name, type, rate, count = 0 }) {
     let row = this.rows.get(name);
     if (!row) {
       row = make("button", { type: "button", className: "topic", title: type }, make("span", {}, name),
@@ -234,9 +253,10 @@ class View {
         this.send({ topic: row.getAttribute("aria-expanded") === "true" ? "" : name });
       });
       this.rows.set(name, row);
-      this.topics.append(row);
+      if (FOLDED.includes(name)) { this.more.append(row); this.more.hidden = false; } else this.topics.append(row);
     }
-    row.lastChild.textContent = rate ? `${Number(rate.toPrecision(3))} Hz` : "-";
+    const rare = count ? `${count} message${count > 1 ? "s" : ""}` : "-";
+    row.lastChild.textContent = rate >= RARE ? `${Number(rate.toPrecision(3))} Hz` : rare;
     this.graph.setRate(name, row.lastChild.textContent);
   }
 
@@ -254,8 +274,12 @@ class View {
   showTimeout() {
     const { paused, ended } = this.status;
     const timedOut = !paused && !ended && performance.now() - this.lastMessage > TIMEOUT;
-    if (timedOut) this.statusLine.textContent = "No news: the kernel is busy with another cell, or has stopped.";
-    else if (!ended) this.statusLine.textContent = "";
+    this.root.classList.toggle("waits", timedOut);
+    if (timedOut) {
+      this.pace.textContent = "waits";
+      this.statusLine.textContent = "The robot waits: the kernel is busy with another cell, or has stopped.";
+      this.event = undefined; // shown again afterwards
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 const MARGIN = 0.2; // m around the bounds
 const MAX_HEIGHT = 500; // CSS pixels
+const LEAST_HEIGHT = 140, TOPICS = 40; // px; in a panel, at least of the picture, and what is left for topics
+const LEAST_SHARE = 0.45; // of a panel's height, at least for the picture
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
 
 /**
@@ -25,6 +27,8 @@ class WorldCanvas {
     stage.append(this.canvas);
     this.sizes = new ResizeObserver(() => this.fit());
     this.sizes.observe(stage);
+    this.frameless = stage.closest(".ros2-course-robot"); // a panel of a given height, which the picture has to fit
+    if (this.frameless) this.sizes.observe(this.frameless);
     onTheme(stage, () => this.requestPaint());
     this.fit();
   }
@@ -51,9 +55,10 @@ class WorldCanvas {
     this.grown = false;
     const [left, bottom, right, top] = this.shown;
     const shape = Math.min(Math.max((top - bottom) / (right - left), 0.2), 1.1);
-    this.stage.style.maxWidth = `${Math.round(MAX_HEIGHT / shape)}px`;
+    if (!this.frameless) this.stage.style.maxWidth = `${Math.round(MAX_HEIGHT / shape)}px`;
     this.width = this.stage.clientWidth;
-    this.height = Math.round(this.width * shape);
+    this.most = this.mostHeight();
+    this.height = Math.round(Math.min(this.width * shape, this.most));
     const sharp = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(this.width * sharp);
     this.canvas.height = Math.round(this.height * sharp);
@@ -64,9 +69,23 @@ class WorldCanvas {
     this.requestPaint();
   }
 
+  /** The height (px) that the panel around leaves for the picture, beside the controls and the numbers. */
+  mostHeight() {
+    if (!this.frameless) return Infinity;
+    const others = [...this.stage.parentElement.children].filter((each) => each.matches(".how, .bar, .say, .numbers"));
+    const taken = others.reduce((sum, each) => sum + each.offsetHeight, 0);
+    const room = this.frameless.clientHeight;
+    return Math.max(room - taken - TOPICS, LEAST_SHARE * room, LEAST_HEIGHT);
+  }
+
   /** Draw the newest frame with the browser's next repaint. */
   requestPaint() {
     if (!this.request) this.request = requestAnimationFrame(() => { this.request = 0; this.paint(); });
+  }
+
+  /** Whether the panel around, or what else is in it, has changed its size. */
+  isOutgrown() {
+    return this.frameless && (this.stage.clientWidth !== this.width || this.mostHeight() !== this.most);
   }
 
   at(x, y) {
@@ -74,7 +93,7 @@ class WorldCanvas {
   }
 
   paint() {
-    if (this.grown) this.fit();
+    if (this.grown || this.isOutgrown()) this.fit();
     if (!this.width) return; // invisible, for example in a collapsed part of the page
     const sharp = window.devicePixelRatio || 1;
     this.look = colours(this.stage);
@@ -156,24 +175,31 @@ class WorldCanvas {
     if (!scan) return [];
     const c = this.context;
     const [x, y, yaw] = scan.pose;
-    const rays = { true: new Path2D(), false: new Path2D() };
+    const areas = { true: new Path2D(), false: new Path2D() };
     const hits = [];
     const centre = this.at(x, y);
-    scan.ranges.forEach((range, ray) => {
-      if (Number.isNaN(range) || range === -Infinity) return;
-      const angle = yaw + scan.start + ray * scan.step;
-      const hit = range !== Infinity;
-      const reach = hit ? range : scan.far;
+    // Neighbouring rays make one area: lines would interfere with the pixels.
+    const ends = Array.from(scan.ranges, (range, ray) => {
+      if (Number.isNaN(range) || range === -Infinity) return null;
+      const angle = yaw + scan.start + ray * scan.step, hit = range !== Infinity, reach = hit ? range : scan.far;
       const end = this.at(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
-      rays[hit].moveTo(...centre);
-      rays[hit].lineTo(...end);
       if (hit) hits.push(end);
+      return { hit, end };
     });
-    c.lineWidth = 1;
-    c.strokeStyle = this.look.far;
-    c.stroke(rays.false);
-    c.strokeStyle = this.look.ray;
-    c.stroke(rays.true);
+    const full = Math.abs(ends.length * scan.step) > 2 * Math.PI - 1.5 * Math.abs(scan.step);
+    ends.forEach((ray, index) => {
+      const next = index + 1 < ends.length ? ends[index + 1] : full ? ends[0] : null;
+      if (!ray || !next) return;
+      const area = areas[ray.hit && next.hit];
+      area.moveTo(...centre);
+      area.lineTo(...ray.end);
+      area.lineTo(...next.end);
+      area.closePath();
+    });
+    c.fillStyle = this.look.far;
+    c.fill(areas.false);
+    c.fillStyle = this.look.ray;
+    c.fill(areas.true);
     return hits;
   }
 
@@ -191,11 +217,12 @@ class WorldCanvas {
     c.lineWidth = 3;
     c.stroke();
     if (world.goal) this.star(...world.goal);
-    for (const [name, place] of world.places) this.place(name, ...this.at(...place));
+    const taken = [];
+    for (const [name, place] of world.places) this.place(name, ...this.at(...place), taken);
   }
 
-  /** A named location: a small cross, and its name. */
-  place(name, px, py) {
+  /** A named location: a small cross, and its name beside it where no other name is; `taken` lists their boxes. */
+  place(name, px, py, taken) {
     const c = this.context;
     c.beginPath();
     c.moveTo(px - 4, py);
@@ -208,7 +235,16 @@ class WorldCanvas {
     c.font = "10px system-ui, sans-serif";
     c.textAlign = "left";
     c.fillStyle = this.look.ink;
-    c.fillText(name, px + 6, py - 4);
+    const width = c.measureText(name).width, height = 11;
+    const free = [[6, -4], [6, 12], [-width - 6, -4], [-width - 6, 12]].find(([dx, dy]) => {
+      const box = [px + dx, py + dy - height, px + dx + width, py + dy];
+      return box[0] >= 0 && box[2] <= this.width && !taken.some((other) =>
+        box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]);
+    });
+    if (!free) return; // no room for another name here
+    const [dx, dy] = free;
+    taken.push([px + dx, py + dy - height, px + dx + width, py + dy]);
+    c.fillText(name, px + dx, py + dy);
   }
 
   star(x, y) {

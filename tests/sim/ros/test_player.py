@@ -421,8 +421,8 @@ def test_keys_drive_the_first_turtle_and_the_picture_gets_its_line(clock):
     state = made.watcher.states[-1]
     made.stop()
     assert set(sent(made, "/turtle1/cmd_vel")) == {(2.0, 1.0)}
-    assert list(dict(state["numbers"])) == ["Pose", "Last command"]
-    assert dict(state["numbers"])["Last command"].startswith("2.00 m/s, turning 1.00 rad/s")
+    assert list(dict(state["numbers"])) == ["x", "y", "yaw", "command v", "command ω"]
+    assert dict(state["numbers"])["command ω"] == "1.00 rad/s"
     assert state["drawing"].strokes == made.recording.drawing.strokes
 
 

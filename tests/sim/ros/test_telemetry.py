@@ -47,18 +47,19 @@ def test_the_nearest_hit_is_in_the_robot_s_frame_whatever_the_lidar_s_yaw(yaw):
     made = player(lambda: Node("still"), world=still, seconds=2.0, speed=10.0)
     picture = watched(made)
     to_the_end(made)
-    states = [dict(state["numbers"]).get("Nearest") for state in picture.states]
-    assert [words for words in states if words][-1] == "1.37 m, at 0.44 rad"
+    (*_, last) = [numbers for state in picture.states if "nearest" in (numbers := dict(state["numbers"]))]
+    assert (last["nearest"], last["at"]) == ("1.37 m", "0.44 rad")
 
 
 def test_the_robot_s_numbers_are_shown(states):
     numbers = dict(states[""]["numbers"])
-    assert list(numbers) == ["Pose", "Speed", "Last command", "Nearest", "Bumper", "Goal"]
-    assert numbers["Speed"] == "0.40 m/s, turning 0.50 rad/s"
-    assert numbers["Last command"].startswith("0.40 m/s, turning 0.50 rad/s, 0.")
-    assert numbers["Bumper"] == "free"
-    assert numbers["Goal"].endswith(" m away")
-    assert numbers["Nearest"].split(" m, at ")[0] > "0.5"
+    pose, commands = ["x", "y", "yaw", "v", "ω"], ["command v", "command ω"]
+    assert list(numbers) == [*pose, *commands, "nearest", "at", "bumper", "goal", "contacts"]
+    assert (numbers["v"], numbers["ω"]) == ("0.40 m/s", "0.50 rad/s")
+    assert (numbers["command v"], numbers["command ω"]) == ("0.40 m/s", "0.50 rad/s")
+    assert (numbers["bumper"], numbers["contacts"]) == ("free", "none")
+    assert numbers["goal"].endswith(" m") and numbers["yaw"].endswith(" rad")
+    assert numbers["nearest"] > "0.5"
 
 
 def test_no_topic_is_selected_at_first(states):
@@ -97,3 +98,13 @@ def test_a_run_without_a_robot_has_no_numbers():
     picture = watched(made)
     to_the_end(made)
     assert picture.states[-2]["numbers"] == []
+
+
+def test_a_machine_shows_its_joints():
+    made = player(lambda: Node("still"), world="cart_pole", seconds=1.0, speed=10.0)
+    picture = watched(made)
+    to_the_end(made)
+    (numbers,) = {tuple(dict(state["numbers"])) for state in picture.states if state["numbers"]}
+    assert numbers == ("slider_joint", "pole_joint")
+    units = {value.split()[1] for state in picture.states for _, value in state["numbers"]}
+    assert units == {"m", "rad"}

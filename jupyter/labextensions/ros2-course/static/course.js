@@ -1,7 +1,7 @@
 // The course's JupyterLab extension. Each feature is a module; this one passes JupyterLab's shared modules to them.
 
 import { KernelComm } from "./kernel_comm.js";
-import { RobotPanel, robotRenderer, ROBOT } from "./robot_panel.js";
+import { RobotPanel, RobotSidebar, robotRenderer, ROBOT } from "./robot_panel.js";
 import { imageRenderer } from "./images.js";
 import { waitingExecutor } from "./cell_executor.js";
 import { navigationButtons, renameTab } from "./tabs.js";
@@ -11,9 +11,10 @@ import { validateButton } from "./validate.js";
 const AFTER_RUN_ALL = 9; // index in a notebook's toolbar
 
 export async function plugins(share) {
-  const [notebooks, apputils, rendermime, widgets] = await Promise.all(
-    ["@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets"].map(share));
-  const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets };
+  const [notebooks, apputils, rendermime, widgets, { LabIcon }] = await Promise.all([
+    "@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets", "@jupyterlab/ui-components",
+  ].map(share));
+  const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets, LabIcon };
   return [waitingExecutor(lab), {
     id: "ros2-course:notebooks",
     description: "The robot beside the code, Validate, and the names of the tabs.",
@@ -21,6 +22,7 @@ export async function plugins(share) {
     requires: [lab.INotebookTracker, lab.IRenderMimeRegistry],
     activate: (app, tracker, registry) => {
       const comms = new Map();
+      const sidebar = new RobotSidebar(lab, app, tracker);
       const commOf = (node) => comms.get(tracker.find((panel) => panel.node.contains(node)));
       registry.addFactory({
         safe: true, mimeTypes: [ROBOT], createRenderer: () => robotRenderer(lab, (node) => commOf(node)?.robotPanel),
@@ -29,7 +31,7 @@ export async function plugins(share) {
         safe: true, mimeTypes: ["image/png"], createRenderer: (options) => imageRenderer(lab, options),
       }, 80);
       const extend = (_, panel) => {
-        const robotPanel = new RobotPanel(lab, app, panel);
+        const robotPanel = new RobotPanel(lab, sidebar, panel);
         const comm = new KernelComm(panel, robotPanel);
         comms.set(panel, comm);
         panel.disposed.connect(() => { comms.delete(panel); comm.close(); });

@@ -2,6 +2,7 @@
 // sources of the cells before it executes one; the kernel sends the content of the robot panel.
 
 const TARGET = "ros2-course";
+const GONE = ["restarting", "autorestarting", "terminating", "dead"]; // states in which a kernel has lost its robot
 
 export class KernelComm {
   constructor(panel, robotPanel) {
@@ -11,10 +12,13 @@ export class KernelComm {
     this.attach = this.attach.bind(this);
     this.session.kernelChanged.connect(this.attach);
     this.session.ready.then(this.attach);
+    this.onStatus = (_, status) => { if (GONE.includes(status)) this.robotPanel.lose(); };
+    this.session.statusChanged.connect(this.onStatus);
   }
 
   close() {
     this.session.kernelChanged.disconnect(this.attach);
+    this.session.statusChanged.disconnect(this.onStatus);
     this.comm = undefined;
   }
 
@@ -22,6 +26,7 @@ export class KernelComm {
   async attach() {
     const kernel = this.session.session?.kernel;
     if (!kernel || kernel === this.kernel) return;
+    if (this.kernel) this.robotPanel.lose();
     this.kernel = kernel;
     kernel.registerCommTarget(TARGET, (comm) => this.open(comm));
     const { content } = await kernel.requestCommInfo({ target_name: TARGET });

@@ -1,14 +1,74 @@
-// The panel beside the notebook with its robot: the live view, and the replay after the run.
+// The robot of the active notebook, in JupyterLab's right sidebar: the live view, and the replay after the run.
 
 export const ROBOT = "application/vnd.ros2-course.robot+json";
-const NARROW = 900; // px; in a narrower notebook the robot is below the code
-const LOW = 600; // px; in a narrow and lower one, such as a page at 200 %, it has its own tab
-let count = 0;
+const WIDGET = "application/vnd.jupyter.widget-view+json";
+const ID = "ros2-course-robot";
+const NARROW = 1000; // px; in a narrower window the left sidebar gives way to the robot
+const SHARE = 0.38, NARROW_SHARE = 0.5, MOST_SHARE = 0.6; // of the window's width, when the sidebar opens
+const NONE = "No robot plays yet. Run a cell with play(...), and it drives here.";
+const RESTARTED = "The kernel was restarted, and the robot is gone. Run the cells again, and it drives here.";
+const ICON = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24"><g class="jp-icon3" fill="#616161">'
+  + '<path d="M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 2a7 7 0 1 1 0 14 7 7 0 0 1 0-14z"/><path d="M9.5 7.5l7 4.5-7 4.5 1.8-4.5z"/></g></svg>';
 
+/** The one sidebar; it shows the robot of the active notebook. */
+export class RobotSidebar {
+  constructor(lab, app, tracker) {
+    Object.assign(this, { lab, app, tracker, robots: new Map(), opened: false });
+    this.widget = new lab.StackedPanel();
+    this.widget.id = ID;
+    this.widget.addClass("ros2-course-robots");
+    this.widget.title.caption = "Robot";
+    this.widget.title.icon = new lab.LabIcon({ name: "ros2-course:robot", svgstr: ICON });
+    app.shell.add(this.widget, "right", { rank: 50 });
+    tracker.currentChanged.connect(() => this.follow());
+  }
+
+  add(robot) {
+    this.robots.set(robot.panel, robot);
+    robot.panel.disposed.connect(() => { this.robots.delete(robot.panel); robot.content.dispose(); this.follow(); });
+    this.widget.addWidget(robot.content);
+    this.follow();
+  }
+
+  /** Show the active notebook's robot. A sidebar that a robot has opened closes for a notebook without one. */
+  follow() {
+    const { shell } = this.app;
+    const current = this.robots.get(this.tracker.currentWidget);
+    for (const robot of this.robots.values()) robot.content.setHidden(robot !== current);
+    if (current?.isEmpty() && this.opened && this.widget.isVisible) shell.collapseRight?.();
+    else if (current && !current.isEmpty() && this.opened && current.wanted && !this.widget.isVisible) this.open();
+  }
+
+  /** Open the sidebar with the robot, wide enough to see it; the focus stays where it is. */
+  open() {
+    const { shell } = this.app, focused = document.activeElement;
+    this.opened = true;
+    if (!this.widget.isVisible) shell.activateById(ID);
+    if (focused !== document.activeElement) focused?.focus?.();
+    requestAnimationFrame(() => this.widen());
+  }
+
+  widen() {
+    const { shell } = this.app, split = shell._hsplitPanel; // JupyterLab has no public name for it
+    const narrow = shell.node.clientWidth < NARROW;
+    if (narrow) shell.collapseLeft?.();
+    const share = narrow ? NARROW_SHARE : SHARE;
+    const sizes = split?.relativeSizes() ?? [];
+    const right = sizes.at(-1);
+    const now = this.widget.node.clientWidth / shell.node.clientWidth;
+    if (!sizes.length || (now > 0.85 * share && now < MOST_SHARE)) return;
+    split.setRelativeSizes(sizes.map((size, i) => (i === sizes.length - 1 ? share : size * (1 - share) / (1 - right || 1))));
+  }
+}
+
+/** The robot of one notebook. */
 export class RobotPanel {
-  constructor(lab, app, panel) {
-    Object.assign(this, { lab, app, panel, shown: {} });
-    panel.disposed.connect(() => this.widget?.dispose());
+  constructor(lab, sidebar, panel) {
+    Object.assign(this, { lab, sidebar, panel, shown: {}, notice: NONE, wanted: true, watchers: new Set() });
+    this.content = new lab.BoxPanel();
+    this.content.addClass("ros2-course-robot");
+    this.fill();
+    sidebar.add(this);
   }
 
   /** A button for the notebook's toolbar. */
@@ -18,53 +78,40 @@ export class RobotPanel {
     });
   }
 
-  /** Show the kernel's MIME bundle; a new live view opens the panel. */
+  isEmpty() {
+    return !Object.keys(this.shown).length;
+  }
+
+  /** Whether this live view plays now. */
+  plays(model) {
+    return Boolean(model) && this.shown[WIDGET]?.model_id === model;
+  }
+
+  /** Show the kernel's MIME bundle; a new live view opens the sidebar, if its notebook is active. */
   show(bundle) {
-    const plays = !("text/html" in bundle);
     this.shown = bundle;
-    if (plays && Object.keys(bundle).length) this.isLow() ? this.reveal() : this.open();
-    else if (this.widget) this.fill();
+    this.notice = NONE;
+    this.fill();
+    this.watchers.forEach((update) => update());
+    if (WIDGET in bundle && this.sidebar.tracker.currentWidget === this.panel) this.sidebar.open();
   }
 
-  open() {
-    if (this.widget?.isDisposed !== false) {
-      this.content = new this.lab.BoxPanel();
-      this.content.addClass("ros2-course-robot");
-      this.widget = new this.lab.MainAreaWidget({ content: this.content });
-      this.widget.id = `ros2-course-robot-${++count}`;
-      this.widget.title.label = "Robot";
-      this.widget.title.closable = true;
-      this.widget.title.caption = `The robot of ${this.panel.title.label}`;
-      // A closed panel is detached, not disposed: its view could not be created a second time.
-      this.widget.onCloseRequest = () => { this.widget.parent = null; };
-      this.filled = undefined;
-    }
-    if (!this.widget.isAttached) this.app.shell.add(this.widget, "main", { ...this.place(), activate: false });
-    if (this.filled !== this.shown) this.fill();
+  /** The kernel is gone, and its robot with it. */
+  lose() {
+    if (this.isEmpty()) return;
+    this.shown = {};
+    this.notice = RESTARTED;
+    this.fill();
+    this.watchers.forEach((update) => update());
   }
 
-  /** Open the panel and bring it to the front. */
   reveal() {
-    this.open();
-    if (!this.widget.isVisible) this.app.shell.activateById(this.widget.id);
-  }
-
-  /** Whether there is no space for notebook and robot side by side or one above the other. */
-  isLow() {
-    const { clientWidth, clientHeight } = this.app.shell.node;
-    return clientWidth < NARROW && clientHeight < LOW;
-  }
-
-  /** The panel's position: beside the notebook, or with the robots of other notebooks. */
-  place() {
-    const others = [...this.app.shell.widgets("main")].filter(({ id }) => id.startsWith("ros2-course-robot-"));
-    if (others.length) return { mode: "tab-after", ref: others[0].id };
-    if (this.isLow()) return { mode: "tab-after", ref: this.panel.id };
-    return { mode: this.panel.node.clientWidth < NARROW ? "split-bottom" : "split-right", ref: this.panel.id };
+    this.sidebar.follow();
+    this.sidebar.open();
   }
 
   async fill() {
-    const bundle = this.filled = this.shown;
+    const bundle = this.shown;
     const { rendermime } = this.panel.content;
     const kind = rendermime.preferredMimeType(bundle, "any");
     let view;
@@ -73,7 +120,9 @@ export class RobotPanel {
       await view.renderModel(rendermime.createModel({ data: bundle, trusted: true }));
     } else {
       view = new this.lab.Widget();
-      view.node.textContent = "No robot plays yet. Run a cell with play(...), and it drives here.";
+      view.addClass("ros2-course-notice");
+      view.node.setAttribute("role", "status");
+      view.node.textContent = this.notice;
     }
     if (bundle !== this.shown || this.content.isDisposed) { view.dispose(); return; }
     for (const old of [...this.content.widgets]) old.dispose();
@@ -81,13 +130,25 @@ export class RobotPanel {
   }
 }
 
-/** The output of the cell instead of the picture; panelOf returns the robot panel of the notebook of a node. */
-export function robotRenderer(lab, panelOf) {
+/** The output of the cell instead of the picture; robotOf returns the robot of the notebook of a node. */
+export function robotRenderer(lab, robotOf) {
   const view = new lab.Widget();
   view.addClass("ros2-course-beside");
   const button = Object.assign(document.createElement("button"), { textContent: "Show the robot", className: "jp-Button" });
-  button.addEventListener("click", () => panelOf(view.node)?.reveal());
-  view.node.append("The robot plays in the panel “Robot”. ", button);
-  view.renderModel = async () => {};
+  button.addEventListener("click", () => robotOf(view.node)?.reveal());
+  let model, robot;
+  const update = () => {
+    if (robot?.plays(model)) view.node.replaceChildren("The robot plays in the panel “Robot” on the right. ", button);
+    else view.node.replaceChildren("A robot played here. Run the cell to let it play again.");
+  };
+  view.renderModel = async (mime) => { model = mime.data[ROBOT]?.model; update(); };
+  const attach = () => {
+    const found = robotOf(view.node);
+    if (found && found !== robot) { robot = found; robot.watchers.add(update); }
+    update();
+  };
+  const onAfterAttach = view.onAfterAttach.bind(view);
+  view.onAfterAttach = (message) => { onAfterAttach(message); attach(); };
+  view.disposed.connect(() => robot?.watchers.delete(update));
   return view;
 }

@@ -1,0 +1,143 @@
+"""The robot's place is JupyterLab's right sidebar: it follows the notebook, and is in sight at every size."""
+
+import pytest
+
+from tests.browser.lab import write_notebook
+from tests.browser.pictures import Picture
+from tests.browser.test_play_in_lab import CIRCLE, IMPORTS, eventually, live
+
+pytestmark = pytest.mark.browser
+BUSY = "import time; time.sleep(6)"
+LARGE = {"width": 1440, "height": 900}
+VISIBLE = """() => {
+    const shown = document.querySelector('.ros2-course-robot:not(.lm-mod-hidden) .stage canvas');
+    const canvas = shown.getBoundingClientRect();
+    return Math.min(canvas.bottom, innerHeight) - Math.max(canvas.top, 0) - canvas.height;
+}"""
+
+
+@pytest.fixture
+def playing(request, students_folder, open_lab):
+    """JupyterLab at 1440 px while a robot plays; a second notebook has none."""
+    name = f"sidebar/{request.node.originalname}"
+    write_notebook(students_folder / f"{name}.ipynb", IMPORTS, CIRCLE, BUSY)
+    write_notebook(students_folder / f"{name}-other.ipynb", "1 + 1")
+    with open_lab(f"{name}.ipynb") as lab:
+        lab.page.set_viewport_size(LARGE)
+        lab.run_cell(0)
+        lab.run_cell(1)
+        live(lab).wait_for_time(0.2)
+        lab.other = f"{name}-other.ipynb"
+        yield lab
+
+
+def sidebar(lab):
+    return lab.page.locator(".ros2-course-robots")
+
+
+def is_whole(lab) -> bool:
+    """Whether the whole picture is in the window."""
+    return abs(lab.page.evaluate(VISIBLE)) < 2
+
+
+@pytest.mark.parametrize(
+    "size",
+    [(1440, 900), (900, 700), (720, 450), (640, 400)],
+    ids=["1440", "900", "1440-at-200-percent", "1280-at-200-percent"],
+)
+def test_the_whole_picture_is_in_sight_at_every_size(playing, size, request):
+    playing.page.set_viewport_size({"width": size[0], "height": size[1]})
+    playing.page.evaluate("window.jupyterapp.shell.collapseRight()")
+    playing.page.get_by_role("button", name="Show the robot").click()
+    live(playing).wait_for_time(live(playing).time() + 0.3)
+    box = live(playing).canvas.bounding_box()
+    assert box["width"] >= 140 and box["height"] >= 140
+    playing.screenshot(f"sidebar-{size[0]}")
+    assert is_whole(playing)
+    playing.page.evaluate("document.querySelector('.ros2-course-robot > *').scrollTo(0, 10000)")
+    assert is_whole(playing)  # the picture stays while the rest scrolls
+
+
+def test_it_is_dark_in_a_dark_theme(playing):
+    playing._use_theme("JupyterLab Dark")
+    try:
+        live(playing).wait_for_time(live(playing).time() + 0.5)
+        playing.screenshot("sidebar-dark")
+    finally:
+        playing._use_theme("JupyterLab Light")
+
+
+def test_a_document_that_is_opened_does_not_cover_it(playing):
+    live(playing).canvas.click()
+    glossary = "{path: 'course/glossary.md', factory: 'Markdown Preview'}"
+    playing.page.evaluate(f"window.jupyterapp.commands.execute('docmanager:open', {glossary})")
+    playing.page.locator(".jp-MarkdownViewer").wait_for()
+    assert live(playing).canvas.is_visible()
+    box, document = sidebar(playing).bounding_box(), playing.page.locator(".jp-MarkdownViewer").bounding_box()
+    assert document["x"] + document["width"] <= box["x"] + 1
+
+
+def test_it_follows_the_active_notebook(playing):
+    first = playing.page.evaluate("window.notebook().context.path")
+    playing.turn_to(playing.other)
+    sidebar(playing).wait_for(state="hidden")  # the other notebook has the whole window
+    playing.turn_to(first)
+    sidebar(playing).wait_for()
+    live(playing).wait_for_time(live(playing).time() + 0.2)
+
+
+def test_a_restarted_kernel_has_no_robot_and_the_cell_does_not_claim_one(playing):
+    playing.page.get_by_text("The robot plays in the panel").wait_for()
+    playing.page.evaluate("window.notebook().sessionContext.session.kernel.restart()")
+    notice = "The kernel was restarted, and the robot is gone. Run the cells again, and it drives here."
+    playing.page.locator(".ros2-course-notice", has_text=notice).wait_for()
+    playing.page.get_by_text("A robot played here. Run the cell to let it play again.").wait_for()
+    assert playing.page.get_by_role("button", name="Show the robot").count() == 0
+
+
+def test_saved_output_does_not_claim_that_the_robot_plays(playing):
+    playing.save()
+    name = playing.page.evaluate("window.notebook().context.path")
+    playing.leave()
+    playing.open(name)
+    playing.page.get_by_text("A robot played here. Run the cell to let it play again.").wait_for()
+    assert playing.page.get_by_role("button", name="Show the robot").count() == 0
+
+
+def test_while_a_cell_computes_the_picture_says_that_it_waits(playing):
+    playing.run_cell(2, wait=False)
+    root = live(playing).root
+    root.locator(".say", has_text="The robot waits: the kernel is busy with another cell").wait_for()
+    assert "waits" in root.locator(".bar").inner_text()
+    playing.wait_for_cell(2)
+    Picture(root).wait_until("root => !root.classList.contains('waits')")
+    Picture(root).wait_until("root => /runs at/.test(root.innerText)")
+
+
+def test_the_hint_goes_with_the_first_key_and_a_topic_opens_next_to_its_row(playing):
+    root = live(playing).root
+    assert root.locator(".how").is_visible()
+    live(playing).canvas.click()
+    playing.page.keyboard.press("ArrowUp", delay=50)
+    root.locator(".how").wait_for(state="hidden")
+    topic = root.locator("button.topic", has_text="/odom")
+    topic.click()
+    root.locator("button.topic:has-text('/odom') + .looked").wait_for()
+    assert not root.locator("button.topic", has_text="/tf_static").is_visible()
+    root.get_by_text("More topics").click()
+    static = root.locator("button.topic", has_text="/tf_static")
+    assert "1 message" in static.inner_text()
+    playing.screenshot("sidebar-topic")
+
+
+def test_a_contact_is_announced_with_its_time(playing):
+    playing.ask("globals().update(player=play(world='room', seconds=600, speed=4))")
+    picture = live(playing)
+    picture.wait_for_time(0.2)
+    picture.canvas.click()
+    playing.page.keyboard.down("ArrowUp")
+    eventually(playing, "player.recording.contacts != []")
+    said = picture.root.locator(".say[role=status]", has_text="Contacts: 1, at ")
+    said.wait_for()
+    playing.screenshot("sidebar-contact")
+    playing.page.keyboard.up("ArrowUp")
