@@ -155,7 +155,8 @@ class View {
 
   send(command) {
     if ("drive" in command && !this.isInSight()) return;
-    if ("drive" in command) this.how.hidden = true; // once it drives, the hint has done its work
+    // Once it has driven, the hint has done its work; while a button is held, nothing may move from under the pointer.
+    if (command.drive?.every((part) => part === 0)) this.how.hidden = true;
     if (!this.status.ended) this.model.send(command);
   }
 
