@@ -14,6 +14,7 @@ from grader.notebook_format import InvalidNotebook, normalised
 
 FOLDER = "work"
 SOURCES = ("course", "exercises")
+ASSISTANT_FILES = ("AGENTS.md", "TUTOR.md")  # of course/
 RECORD = ".given.json"  # path -> digest of the last copied version
 GENERATED = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws")
 
@@ -28,8 +29,9 @@ def update_work_folder(course: Path) -> list[str]:
     record = work / RECORD
     copied = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
     notices = []
-    for source in student_files(course):
-        name = source.relative_to(course).as_posix()
+    sources = {source.relative_to(course).as_posix(): source for source in student_files(course)}
+    sources |= {path.name: path for path in assistant_files(course)}
+    for name, source in sources.items():
         new_version = _update(source, work / name, copied.get(name))
         if new_version:
             notices.append(
@@ -39,6 +41,11 @@ def update_work_folder(course: Path) -> list[str]:
         copied[name] = content_digest(source)
     record.write_text(json.dumps(copied, indent=1, sort_keys=True) + "\n", encoding="utf-8")
     return notices
+
+
+def assistant_files(course: Path) -> list[Path]:
+    """The rules for AI assistants, which look for them at the top of a folder."""
+    return [path for name in ASSISTANT_FILES if (path := course / "course" / name).exists()]
 
 
 def student_files(course: Path) -> list[Path]:

@@ -109,3 +109,20 @@ def test_the_courses_own_lessons_and_starters_are_given_and_git_ignores_the_copi
     assert {LESSON, "course/01_nodes/goal.py", "exercises/06_navigator/navigator.ipynb"} <= given
     assert not any(name.startswith("solutions") for name in given)
     assert "\n/work/\n" in (ROOT / ".gitignore").read_text()
+
+
+def test_the_rules_for_assistants_are_at_the_top_of_the_folder(course):
+    (course / "course" / "AGENTS.md").write_text("Be a tutor.")
+    assert update_work_folder(course) == []
+    assert (course / "work" / "AGENTS.md").read_text() == "Be a tutor."
+    (course / "course" / "AGENTS.md").write_text("Be a good tutor.")
+    assert update_work_folder(course) == []
+    assert (course / "work" / "AGENTS.md").read_text() == "Be a good tutor."
+
+
+def test_the_start_page_says_what_assistants_may_do():
+    cells = json.loads((ROOT / "course/start.ipynb").read_text("utf-8"))["cells"]
+    text = "".join(next(cell for cell in cells if cell["id"] == "help")["source"])
+    for word in ("**Allowed**", "**Not allowed**", "`AGENTS.md`", "(TUTOR.md)"):
+        assert word in text
+    assert "(TUTOR.md)" in (ROOT / "course/AGENTS.md").read_text("utf-8")

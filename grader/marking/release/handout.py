@@ -17,7 +17,7 @@ from pathlib import Path
 from grader.marking.errors import CommandFailed
 from grader.marking.release.make_exercises import differences
 from grader.notebook_format import normalised
-from grader.work_folder import student_files
+from grader.work_folder import assistant_files, student_files
 
 NAME = "ros2-course"
 # Included besides lessons and exercises; parts of it are excluded below.
@@ -27,7 +27,7 @@ INCLUDED = (
     *("jupyter", "sim", "grader", "ros_packages", ".binder", ".devcontainer"),
 )
 MARKING_EXCLUDED = (
-    *("command", "gradebook", "release", "secret.py"),
+    *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "spreadsheet.py"),
     *("extras/dask_cluster", "extras/learning_platform", "extras/receipts"),
 )
 EXCLUDED = (
@@ -46,6 +46,7 @@ def contents(course: Path) -> dict[str, bytes]:
     found = {path.relative_to(course).as_posix(): path for path in files}
     texts = {name: _content(path) for name, path in found.items() if not _is_excluded(name)}
     texts["README.md"] = (course / "course" / "README.md").read_bytes()
+    texts |= {path.name: path.read_bytes() for path in assistant_files(course)}
     texts["Makefile"] = makefile((course / "Makefile").read_text(encoding="utf-8")).encode()
     return dict(sorted(texts.items()))
 

@@ -11,7 +11,7 @@ import pytest
 from traitlets.config import PyFileConfigLoader
 
 from grader.marking.release.handout import INCLUDED, NAME, contents, main, makefile, write_folder, write_zip
-from grader.work_folder import student_files
+from grader.work_folder import assistant_files, student_files
 from tests.marking.tiny import ROOT
 
 GRADE = """
@@ -50,7 +50,7 @@ def graded(course: Path, place: Path) -> list:
 
 def test_students_get_lessons_starters_the_robot_and_the_checks(handout):
     assert {name.split("/")[0] for name in handout} == {
-        *("COLCON_IGNORE", "LICENSE", "Makefile", "README.md"),
+        *("AGENTS.md", "COLCON_IGNORE", "LICENSE", "Makefile", "README.md", "TUTOR.md"),
         *("nbgrader_config.py", "pyproject.toml", "requirements.lock"),
         *(".binder", ".ci", ".devcontainer", "jupyter"),
         *("course", "exercises", "grader", "ros_packages", "sim"),
@@ -144,6 +144,7 @@ def test_jupyterlab_there_opens_the_same_copies_as_here(folder):
     assert opened.ServerApp.root_dir == str(work)
     here = {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in student_files(ROOT)}
     there = {path.relative_to(work).as_posix(): path.read_bytes() for path in work.rglob("[!.]*.*")}
+    here |= {path.name: path.read_bytes() for path in assistant_files(ROOT)}
     assert there == {name: content for name, content in here.items() if name != "course/README.md"}
     assert opened.LabApp.default_url.removeprefix("/lab/tree/") in there
 
