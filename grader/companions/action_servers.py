@@ -40,9 +40,8 @@ class LateFibonacci(PausableNode):
         """Offer the action."""
         self.timer.cancel()
         try:
-            self.server = ActionServer(
-                self, Fibonacci, "/fibonacci", self.execute, goal_callback=lambda goal: self.answer
-            )
+            self.server = ActionServer(self, Fibonacci, "/fibonacci", self.execute,
+                                       goal_callback=lambda goal: self.answer)
         except ValueError:
             self.get_logger().error("Another node uses /fibonacci with another type.")
 
@@ -69,9 +68,8 @@ class TimedMover(PausableNode):
     def __init__(self, name: str, action: type, topic: str) -> None:
         super().__init__(name)
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.server = ActionServer(
-            self, action, topic, self.execute, cancel_callback=lambda handle: CancelResponse.ACCEPT
-        )
+        self.server = ActionServer(self, action, topic, self.execute,
+                                   cancel_callback=lambda handle: CancelResponse.ACCEPT)
 
     async def move(
         self, handle: ServerGoalHandle, velocity: Twist, seconds: float, report: Callable[[float], str]

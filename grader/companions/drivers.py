@@ -46,9 +46,8 @@ class EmergencyOperator(TimedNode):
 
     def __init__(self) -> None:
         super().__init__("operator")
-        steps = [
-            (2.0, 3.0), (0.6, 0.9), (0.5, 0.8), (1.0, 1.4), (0.7, 0.9), (1.0, 1.4), (1.5, 2.0), (1.6, 1.9),
-        ]
+        steps = [(2.0, 3.0), (0.6, 0.9), (0.5, 0.8), (1.0, 1.4), (0.7, 0.9), (1.0, 1.4), (1.5, 2.0),
+                 (1.6, 1.9)]
         times = list(itertools.accumulate(random.uniform(*step) for step in steps))
         self.press, refused, self.release, self.quiet, accepted, self.speak, self.cut, self.repaired = times
         sides = random.choice((-1.0, 1.0)), random.choice((-1.0, 1.0))
@@ -83,12 +82,10 @@ class Drivers(TimedNode):
     def __init__(self) -> None:
         super().__init__("drivers")
         self.turns = itertools.cycle((JOY, NAV))
-        steps = [
-            (1.8, 2.4), (0.7, 1.0), (0.9, 1.3), (1.6, 2.0), (1.0, 1.4), (0.9, 1.2), (1.8, 2.2), (1.4, 1.8),
-        ]
-        joy, moves, rests, again, falls, ends, back, last = itertools.accumulate(
-            random.uniform(*one) for one in steps
-        )
+        steps = [(1.8, 2.4), (0.7, 1.0), (0.9, 1.3), (1.6, 2.0), (1.0, 1.4), (0.9, 1.2), (1.8, 2.2),
+                 (1.4, 1.8)]
+        times = itertools.accumulate(random.uniform(*step) for step in steps)
+        joy, moves, rests, again, falls, ends, back, last = times
         self.outlets = {topic: self.create_publisher(Twist, topic, 10) for topic in (JOY, NAV)}
         side = random.choice((-1.0, 1.0))
         slow, fast = random.uniform(0.1, 0.2), random.uniform(0.25, 0.35)
@@ -128,9 +125,8 @@ class RoughDriver(TimedNode):
         random.shuffle(commands)
         commands.insert(random.randint(1, 2), (0.0, 0.0))
         commands.insert(random.randint(4, 5), (math.nan, math.inf))
-        lengths = [
-            20 if command[0] in (0.0, math.inf) or math.isnan(command[0]) else 30 for command in commands
-        ]
+        lengths = [20 if command[0] in (0.0, math.inf) or math.isnan(command[0]) else 30
+                   for command in commands]
         self.ticks, self.plan = 0, list(zip(itertools.accumulate(lengths), commands, strict=True))
 
     def tick(self, now: float) -> None:

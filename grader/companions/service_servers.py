@@ -12,9 +12,8 @@ from std_srvs.srv import Trigger
 from grader.companions.service_clients import call_at
 from sim.evidence import since_start
 
-REFUSALS = (
-    "The door is locked.", "Somebody stands in the way.", "The doorman is at lunch.", "Please wait a moment.",
-)
+REFUSALS = ("The door is locked.", "Somebody stands in the way.", "The doorman is at lunch.",
+            "Please wait a moment.")
 
 
 class Door(Node):

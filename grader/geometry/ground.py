@@ -47,9 +47,8 @@ class Ground:
 
     def cell(self, point: Point) -> Cell:
         """Return the cell that holds a point; for a point outside the map, the nearest one."""
-        column, row = (
-            math.floor((value - low) / RESOLUTION) for value, low in zip(point, self.origin, strict=True)
-        )
+        column, row = (math.floor((value - low) / RESOLUTION)
+                       for value, low in zip(point, self.origin, strict=True))
         return min(max(column, 0), self.columns - 1), min(max(row, 0), self.rows - 1)
 
     def middle(self, cell: Cell) -> Point:

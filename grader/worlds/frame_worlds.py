@@ -37,14 +37,12 @@ def square(seed: int) -> World:
     scout = OtherRobot("scout", (*route[0], 0.0), route, 0.25)
     tower = OtherRobot("tower", (0.0, 0.0, round(draw.uniform(-math.pi, math.pi), 2)))
     robots = scout, tower
-    return walled(
-        "square", seed, FIELD, "A scout drives round a tower.", start=(-3.4, 2.4, 0.0), robots=robots
-    )
+    return walled("square", seed, FIELD, "A scout drives round a tower.", start=(-3.4, 2.4, 0.0),
+                  robots=robots)
 
 
 def ramp(seed: int) -> World:
     """Return a hall with a wall straight ahead, 2.2 m to 3 m away: the lidar sees it, noise and all."""
     bounds = -1.5, -1.0, round(random.Random(f"ramp {seed}").uniform(2.2, 3.0), 2), 1.0
-    return walled(
-        "ramp", seed, bounds, "A hall that goes up towards the wall ahead.", lidar=LidarModel(noise=0.03)
-    )
+    return walled("ramp", seed, bounds, "A hall that goes up towards the wall ahead.",
+                  lidar=LidarModel(noise=0.03))

@@ -38,10 +38,8 @@ def keeps_it_up(run: Recording) -> None:
 @balance.check(3, after=keeps_it_up, only="stands")
 def pushes_in_time(run: Recording) -> None:
     """An effort comes at least every 0.035 s."""
-    with hinting(
-        "Publish in the callback of /joint_states, which comes 100 times a second, and wait for nothing "
-        "there."
-    ):
+    with hinting("Publish in the callback of /joint_states, which comes 100 times a second, and wait for "
+                 "nothing there."):
         keeps_deadline(run, EFFORT, LIMIT)
 
 

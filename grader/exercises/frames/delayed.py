@@ -21,12 +21,11 @@ delayed = Exercise("delayed", "Too early to ask", seconds=6, companions=[SlowLoc
 detections = Stimuli("/detection", answered_on="/found", within=SOON, what="detections")
 
 
-@delayed.check(2)
+@delayed.check(2, guess="A TransformListener hears /tf: TransformListener(self.buffer, self).")
 def subscribes_to_detections(run: Recording) -> None:
     """The node hears /detection (PointStamped) and /tf."""
-    with hinting(guess="A TransformListener hears /tf: TransformListener(self.buffer, self)."):
-        subscribes(run, "/detection", POINT)
-        subscribes(run, "/tf")
+    subscribes(run, "/detection", POINT)
+    subscribes(run, "/tf")
 
 
 @delayed.check(10, after=subscribes_to_detections)

@@ -2,7 +2,7 @@
 
 import math
 
-from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.fields import stamp_words
 from grader.checks.frames import broadcasts
 from grader.companions.sightings import SIGHTINGS, Team
@@ -20,13 +20,12 @@ found_sightings = Stimuli("/sighting", answered_on=FOUND, within=SOON, what="sig
 refused_sightings = Stimuli("/sighting", answered_on=REFUSED, within=SOON, what="sightings of all kinds")
 
 
-@lookup.check(2)
+@lookup.check(2, guess="A TransformListener hears both topics: TransformListener(self.buffer, self).")
 def subscribes_to_sightings(run: Recording) -> None:
     """The node hears /sighting (PointStamped), /tf and /tf_static."""
-    with hinting(guess="A TransformListener hears both topics: TransformListener(self.buffer, self)."):
-        subscribes(run, "/sighting", POINT)
-        subscribes(run, "/tf")
-        subscribes(run, "/tf_static")
+    subscribes(run, "/sighting", POINT)
+    subscribes(run, "/tf")
+    subscribes(run, "/tf_static")
 
 
 @lookup.check(6, after=subscribes_to_sightings, hints={

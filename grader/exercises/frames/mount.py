@@ -2,7 +2,7 @@
 
 import math
 
-from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
 from grader.companions.lidar_mount import Mechanic
 from grader.exercise import Exercise
@@ -14,12 +14,11 @@ STATIC, MOUNTING = "/tf_static", "/mounting"
 mount = Exercise("mount", "Where the lidar sits", seconds=3, companions=[Mechanic], seeds=(1, 2))
 
 
-@mount.check(2)
+@mount.check(2, guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf.")
 def sends_static_transforms(run: Recording) -> None:
     """The node hears /mounting (Pose2D), and publishes transforms on /tf_static."""
-    with hinting(guess=f"A StaticTransformBroadcaster publishes on {STATIC}, a TransformBroadcaster on /tf."):
-        subscribes(run, MOUNTING, "geometry_msgs/msg/Pose2D")
-        publishes(run, STATIC, TF)
+    subscribes(run, MOUNTING, "geometry_msgs/msg/Pose2D")
+    publishes(run, STATIC, TF)
 
 
 @mount.check(5, after=sends_static_transforms)

@@ -4,7 +4,7 @@ import math
 
 from builtin_interfaces.msg import Time
 
-from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks import Missed, otherwise, publishes, subscribes
 from grader.checks.fields import stamp_words
 from grader.checks.frames import FULL_TURN, NEAR, PART, TF, Broadcast, between, broadcasts
 from grader.companions.moving_frames import WheelOdometry
@@ -22,12 +22,11 @@ odometry = Exercise("odometry", "From odometry to a frame", seconds=4, companion
                     seeds=(1, 2))
 
 
-@odometry.check(2)
+@odometry.check(2, guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback.")
 def subscribes_and_broadcasts(run: Recording) -> None:
     """The node hears /wheels/odom, and publishes transforms on /tf."""
-    with hinting(guess="sendTransform of a TransformBroadcaster publishes on /tf: call it in the callback."):
-        subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
-        publishes(run, "/tf", TF)
+    subscribes(run, WHEELS, "nav_msgs/msg/Odometry")
+    publishes(run, "/tf", TF)
 
 
 @odometry.check(5, after=subscribes_and_broadcasts, hints={

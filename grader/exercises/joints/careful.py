@@ -82,9 +82,8 @@ def logs_refusals(run: Recording) -> None:
     "For a moment it pulls with all its might whenever it begins to move. Stuck is a joint that has "
     "pulled so for half a second, and didn't move.": lambda run, jam, later: jam is None,
     "Here it pulls the other way, and its effort is below 0: compare abs(effort) with the limit.":
-        lambda run, jam, later: jam.effort < 0 and any(
-            other.effort > 0 and _is_freed(run, other) for other in _jams(run)
-        ),
+        lambda run, jam, later: jam.effort < 0 and any(other.effort > 0 and _is_freed(run, other)
+                                                       for other in _jams(run)),
     "That is late: half a second of pulling without a movement is enough to know.":
         lambda run, jam, later: later and same(later[0], jam.position, NEAR),
     "It isn't {sent:.2g} where it is stuck. Send the position that the message has for lift_joint: find "

@@ -61,11 +61,9 @@ def draws_the_figure(run: Recording) -> None:
 @draw.check(5, after=draws_the_figure)
 def keeps_off_the_table(run: Recording) -> None:
     """No part of the arm touches the table's edge: the elbow is on the side where the figure is."""
-    keeps_off(
-        run,
-        "To every place there are two ways to bend the arm, mirrored. Take the one whose elbow is on the "
-        "figure's side, away from the table: its angle negative where y > 0, positive where y < 0.",
-    )
+    hint = ("To every place there are two ways to bend the arm, mirrored. Take the one whose elbow is on the "
+            "figure's side, away from the table: its angle negative where y > 0, positive where y < 0.")
+    keeps_off(run, hint)
 
 
 def _figure(run: Recording) -> list[Point]:

@@ -22,9 +22,8 @@ RADIUS = 0.2  # metres by which walls are to be thicker
 
 costmap = Exercise(
     "costmap", "Cells and walls", world=partial(world_of, "clutter"), seconds=8, seeds=(4, 9),
-    companions=lambda seed: [
-        made_for(node, world=world_of("clutter", seed)) for node in (MapServer, PointClicker)
-    ],
+    companions=lambda seed: [made_for(node, world=world_of("clutter", seed))
+                             for node in (MapServer, PointClicker)],
 )
 clicks = Stimuli("/clicked_point", answered_on="/cell_centre", within=0.45)
 

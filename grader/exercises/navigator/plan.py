@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from grader.checks import Missed, hinting, publishes, tenths
+from grader.checks import Missed, hinting, otherwise, publishes, tenths
 from grader.companions.goals import GoalSender
 from grader.companions.maps import CostmapServer, Localization, made_for
 from grader.exercise import Exercise, Scenario
@@ -50,17 +50,13 @@ def answers_a_goal(run: Recording) -> list[Point]:
     return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
 
 
-def _is_reversed(run: Recording, points: list[Point]) -> bool:
-    begin, end = run.world.start[:2], run.world.goal
-    return math.dist(points[0], end) < GAP and math.dist(points[-1], begin) < GAP
-
-
 @plan.check(4, after=answers_a_goal, hints={
-    "The way back from the goal to the start has to be turned round: way[::-1].": _is_reversed,
+    "The way back from the goal to the start has to be turned round: way[::-1].":
+        lambda run, points: math.dist(points[0], run.world.goal) < GAP
+        and math.dist(points[-1], run.world.start[:2]) < GAP,
     "x and y are swapped: a cell is (column, row).":
         lambda run, points: math.dist(points[-1], run.world.goal[::-1]) < GAP,
-    "The way back begins at the goal and ends at the cell that came from nowhere (None).":
-        lambda run, points: True,
+    "The way back begins at the goal and ends at the cell that came from nowhere (None).": otherwise,
 })
 def leads_to_the_goal(run: Recording, points: list[Point]) -> list[Point]:
     """The path leads from the robot to the goal, without gaps of more than 15 cm."""

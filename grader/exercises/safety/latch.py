@@ -3,7 +3,7 @@
 import itertools
 from typing import NamedTuple
 
-from grader.checks import Missed, hinting, publishes, serves, subscribes
+from grader.checks import Missed, publishes, serves, subscribes
 from grader.checks.no_data import no_data
 from grader.checks.twists import OUT, SAME, TWIST, speeds, speeds_text
 from grader.companions.drivers import BUTTON, RAW, RESET, EmergencyOperator
@@ -30,14 +30,13 @@ class Times(NamedTuple):
     cut: Seconds  # the button's last message before its cable was cut
 
 
-@latch.check(3)
+@latch.check(3, guess="Two subscriptions, a publisher for the robot, and create_service(Trigger, ...).")
 def stands_between(run: Recording) -> None:
     """The node hears /cmd_vel_raw and /emergency, serves /reset (Trigger), and publishes on /cmd_vel."""
-    with hinting(guess="Two subscriptions, a publisher for the robot, and create_service(Trigger, ...)."):
-        subscribes(run, RAW, TWIST)
-        subscribes(run, BUTTON, "std_msgs/msg/Bool")
-        serves(run, RESET, "std_srvs/srv/Trigger")
-        publishes(run, OUT, TWIST)
+    subscribes(run, RAW, TWIST)
+    subscribes(run, BUTTON, "std_msgs/msg/Bool")
+    serves(run, RESET, "std_srvs/srv/Trigger")
+    publishes(run, OUT, TWIST)
 
 
 @latch.check(4, after=stands_between)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from grader.checks import Missed, hinting, publishes, subscribes
+from grader.checks import Missed, publishes, subscribes
 from grader.checks.no_data import no_data
 from grader.checks.twists import OUT, SAME, TWIST, Speeds, speeds, speeds_text
 from grader.companions.drivers import JOY, NAV, Drivers
@@ -35,13 +35,12 @@ class MuxSample(NamedTuple):
         return (self.joy if topic == JOY else self.nav) or (0.0, 0.0)
 
 
-@mux.check(3)
+@mux.check(3, guess="Two subscriptions, one for each driver, and a publisher for the robot.")
 def stands_between(run: Recording) -> None:
     """The node hears /cmd_vel_joy and /cmd_vel_nav, and publishes Twist messages on /cmd_vel."""
-    with hinting(guess="Two subscriptions, one for each driver, and a publisher for the robot."):
-        for topic in (JOY, NAV):
-            subscribes(run, topic, TWIST)
-        publishes(run, OUT, TWIST, at_least=10)
+    for topic in (JOY, NAV):
+        subscribes(run, topic, TWIST)
+    publishes(run, OUT, TWIST, at_least=10)
 
 
 @mux.check(5, after=stands_between)

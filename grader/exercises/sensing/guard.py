@@ -8,33 +8,32 @@ from typing import NamedTuple
 import numpy as np
 
 from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, subscribes
+from grader.checks.twists import OUT, TWIST, Speeds, speeds, speeds_text
 from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
 from grader.companions.radio_link import BadRadio, Radio
 from grader.exercise import Exercise, Scenario
-from grader.responses import Window, from_course, last_before, same, speeds
+from grader.responses import Window, from_course, last_before, same
 from grader.responses.speeds import STANDING
+from grader.responses.speeds import speeds as speeds_along
 from grader.worlds.rooms import free_start, long_hall
 from sim import Process
-from sim.evidence import Message, Recording, Seconds, since_start, stamps
+from sim.evidence import Recording, Seconds, since_start, stamps
 
-RAW, OUT, LIDAR = "/cmd_vel_raw", "/cmd_vel", "/lidar"
-TWIST = "geometry_msgs/msg/Twist"
+RAW, LIDAR = "/cmd_vel_raw", "/lidar"
 STEP = 0.1  # seconds between the moments that are looked at
 FRESH = 0.2  # seconds: younger commands and scans are good for sure
 FREE, BLOCKED = 1.0, 0.45  # metres ahead: the limit is 0.5 m
 ENOUGH = 5  # moments
 SETTLING = 1.0  # seconds to notice that something is old, and to brake
 
-Command = tuple[float, float]  # m/s and rad/s
-
 
 class Moment(NamedTuple):
     """What a guard knew at a moment, and what it published."""
 
     stamp: Seconds
-    requested: Command | None  # by the driver; None if that is old, or about to change
+    requested: Speeds | None  # by the driver; None if that is old, or about to change
     ahead: float  # the nearest distance ahead, m; nan where the scans are old
-    sent: Command | None  # None if nothing was sent lately
+    sent: Speeds | None  # None if nothing was sent lately
 
 
 class Ahead(NamedTuple):
@@ -65,9 +64,8 @@ def stands_between(run: Recording) -> None:
 
 @guard.check(4, after=stands_between, hints={
     "There was a fault before, but now all is well again: then the commands should pass again.":
-        lambda run, moment: any(
-            fault.end < moment.stamp for fault in (*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run))
-        ),
+        lambda run, moment: any(fault.end < moment.stamp
+                                for fault in (*_pauses(run, RAW), *_pauses(run, LIDAR), *_delays(run))),
     "Publish from a timer, 20 times a second: without commands the robot stops after 0.5 s.":
         lambda run, moment: moment.sent is None,
     "Zeros, although all is well. Print what is_well() returns: it needs a `return`, and ages are in "
@@ -98,11 +96,9 @@ def lets_through(run: Recording) -> list[Moment]:
 @guard.check(5, after=lets_through)
 def keeps_from_hitting(run: Recording) -> None:
     """The robot touches nothing, wherever the driver steers it."""
-    keeps_clear(
-        run,
-        "When something is nearer than 0.5 m within 30 degrees of straight ahead, linear.x becomes 0. "
-        "These rays lie at both ends of msg.ranges. Fewer are not enough: the robot is 20 cm wide.",
-    )
+    hint = ("When something is nearer than 0.5 m within 30 degrees of straight ahead, linear.x becomes 0. "
+            "These rays lie at both ends of msg.ranges. Fewer are not enough: the robot is 20 cm wide.")
+    keeps_clear(run, hint)
 
 
 @guard.check(2, after=lets_through)
@@ -144,17 +140,15 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsa
     """Raise Missed where the robot still moves, 1 s after a window has begun."""
     for begin, end in windows:
         path = Window(begin + SETTLING, end).rows(run.path)
-        fastest = max(speeds(path), key=lambda speed: (speed.linear, speed.stamp), default=None)
+        fastest = max(speeds_along(path), key=lambda speed: (speed.linear, speed.stamp), default=None)
         if fastest and fastest.linear > STANDING:
             expected = f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)"
             saw = f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s"
             raise Missed(expected, saw, hint, picture="topics", unsafe=unsafe)
 
 
-def _text(command: Command | None) -> str:
-    if command is None:
-        return "no command for 0.3 s"
-    return f"linear.x {command[0]:.3g}, angular.z {command[1]:.3g}"
+def _text(command: Speeds | None) -> str:
+    return "no command for 0.3 s" if command is None else speeds_text(command)
 
 
 def _pauses(run: Recording, topic: str) -> list[Window]:
@@ -192,24 +186,19 @@ def _moments(run: Recording) -> Iterator[Moment]:
     rows = [(now, last_before(sent, now)) for now in times]
     rows += [(row.stamp, row) for row in sent if row.stamp > times[0]]
     for now, last in sorted(rows, key=lambda row: row[0]):
-        seen, commands = (
-            [last_before(rows, now - lag * STEP) for lag in range(4)] for rows in (scans, requested)
-        )
+        seen, commands = ([last_before(rows, now - lag * STEP) for lag in range(4)]
+                          for rows in (scans, requested))
         good = all(seen) and all(scan.age < FRESH and now - scan.stamp < 0.5 for scan in seen)
         good = good and now - seen[0].stamp < FRESH and _agree(seen)
-        steady = all(commands) and len({_command(row) for row in commands}) == 1
+        steady = all(commands) and len({speeds(row) for row in commands}) == 1
         yield Moment(
             now,
-            _command(commands[0]) if steady and now - commands[0].stamp < FRESH else None,
+            speeds(commands[0]) if steady and now - commands[0].stamp < FRESH else None,
             seen[0].distance if good else math.nan,
-            _command(last) if last and now - last.stamp < 0.3 else None,
+            speeds(last) if last and now - last.stamp < 0.3 else None,
         )
 
 
 def _agree(scans: list[Ahead]) -> bool:
     """Whether all are free, or all are blocked."""
     return all(scan.distance > FREE for scan in scans) or all(scan.distance < BLOCKED for scan in scans)
-
-
-def _command(row: Message) -> Command:
-    return row.message.linear.x, row.message.angular.z

@@ -40,11 +40,6 @@ def _largest(headings: Headings) -> float:
     return max(abs(value) for _, value in headings)
 
 
-def _no_number(run: Recording, headings: Headings) -> Any:
-    value = next((value for _, value in headings if not math.isfinite(value)), None)
-    return value is not None and {"value": value}
-
-
 def _ratio(run: Recording, headings: Headings) -> float:
     """The last heading divided by the angle that the robot turned; NaN where it turned too little."""
     steps = (after.yaw - before.yaw for before, after in itertools.pairwise(run.path))
@@ -76,7 +71,9 @@ def _drifts_by_the_bias(run: Recording, headings: Headings) -> Any:
         lambda run, headings: _largest(headings) < 2.0,
     "It is near 0 when the robot stands: that says how fast it turns, not how far. Add up.":
         lambda run, headings: abs(headings[-1][1]) < 2.0 and _largest(headings) > 30.0,
-    "{value} is not a heading: something was divided by zero, or a sum began with no number.": _no_number,
+    "{value} is not a heading: something was divided by zero, or a sum began with no number.":
+        lambda run, headings: (bad := [value for _, value in headings if not math.isfinite(value)])
+        and {"value": bad[0]},
     "The sign is wrong: a positive angular_velocity.z is a turn to the left, and so is the heading.":
         lambda run, headings: -1.2 < _ratio(run, headings) < -0.8,
     "That is the angle in radians: math.degrees(...) turns it into degrees.":

@@ -58,13 +58,8 @@ def _all(condition: Callable[[SectorValue], bool]) -> Callable[..., bool]:
 
 def _returns_in_the_loop(run: Recording, wrong: list[SectorValue]) -> bool:
     first_ray = [answer.value == answer.sector.middle != math.inf for answer in wrong]
-    return any(first_ray) and all(
-        is_first or answer.value == math.inf for is_first, answer in zip(first_ray, wrong, strict=True)
-    )
-
-
-def _is_nearest_around(run: Recording, wrong: list[SectorValue]) -> bool:
-    return all(answer.value == answer.sector.around for answer in wrong if answer.topic == wrong[0].topic)
+    return any(first_ray) and all(is_first or answer.value == math.inf
+                                  for is_first, answer in zip(first_ray, wrong, strict=True))
 
 
 def _sides(wrong: list[SectorValue]) -> list[SectorValue]:
@@ -89,7 +84,8 @@ def _is_too_far_aside(run: Recording, wrong: list[SectorValue]) -> bool:
     "That is the greatest distance. min(...) finds the least one.":
         _all(lambda answer: answer.value is not None and answer.value >= answer.sector.rays.max()),
     "That is the nearest distance of all directions. Are both angles in degrees? math.degrees(...) "
-    "makes degrees of radians.": _is_nearest_around,
+    "makes degrees of radians.":
+        lambda run, wrong: all(it.value == it.sector.around for it in wrong if it.topic == wrong[0].topic),
     "This lidar has 180 rays, and its first one looks back. So don't count rays: work out the angle of "
     "each, msg.angle_min + i * msg.angle_increment.": lambda run, wrong: run.world is None,
     "That is in this direction, but not all of it: take the rays up to 30 degrees to both sides.": _is_within,

@@ -3,7 +3,6 @@
 import itertools
 import math
 import statistics
-from typing import Any
 
 from grader.checks import Missed, keeps_clear, otherwise, passes, publishes, travelled, until_a_touch
 from grader.diagnosis.driving import refused_command
@@ -23,11 +22,6 @@ def _nearest_wall(run: Recording, pose: Pose) -> tuple[float, float]:
     left, low, right, top = run.world.bounds
     gaps = pose.x - left, right - pose.x, pose.y - low, top - pose.y
     return min(zip(gaps, (math.pi, 0.0, -math.pi / 2, math.pi / 2), strict=True))
-
-
-def _usual_gap(run: Recording) -> Any:
-    gap = statistics.median(_nearest_wall(run, pose)[0] for pose in run.path)
-    return not NEAR <= gap <= FAR and {"gap": gap}
 
 
 def _goes_the_other_way(run: Recording) -> bool:
@@ -52,7 +46,9 @@ def leaves_the_start(run: Recording) -> None:
     "It touched a {what} at {stamp:.3g} s, with its {side} side. When the wall ahead is nearer than "
     "0.6 m, stop and turn left until it is free again.":
         lambda run: run.contacts and run.contacts[0]._asdict(),
-    "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.": _usual_gap,
+    "Most of the time it is {gap:.2f} m from the wall. Steer so that it is 0.5 m.":
+        lambda run: (gap := statistics.median(_nearest_wall(run, pose)[0] for pose in run.path))
+        and not NEAR <= gap <= FAR and {"gap": gap},
     "It goes round the other way. The wall should be on its right: at -90 degrees, ranges[270].":
         _goes_the_other_way,
     "It is too slow, or stands at times: the way is about 13 m, so drive at 0.2 m/s or more.":
@@ -116,6 +112,5 @@ def keeps_the_distance(run: Recording) -> None:
 @wall.check(4, after=goes_round)
 def touches_nothing(run: Recording) -> None:
     """It touches nothing."""
-    keeps_clear(
-        run, "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m."
-    )
+    hint = "Before a corner the wall ahead counts: stop, and turn left, when it is nearer than 0.6 m."
+    keeps_clear(run, hint)

@@ -21,7 +21,8 @@ WRONG = {
     "The callback is called with each question: publish in it, whatever the answer is.":
         lambda run, one: not one.answers,
     "These nodes listen there. Those who publish: get_publishers_info_by_topic(topic).":
-        lambda run, one: _names_subscribers(run, one),
+        lambda run, one: (names := set(_names(one))) and not names <= set(one.speakers)
+        and names <= {end.node for end in run.graph.subscriptions(one.topic)},
     f"An empty list of names gives an empty text: publish “{NOBODY}” then.": lambda run, one: not _names(one),
     "A node with two publishers is in the list twice: make a set of the names first.":
         lambda run, one: len(_names(one)) > len(set(_names(one))),
@@ -112,9 +113,3 @@ def _names(one: GraphQuestion) -> list[str]:
 
 def _bare(names: Iterable[str]) -> set[str]:
     return {name.rpartition("/")[2] for name in names}
-
-
-def _names_subscribers(run: Recording, one: GraphQuestion) -> bool:
-    subscribers = {end.node for end in run.graph.subscriptions(one.topic)}
-    names = set(_names(one))
-    return bool(names) and names <= subscribers and not names <= set(one.speakers)
