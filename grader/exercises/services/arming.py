@@ -53,8 +53,7 @@ def reports_its_state(run: Recording) -> None:
         lambda run, call: not _commands(run, "linear.x") and _commands(run, "angular.z"),
     "All commands were 0: does arm set self.armed (with self), and does drive look at it?":
         lambda run, call: not _commands(run, "linear.x"),
-    SWITCHES: lambda run, call: (before := _before(run, call))
-    and travelled(run.during(before[0].requested, (*before, call)[1].requested)) > 0.1,
+    SWITCHES: lambda run, call: _drives_before_the_second_call(run, call),
     "A second data=True must not switch it off again: write self.armed = request.data.":
         lambda run, call: any(other.request.data for other in _before(run, call)[-1:]),
     f"In drive: linear.x = {SPEED} if self.armed. Send a command at each call, 10 times a second.": otherwise,
@@ -127,3 +126,8 @@ def _before(run: Recording, call: Call) -> list[Call]:
 
 def _commands(run: Recording, field: str) -> bool:
     return any(value for _, value in series(run, "/cmd_vel", field))
+
+
+def _drives_before_the_second_call(run: Recording, call: Call) -> bool:
+    first, second = course_calls(run, ARM, CALLS)[:2]
+    return bool(_before(run, call)) and travelled(run.during(first.requested, second.requested)) > 0.1
