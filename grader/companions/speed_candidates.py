@@ -12,9 +12,8 @@ FASTEST, GAP = 0.5, 0.2  # m/s, m
 Speed = Callable[[float, float], float]
 
 
-def _allowed(
-    gap: float = GAP, fastest: float = FASTEST, back: float = FASTEST, brakes: float = 1.0, part: float = 1.0
-) -> Speed:
+def _allowed(gap: float = GAP, fastest: float = FASTEST, back: float = FASTEST, brakes: float = 1.0,
+             part: float = 1.0) -> Speed:
     """Return a function that keeps the contract, or one with another figure in it."""
 
     def speed(distance: float, requested: float) -> float:

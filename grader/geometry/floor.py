@@ -26,9 +26,8 @@ def points_of(scan: Any, pose: Sequence[float]) -> np.ndarray:
     return np.column_stack((pose[0] + ranges[rays] * np.cos(angles), pose[1] + ranges[rays] * np.sin(angles)))
 
 
-def far_from(
-    points: Iterable[Sequence[float]], others: Iterable[Sequence[float]], reach: float
-) -> list[Sequence[float]]:
+def far_from(points: Iterable[Sequence[float]], others: Iterable[Sequence[float]],
+             reach: float) -> list[Sequence[float]]:
     """Those points that are farther than `reach` (m) from all the others."""
     return [point for point in points if all(math.dist(point, other) > reach for other in others)]
 
@@ -76,9 +75,8 @@ class Floor:
         row = ((points[:, 1] - self.bottom) / self.info.resolution).astype(int).clip(0, self.info.height - 1)
         return thinned(points[~self.known[row, column]].tolist())
 
-    def way(
-        self, start: Sequence[float], goal: Sequence[float], obstacles: Iterable[Sequence[float]] = ()
-    ) -> list[Point]:
+    def way(self, start: Sequence[float], goal: Sequence[float],
+            obstacles: Iterable[Sequence[float]] = ()) -> list[Point]:
         """Points from start to goal, clear of the map and the obstacles, by A*; [] where there is no way."""
         closed = self.closed.copy()
         for point in obstacles:

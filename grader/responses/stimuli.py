@@ -12,9 +12,8 @@ from grader.responses.window import EDGE, Row, Window
 from sim.evidence import Call, Message, Recording, Seconds
 
 
-def from_course(
-    run: Recording, topic: str, *, at_least: int = 1, settled: Seconds = 0.0, what: str = ""
-) -> list[Message]:
+def from_course(run: Recording, topic: str, *, at_least: int = 1, settled: Seconds = 0.0,
+                what: str = "") -> list[Message]:
     """Return the messages that the course's programs published on a topic.
 
     Their stamps are those at which the student's programs received them; see `Recording.received`.
@@ -77,9 +76,8 @@ class Stimulus:
         """Return a field of each response, such as "data" or "linear.x"."""
         return [_field(row.message, field) for row in self.responses]
 
-    def expects(
-        self, wanted: Any, *, field: str = "data", tolerance: float = 1e-6, hint: str = "", **about: Any
-    ) -> None:
+    def expects(self, wanted: Any, *, field: str = "data", tolerance: float = 1e-6, hint: str = "",
+                **about: Any) -> None:
         """Require a response with this value in a field; raise Missed if there is none.
 
         about: further arguments of `Missed`, such as `credit`.
@@ -120,9 +118,8 @@ class Stimuli:
     not_before: Seconds = 0.0
     what: str = ""
 
-    def __call__(
-        self, run: Recording, *, where: Callable[[Any], bool] | None = None, at_least: int = 1
-    ) -> list[Stimulus]:
+    def __call__(self, run: Recording, *, where: Callable[[Any], bool] | None = None,
+                 at_least: int = 1) -> list[Stimulus]:
         """Return the stimuli of a run that had time for a response, each with its responses.
 
         where: picks them by their message object. Raises as `no_data` for fewer than `at_least`.

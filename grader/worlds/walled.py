@@ -6,9 +6,8 @@ from grader.geometry import rectangle
 from sim.world import World
 
 
-def walled(
-    name: str, seed: int, bounds: tuple[float, float, float, float], picture: str, **figures: Any
-) -> World:
+def walled(name: str, seed: int, bounds: tuple[float, float, float, float], picture: str,
+           **figures: Any) -> World:
     """Return a world with walls along its bounds (left, bottom, right, top; m).
 
     picture: its card's first line. figures: further fields of `World`, such as `start`.

@@ -151,9 +151,8 @@ def _windows(run: Recording, cause: Callable[[KnownState], str]) -> list[tuple[W
     return [(Window(begin, end), why) for (why, begin), end in zip(begins, ends, strict=False) if why]
 
 
-def _require_at_most(
-    run: Recording, speed: float, cause: Callable[[KnownState], str], hint: str, unsafe: bool = False
-) -> None:
+def _require_at_most(run: Recording, speed: float, cause: Callable[[KnownState], str], hint: str,
+                     unsafe: bool = False) -> None:
     """Raises Missed where the robot is faster than that (m/s) although a cause has held for a while."""
     found = [row for row in _windows(run, cause) if row[0].end - row[0].begin > BRAKING]
     if not found:

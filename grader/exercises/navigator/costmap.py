@@ -58,9 +58,8 @@ def publishes_a_costmap(run: Recording, given: Any) -> tuple[Any, Any]:
     return given, made
 
 
-def _centre(
-    info: Any, point: Point, whole: Callable[[float], float] = math.floor, offset: float = 0.5
-) -> Point:
+def _centre(info: Any, point: Point, whole: Callable[[float], float] = math.floor,
+            offset: float = 0.5) -> Point:
     corner = info.origin.position
     return tuple(
         low + (whole((value - low) / info.resolution) + offset) * info.resolution
