@@ -1,8 +1,11 @@
 """Programs that drive the robot, without looking where: Twist on /cmd_vel, ten times a second."""
 
+import functools
 import random
+from collections.abc import Callable
 
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 
 from grader.companions.drivers import Speeds, TimedNode, twist
 
@@ -96,3 +99,21 @@ class CrashingDriver(BlindDriver):
     def command(self, now: float) -> Speeds | None:
         """Ahead, except in the pause."""
         return None if self.start < now < self.start + 3.0 else (0.4, 0.0)
+
+
+class Turner(BlindDriver):
+    """Turns the robot on the spot."""
+
+    def __init__(self, seed: int) -> None:
+        super().__init__("turner")
+        draw = random.Random(f"turner {seed}")
+        self.turn = draw.choice((-1.0, 1.0)) * draw.uniform(0.3, 0.6)  # rad/s
+
+    def command(self, now: float) -> Speeds:
+        """Always the same."""
+        return 0.0, self.turn
+
+
+def turner(seed: int) -> list[Callable[[], Node]]:
+    """Return the program of a seed, as companions of a run."""
+    return [functools.partial(Turner, seed)]

@@ -6,8 +6,7 @@ import math
 import pytest
 
 from grader.companions.figure import figure
-from grader.companions.joint_paths import CRUISE, LESSON, NAMES, paths
-from grader.companions.joint_positions import poses, stations
+from grader.companions.joint_targets import CRUISE, LESSON, NAMES, paths, poses, stations
 from grader.companions.lift import plan
 from grader.worlds.arms import EDGE, arm_of, desk_of, joint_of, side_of
 

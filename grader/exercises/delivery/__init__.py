@@ -1,11 +1,11 @@
 """The exercises of 13_delivery, the delivery robot: from the graph on paper to one that drives."""
 
 from grader.checks import questions
+from grader.companions.blind_drivers import turner
 from grader.companions.faulty_perception import partners
 from grader.companions.map_messages import KEPT, flat, listed, seconds, stamped
 from grader.companions.planned_nodes import ShelfCamera, publishes, sketch, subscribes
 from grader.companions.scripted_orders import desk
-from grader.companions.turner import turner
 from grader.exercises.delivery.blueprint import blueprint
 from grader.exercises.delivery.decide import decide
 from grader.exercises.delivery.deliver import deliver, programs, shift_of

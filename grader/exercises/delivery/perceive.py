@@ -7,7 +7,7 @@ import numpy as np
 
 from grader.checks import Missed, publishes
 from grader.checks.no_data import no_data
-from grader.companions.turner import turner
+from grader.companions.blind_drivers import turner
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
 from grader.geometry.floor import far_from, points_of

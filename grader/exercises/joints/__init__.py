@@ -1,8 +1,7 @@
 """The exercises of 08_joints, from seven positions to an arm that draws."""
 
 from grader.companions.figure import Designer, designer
-from grader.companions.joint_paths import teacher
-from grader.companions.joint_positions import foreman, gymnast
+from grader.companions.joint_targets import foreman, gymnast, teacher
 from grader.companions.lift import lift
 from grader.exercises.joints.arrive import arrive
 from grader.exercises.joints.careful import careful

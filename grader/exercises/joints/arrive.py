@@ -3,7 +3,7 @@
 import itertools
 
 from grader.checks import Missed, otherwise, publishes, tip_at, tip_path
-from grader.companions.joint_positions import foreman
+from grader.companions.joint_targets import foreman
 from grader.exercise import Exercise
 from grader.responses import Window, from_course, listed, matches, same
 from grader.worlds.arms import joint_of

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from grader.checks import Missed, hinting, publishes, subscribes
 from grader.checks.joints import described_limits
 from grader.checks.no_data import no_data
-from grader.companions.joint_positions import gymnast
+from grader.companions.joint_targets import gymnast
 from grader.exercise import Exercise
 from grader.responses import Window, from_course, last_before, text_of
 from grader.worlds.arms import arm_of

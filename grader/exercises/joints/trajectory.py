@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, sends_goals
 from grader.checks.joints import FOLLOW_TRAJECTORY
-from grader.companions.joint_paths import CRUISE, teacher
+from grader.companions.joint_targets import CRUISE, teacher
 from grader.exercise import Exercise
 from grader.responses import Window, from_course, last_before, same
 from grader.worlds.arms import arm_of

@@ -1,8 +1,7 @@
 """The exercises of 02_topics, from a publisher in one line to a robot that drives a square."""
 
-from grader.companions.chatterbox import Chatterbox
-from grader.companions.command_sender import CommandSender
 from grader.companions.one_metre import OneMetre
+from grader.companions.random_publishers import Chatterbox, CommandSender
 from grader.exercises.topics.chatters import chatters
 from grader.exercises.topics.commands import commands
 from grader.exercises.topics.greeting import greeting

@@ -3,7 +3,7 @@
 import itertools
 
 from grader.checks import Missed, subscribes
-from grader.companions.chatterbox import Chatterbox
+from grader.companions.random_publishers import Chatterbox
 from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import LogLine, Message, Recording

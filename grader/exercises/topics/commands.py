@@ -3,7 +3,7 @@
 from typing import Any
 
 from grader.checks import Missed, answers, subscribes
-from grader.companions.command_sender import COMMANDS, CommandSender
+from grader.companions.random_publishers import COMMANDS, CommandSender
 from grader.exercise import Exercise
 from grader.responses import Window
 from sim.evidence import LogLine, Message, Recording
