@@ -10,7 +10,7 @@ import numpy as np
 from grader.checks import Missed, keeps_clear, lasts, otherwise, publishes, subscribes
 from grader.checks.twists import OUT, TWIST, Speeds, speeds, speeds_text
 from grader.companions.blind_drivers import CarelessDriver, CrashingDriver
-from grader.companions.radio import BadRadio, Radio
+from grader.companions.radios import BadRadio, Radio
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, from_course, last_before, same
 from grader.responses.speeds import STANDING

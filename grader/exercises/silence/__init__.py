@@ -2,7 +2,7 @@
 
 from grader.companions.joystick import SilentJoystick
 from grader.companions.latched_map import LatchedMap, LateSubscriber
-from grader.companions.radio import RADIO, RadioLidar
+from grader.companions.radios import RADIO, RadioLidar
 from grader.companions.silent_systems import silent_systems
 from grader.companions.speakers import speakers
 from grader.exercises.silence.doctor import doctor

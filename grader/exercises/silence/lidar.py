@@ -4,7 +4,7 @@ import bisect
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes
-from grader.companions.radio import RADIO, RadioLidar
+from grader.companions.radios import RADIO, RadioLidar
 from grader.exercise import Exercise
 from grader.responses import EDGE, from_course
 from sim.evidence import Recording, Seconds
