@@ -13,7 +13,7 @@ from sim.nanoseconds import Nanoseconds, nanoseconds
 # What may vary: between processes on one machine; between machines; whatever nothing guarantees.
 HOST, NETWORK, ANY = LEVELS = "host", "network", "any"
 SPREAD = 0.005  # s
-LATEST_START = 0.5  # s
+LATEST_START, STARTS_LATE = 0.5, 0.5  # s, and the share of programs that start later
 MOST_PROGRAMS = 10  # whose starts are looked at to know when all have started
 INTENSITIES = 0.05, 0.2, 0.5  # of the choices made, the share that departs from the usual one
 _FORM = re.compile(
@@ -104,7 +104,7 @@ class Order:
     def start(self, program: int) -> tuple[Draw, Nanoseconds]:
         """How much later than usual the student's program of this number starts, and what is drawn for it."""
         draw = self.draw("start", program)
-        late = self.departs(draw, self.intensity)
+        late = self.departs(draw, STARTS_LATE)
         return draw, int(draw.value * nanoseconds(self.late)) if late else 0
 
     @property

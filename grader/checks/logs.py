@@ -89,7 +89,7 @@ def come_every(
     stamps = [line.stamp for line in lines]
     gaps = [after - before for before, after in itertools.pairwise(stamps)]
     if gaps and all(abs(gap - period) <= 0.1 * period for gap in gaps):
-        late = stamps[0] - recording.begin > 1.6 * period
+        late = stamps[0] - max(recording.begin, recording.started_at) > 1.6 * period
         if not late and worked_until(recording) - stamps[-1] <= 1.6 * period:
             _set_by_a_timer(recording, period, credit, lines)
             return lines

@@ -16,6 +16,7 @@ PARTS = (
     "machines",
     "transforms",
     "repeats",
+    "orders",
     "digests",
     "grading",
     "sandbox",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from sim.evidence import Departure
 from sim.nanoseconds import SECOND, Nanoseconds, nanoseconds
@@ -10,6 +11,8 @@ from sim.order import Draw, Order
 from sim.ros.fibers.fiber import Fiber, Program
 
 MOST_PREEMPTIONS = 8  # in a run: almost all known faults need one or two
+PICKED_LINES = 1.2  # times the intensity: the share of lines before which threads may be preempted
+LATE_VISITS = 300  # executions of a line before which it may begin at the latest
 FIRST, USUAL, LAST = -1, 0, 1
 
 
@@ -86,22 +89,39 @@ class Choices:
 
     # -- threads -----------------------------------------------------------------------------------
 
-    def preemption(self, fiber: Fiber, function: str, line: int) -> Nanoseconds | None:
-        """How long a thread has to wait before it executes a line; None where it isn't preempted.
+    def preemption(self, fiber: Fiber, function: str, line: int) -> Preempted | None:
+        """How a thread is preempted before it executes a line; None where it isn't.
 
-        0 is until all others have had a turn.
+        An order picks some lines, and for each the time of its execution from which on it may happen there:
+        so it reaches what threads do late, too, with few preemptions.
         """
         program = fiber.process
         program.visits[function, line] += 1
-        draw = self.order.draw("thread", program.key, function, line, program.visits[function, line])
-        if self.order.only is None and self._preemptions >= MOST_PREEMPTIONS:
-            return None
-        if not self.order.departs(draw, self.order.intensity**2 / 2):
+        visit = program.visits[function, line]
+        draw = self.order.draw("thread", program.key, function, line, visit)
+        if self.order.only is None:
+            at = self.order.draw("line", program.key, function, line)
+            picked = at.chance < PICKED_LINES * self.order.intensity
+            if not picked or visit < LATE_VISITS**at.value or self._preemptions >= MOST_PREEMPTIONS:
+                return None
+        if not self.order.departs(draw, 0.5):
             return None
         self._preemptions += 1
         text = f"{_label(fiber)} is preempted before line {line} of {function}"
         self.list(draw, program.key, "thread", text)
-        return int(max(0.0, 2 * draw.value - 1) * nanoseconds(self.order.spread))
+        longest = nanoseconds(2 * self.order.spread)
+        return Preempted(int(max(0.0, 2 * draw.value - 1) * longest), draw.value < 0.25 and longest)
+
+
+class Preempted(NamedTuple):
+    """A thread's preemption.
+
+    wait: until it goes on; 0 is until all others have had a turn. patience: until one of them has done
+    something, but at most so long; 0 for not at all.
+    """
+
+    wait: Nanoseconds
+    patience: Nanoseconds
 
 
 def _label(fiber: Fiber) -> str:

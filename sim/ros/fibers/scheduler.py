@@ -80,9 +80,16 @@ class Scheduler:
 
     def preemption_point(self, function: str, line: int) -> None:
         """The current fiber is about to execute this line of a student's function: it may have to wait."""
-        delay = self.choices.preemption(self.current, function, line)
-        if delay is not None:
-            self.wait("its turn", ready=lambda: self.now >= until, until=(until := self.now + delay))
+        preempted = self.choices.preemption(self.current, function, line)
+        if preempted is None:
+            return
+        program, begin = self.current.process, self.now
+        steps = program.steps + 1  # others have taken one
+
+        def is_over() -> bool:
+            return self.now >= begin + preempted.wait and (not preempted.patience or program.steps >= steps)
+
+        self.wait("its turn", ready=is_over, until=begin + max(preempted.wait, preempted.patience))
 
     def wake_all(self) -> None:
         """Something happened that may concern any executor: let each that is waiting look for work."""
