@@ -1,4 +1,5 @@
 import sys
+from dataclasses import replace
 from functools import partial
 
 import pytest
@@ -16,6 +17,7 @@ from grader.workspace.building import Built
 from grader.workspace.package import Package
 from grader.workspace.package_xml import PackageXml
 from sim import Network, Process, World
+from tests.grader.test_orders import PairsByArrival, adds  # noqa: F401 (a fixture)
 from tests.students import misfits, mistakes
 from tests.students.engine import output
 
@@ -357,6 +359,81 @@ def test_a_mistake_of_ours_is_flagged(capfd):
     assert [verdict.name for verdict in score.broken] == ["mistaken"]
     said = capfd.readouterr()
     assert (said.out, said.err) == ("to be taken back\n\n", "")
+
+
+class BreaksDown:
+    """A program of the course that fails, in the second of two runs."""
+
+    def __call__(self, seed):
+        if seed == 2:
+            raise RuntimeError("to be taken back")
+        return []
+
+
+def test_a_run_that_we_fail_in_has_only_broken_checks_and_shows_its_seed():
+    scenarios = [Scenario(seconds=1, seed=1, name="quiet"), Scenario(seconds=1, seed=2, name="loud")]
+    scenarios = [replace(scenario, companions=BreaksDown()) for scenario in scenarios]
+    both = Exercise("both", "Two runs", scenarios=scenarios)
+    both.check(1, only="quiet")(documented)
+    both.check(1, only="loud")(starts)
+    score = both.grade(misfits.Talker)
+    assert (score, statuses(score)) == (1.0, {"documented": "passed", "starts": "broken"})
+    assert [recording.seed for recording in score.recordings] == [1, 2]
+
+
+def starts(run):
+    """It starts."""
+
+
+@pytest.fixture
+def lucky():
+    """Holds with three seeds of four."""
+    exercise = Exercise("lucky", "Four runs", seeds=(1, 2, 3, 4), seconds=1)
+    exercise.check(1)(starts)
+
+    @exercise.check(1)
+    def is_lucky(run):
+        """It is lucky."""
+        if run.seed == 3 and run.messages("/greeting"):
+            raise Missed("luck", "none")
+
+    return exercise
+
+
+def test_in_an_order_the_run_is_shown_in_which_something_is_missed(lucky):
+    recording, holds = lucky.in_order(partial(Greets, "/greeting"), order="k3f9")
+    assert (recording.seed, recording.order, holds) == (3, "k3f9", False)
+
+
+def test_in_an_order_in_which_nothing_is_missed_the_first_run_is_shown(lucky):
+    for order, text in {0: "", 1: "1", "k3f9": "k3f9"}.items():
+        recording, holds = lucky.in_order(partial(Greets, "/chatter"), order=order)
+        assert (recording.seed, recording.order, holds) == (1, text, True)
+
+
+def test_in_an_order_what_can_not_be_run_shows_an_empty_run(lucky):
+    recording, holds = lucky.in_order(5, order=0)
+    assert (recording.messages("/chatter"), holds) == ([], False)
+
+
+class Greets(Node):
+    def __init__(self, topic):
+        super().__init__("greeter")
+        self.publisher = self.create_publisher(String, topic, 10)
+        self.create_timer(0.2, lambda: self.publisher.publish(String(data="hello")))
+
+
+def test_what_is_missed_in_another_order_alone_has_its_own_difference_unless_the_order_is_private(adds):  # noqa: F811
+    score = adds.grade(PairsByArrival)
+    assert score == 0.0
+    difference = score.differences[0]
+    assert (difference.public, bool(difference.usual.departures), bool(difference.other.departures)) == (
+        True,
+        False,
+        True,
+    )
+    private = adds.judge(LocalPrograms([PairsByArrival]), "a secret")
+    assert [difference.public for difference in private.differences][:1] == [False]
 
 
 @check(points=1)

@@ -4,7 +4,7 @@ import pytest
 
 from grader import Missed, check
 from grader.checks import Check, hinting, otherwise
-from grader.checks.check import new_check
+from grader.checks.check import new_check, tenths
 from sim.evidence import Ended, Recording
 
 
@@ -192,3 +192,11 @@ def test_a_miss_without_a_table_of_hints_has_none():
     with pytest.raises(Missed) as caught:
         new_check(counts, 1)(Recording())
     assert caught.value.hint == ""
+
+
+@pytest.mark.parametrize(
+    ("credit", "earned"),
+    [(0.0, 0.0), (0.34, 0.3), (0.7 - 0.4, 0.3), (0.29999, 0.2), (0.99, 0.9), (1.0, 1.0), (1.7, 1.0), (-0.3, 0.0)],
+)
+def test_a_part_of_the_points_is_rounded_down_to_tenths(credit, earned):
+    assert tenths(credit) == earned

@@ -7,6 +7,7 @@ from grader import Missed
 from grader.checks.course_goals import (
     FIBONACCI,
     FIBONACCI_TYPE,
+    fibonacci_offered,
     goal_text,
     has_the_result,
     is_succeeded,
@@ -44,8 +45,15 @@ def test_the_courses_goals_for_a_server_are_given():
     ours, theirs = goal(), goal(from_course=False)
     run = recording(goals=[theirs, ours], graph=Graph(["/server"], [SERVER]))
     assert offered(run, FIBONACCI, FIBONACCI_TYPE) == [ours]
-    miss = missed(offered, recording(goals=[ours]), FIBONACCI, FIBONACCI_TYPE, "Offer one.")
-    assert (miss.expected, miss.hint) == (f"an action server /fibonacci of type {FIBONACCI_TYPE}", "Offer one.")
+    assert fibonacci_offered(run) == [ours]
+    for miss in (
+        missed(offered, recording(goals=[ours]), FIBONACCI, FIBONACCI_TYPE),
+        missed(fibonacci_offered, recording(goals=[ours])),
+    ):
+        assert miss.expected == f"an action server /fibonacci of type {FIBONACCI_TYPE}"
+    assert miss.hint == (
+        'ActionServer(self, Fibonacci, "/fibonacci", self.execute): node, type, name and callback.'
+    )
 
 
 def test_a_server_that_is_gone_before_a_goal_is_missed():
