@@ -14,6 +14,7 @@ from sim.ros.bundled_programs import PROGRAMS, alternative, command, module_in_a
 from sim.ros.workspaces import INDEX, LAYOUT
 from sim.suggestions import closest_match
 
+WHEEL_SCRIPT = b"python\n"  # after #!: setuptools writes it for `scripts=`, and no kernel finds that program
 BUILT_HERE = "share/colcon-core/packages"  # in an install prefix that colcon has written
 
 
@@ -70,12 +71,13 @@ def command_of(package: str, name: str) -> list[str]:
 
 
 def bundled_command(package: str, name: str) -> list[str] | None:
-    """The command for a program that the course includes and that is not installed; None for any other.
+    """The command for a program that is not installed, or that the system can't start; None for any other.
 
-    Raises ExecutableNotFound for a program that such a package does not have here.
+    The former are those that the course includes. Raises ExecutableNotFound for those that it does not.
     """
     if _is_installed_program(package, name):
-        return None
+        file = prefix_of(package) / "lib" / package / name
+        return [sys.executable, str(file)] if _first_line(file) == WHEEL_SCRIPT else None
     _check_bundled(package, name)
     return command(package, name)
 
@@ -193,12 +195,19 @@ def _why_no_program(prefix: Path, package: str, name: str, programs: list[str]) 
             f"{name} was installed into bin, and not into lib/{package}. "
             f"In setup.cfg, [install] must say install_scripts=$base/lib/{package}."
         )
+    if (prefix / "lib" / package / name).is_file():
+        return (
+            f"{name} of {package} is not executable. Run chmod +x on its source, or install it with "
+            "install(PROGRAMS ...) in CMakeLists.txt, and build it again."
+        )
+    if (prefix / "share" / package / "cmake").is_dir():
+        where, how = "CMakeLists.txt", f"Install one with install(PROGRAMS ... DESTINATION lib/{package})"
+        how += " in its CMakeLists.txt"
+    else:
+        where, how = "'console_scripts' of setup.py", "Name one in 'console_scripts' of its setup.py"
     if not programs:
-        return f"{package} has none. Name one in 'console_scripts' of its setup.py, and build it again."
-    return (
-        f"{_no_such(package, name, programs)} What is new in 'console_scripts' of "
-        "setup.py is there after the next colcon build."
-    )
+        return f"{package} has none. {how}, and build it again."
+    return f"{_no_such(package, name, programs)} What is new in {where} is there after the next colcon build."
 
 
 def _no_such(package: str, name: str, programs: list[str]) -> str:

@@ -15,19 +15,23 @@ def why_unavailable(package: str) -> str:
     """Why a package in a workspace here was not found, and what to do; "" for any other."""
     for folder in _workspaces():
         shown = os.path.relpath(folder)
+        descriptions = {file: read_name(file) for file in _descriptions(folder / "src")}
+        for file, (_, error) in descriptions.items():
+            if error and file.parent.name == package:  # colcon builds it as a plain Python package
+                return f"{os.path.relpath(file)} is not valid: {error}. Correct it, and build again."
         if (folder / "install" / LAYOUT).exists() and _is_installed(folder / "install", package):
             return f"it is built, and not sourced: source('{shown}/install/setup.bash') does that."
-        if any(name_in(file) == package for file in _descriptions(folder / "src")):
+        if any(name == package for name, _ in descriptions.values()):
             return f"it is in {shown}/src, and not built: run colcon build in {shown}."
     return ""
 
 
-def name_in(file: Path) -> str:
-    """The package's name in a package.xml, or "" if there is none."""
+def read_name(file: Path) -> tuple[str, str]:
+    """The package's name in a package.xml, and why it can't be read; one of them is ""."""
     try:
-        return (ElementTree.parse(file).findtext("name") or "").strip()
-    except ElementTree.ParseError:
-        return ""
+        return (ElementTree.parse(file).findtext("name") or "").strip(), ""
+    except ElementTree.ParseError as error:
+        return "", str(error)
 
 
 def _workspaces() -> Iterator[Path]:

@@ -43,9 +43,11 @@ def run_(output: Output, options: Namespace) -> None:
         command = command_of(package, name)
     except (PackageNotFound, ExecutableNotFound) as error:
         raise CliError(str(error)) from None
-    process = subprocess.Popen(
-        [*shlex.split(options.prefix or ""), *command, *options.argv], env=environment_before()
-    )
+    words = [*shlex.split(options.prefix or ""), *command, *options.argv]
+    try:
+        process = subprocess.Popen(words, env=environment_before())
+    except OSError as error:
+        raise CliError(f"{words[0]} can't be started: {error.strerror}. Look at its first line.") from None
     while process.returncode is None:
         with contextlib.suppress(KeyboardInterrupt):  # the program gets SIGINT, too
             process.wait()

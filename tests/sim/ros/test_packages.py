@@ -1,12 +1,14 @@
 """Packages that colcon built, as programs of a run."""
 
+import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from sim import Process, executable, run, source
 from sim.ros import packages
-from tests.sim.ros.workspaces import as_it_was, build, with_programs
+from tests.sim.ros.workspaces import BEEP, as_it_was, build, with_programs
 
 
 @pytest.fixture(scope="module")
@@ -154,3 +156,84 @@ def test_what_cannot_be_sourced_is_refused(tmp_path):
     with pytest.raises(RuntimeError) as failed:
         source(where)
     assert str(failed.value) == f"bash can't source {where}: it is broken"
+
+
+@pytest.fixture
+def installed(tmp_path, monkeypatch):
+    """A function that makes a package with files in lib/PACKAGE (name to text and mode), and its folder."""
+
+    def install(package, files, *folders):
+        prefix = tmp_path / "install"
+        for folder in (packages.INDEX + "/packages", f"lib/{package}", *folders):
+            (prefix / folder).mkdir(parents=True)
+        (prefix / packages.INDEX / "packages" / package).write_text("")
+        for name, (text, mode) in files.items():
+            (prefix / "lib" / package / name).write_text(text)
+            (prefix / "lib" / package / name).chmod(mode)
+        monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+        return prefix / "lib" / package
+
+    return install
+
+
+def why_not(package, name):
+    with pytest.raises(packages.ExecutableNotFound) as caught:
+        packages.command_of(package, name)
+    return str(caught.value).removeprefix("No executable found: ")
+
+
+def test_a_script_that_is_not_executable_is_named(installed):
+    installed("mine", {"beep": (BEEP, 0o644), "other": (BEEP, 0o755)})
+    assert why_not("mine", "beep") == (
+        "beep of mine is not executable. Run chmod +x on its source, or install it with "
+        "install(PROGRAMS ...) in CMakeLists.txt, and build it again."
+    )
+
+
+def test_a_cmake_package_has_no_setup_py(installed):
+    installed("mine", {}, "share/mine/cmake")
+    assert why_not("mine", "beep") == (
+        "mine has none. Install one with install(PROGRAMS ... DESTINATION lib/mine) in its CMakeLists.txt, "
+        "and build it again."
+    )
+
+
+def test_a_cmake_package_with_other_programs_names_them(installed):
+    installed("mine", {"other": (BEEP, 0o755)}, "share/mine/cmake")
+    assert why_not("mine", "beep") == (
+        "mine has other, and no beep. What is new in CMakeLists.txt is there after the next colcon build."
+    )
+
+
+def test_a_script_that_setuptools_installed_is_started_by_this_python(installed):
+    """Of `scripts=` it writes a copy that begins with #!python, which is no program's path."""
+    text = "#!python\nprint('it runs')\n"
+    folder = installed("mine", {"hello": (text, 0o755)})
+    command = [sys.executable, str(folder / "hello")]
+    assert packages.command_of("mine", "hello") == packages.bundled_command("mine", "hello") == command
+    recording = run(executable("mine", "hello"), seconds=1, quiet=True)
+    assert "".join(text for _, text in recording.prints) == "it runs\n"
+
+
+def test_a_program_without_an_interpreter_is_refused_in_a_sentence(installed):
+    folder = installed("mine", {"beep": ("#!/nowhere/python\n", 0o755)})
+    ros2 = Path(sys.executable).with_name("ros2")
+    done = subprocess.run([ros2, "run", "mine", "beep"], capture_output=True, text=True, check=False)
+    reason = "can't be started: No such file or directory. Look at its first line."
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", f"{folder}/beep {reason}\n")
+
+
+def test_a_package_xml_that_cannot_be_read_is_named_even_if_colcon_built_the_package(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ws/src/broken").mkdir(parents=True)
+    text = "<package>\n<name>broken</name>\n<depend>a<depend>\n</package>\n"
+    (tmp_path / "ws/src/broken/package.xml").write_text(text)
+    (tmp_path / "ws/install").mkdir()
+    (tmp_path / "ws/install/.colcon_install_layout").write_text("isolated\n")
+    index = tmp_path / "ws/install/broken" / packages.INDEX / "packages"
+    index.mkdir(parents=True)
+    (index / "broken").write_text("")
+    assert reason("broken") == (
+        "Package 'broken' not found: ws/src/broken/package.xml is not valid: mismatched tag: line 4, column "
+        "2. Correct it, and build again."
+    )
