@@ -10,6 +10,7 @@ from grader.diagnosis import (
     first_attempts,
     missed_messages,
     names,
+    order_findings,
     owners,
     parameters,
     radio,
@@ -88,7 +89,7 @@ def find_flaw(recording: Recording) -> str:
     certain = [diagnose for diagnose in DIAGNOSES if diagnose not in GUESSES]
     unused = certain.index(activity.unused_publisher)  # what is likelier comes before
     ordered = (*certain[:unused], *FIRST_ATTEMPTS, *certain[unused:], *FLAWS)
-    return _first(recording, ordered)
+    return _first(recording, ordered) or order_findings.find(recording)
 
 
 def _first(recording: Recording, diagnoses: Iterable[Callable[[Recording], str]]) -> str:
