@@ -63,8 +63,8 @@ $(VENV)/.tools: .ci/tools.lock $(VENV)/.requirements
 	@sh .ci/setup $(VENV) .ci/tools.lock
 	@touch $@
 
-SOURCES = pyproject.toml .ci/setup .ci/prefix sim/absent_packages.toml $(wildcard ros_packages/cmake/*.txt ros_packages/cmake/*/*) \
-    $(wildcard $(addprefix sim/world/rays/,*.py *.c *.toml))
+SOURCES = pyproject.toml .ci/setup .ci/prefix sim/absent_packages.toml $(wildcard ros_packages/cmake/*.* ros_packages/cmake/*/*) \
+    $(wildcard ros_packages/interfaces/definitions/*/*/*) $(wildcard $(addprefix sim/world/rays/,*.py *.c *.toml))
 
 $(VENV)/.requirements: requirements.lock $(SOURCES)
 	@sh .ci/setup $(VENV)

@@ -48,6 +48,22 @@ endif()
 ament_auto_package(INSTALL_TO_SHARE launch)
 """
 PACKAGES = {"generated": GENERATED, "naming": NAMING, "automatic": AUTOMATIC}
+USING = """\
+find_package(ament_cmake REQUIRED)
+find_package(turtlesim REQUIRED)
+find_package(rosidl_default_generators REQUIRED)
+rosidl_generate_interfaces(${PROJECT_NAME} "msg/Turtle.msg" DEPENDENCIES turtlesim)
+ament_package()
+"""
+MEMBER = "<depend>turtlesim</depend><member_of_group>rosidl_interface_packages</member_of_group>"
+EXCHANGE = """
+from fleet.msg import Turtle
+from rclpy.serialization import deserialize_message, serialize_message
+from turtlesim.msg import Pose
+sent = Turtle(pose=Pose(x=1.5), path=[Pose(y=2.0)])
+received = deserialize_message(serialize_message(sent), Turtle)
+print(received.pose.x, received.path[0].y)
+"""
 DEPENDS = "<depend>turtlesim</depend><depend>tf2_ros</depend><test_depend>ament_lint_auto</test_depend>"
 
 
@@ -102,6 +118,25 @@ def test_a_package_that_is_not_here_is_explained_in_a_sentence(package, sentence
     done = colcon(tmp_path, "build")
     assert done.returncode == 1
     assert sentence in re.sub(r"\s+", " ", done.stderr)
+
+
+@pytest.mark.soak  # rosidl and its C++ take half a minute
+def test_a_package_uses_the_messages_of_one_of_the_course(configured, tmp_path):
+    for kind in ("action", "msg", "srv"):
+        here = configured / "share" / "turtlesim" / kind
+        here.symlink_to(Path(sys.prefix, "share", "turtlesim", kind))
+    write(tmp_path, "fleet", USING, MEMBER)
+    rules = tmp_path / "src" / "fleet" / "CMakeLists.txt"
+    rules.write_text(rules.read_text().replace(" NONE", ""))
+    (tmp_path / "src" / "fleet" / "msg").mkdir()
+    (tmp_path / "src" / "fleet" / "msg" / "Turtle.msg").write_text(
+        "turtlesim/Pose pose\nturtlesim/Pose[] path\n"
+    )
+    done = colcon(tmp_path, "build")
+    assert done.returncode == 0, done.stderr
+    script = f". {tmp_path}/install/setup.sh; {sys.executable} -c '{EXCHANGE}'"
+    done = subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("1.5 2.0\n", "")
 
 
 def test_a_configuration_that_a_wheel_brought_stays(tmp_path):

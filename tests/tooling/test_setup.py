@@ -155,8 +155,9 @@ def test_what_was_set_up_from_these_very_files_needs_nothing_and_is_left_alone(m
     files = ["requirements.lock", "pyproject.toml", ".ci/setup", ".ci/prefix"]
     files += ["sim/world/rays/pyproject.toml"]
     files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("sim/world/rays/*.py"))
-    files += ["sim/world/rays/rays.c", "sim/absent_packages.toml", "ros_packages/cmake/empty.txt"]
-    files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("ros_packages/cmake/*/*"))
+    files += ["sim/world/rays/rays.c", "sim/absent_packages.toml"]
+    for pattern in ("cmake/*.*", "cmake/*/*", "interfaces/definitions/*/*/*"):
+        files += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob(f"ros_packages/{pattern}"))
     content = b"".join((ROOT / name).read_bytes() for name in files)
     sum_of_all = subprocess.check_output(["cksum"], input=content, text=False).decode()
     for command in ("cat", "cksum"):
