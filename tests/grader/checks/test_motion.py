@@ -6,7 +6,6 @@ from geometry_msgs.msg import Twist
 
 from grader import Missed
 from grader.checks import arrives, ends_with_a_stop, follows, keeps_clear, passes, stands_still, travelled
-from grader.checks.check import tenths
 from grader.checks.motion import (
     after_a_touch,
     distances_to_line,
@@ -21,6 +20,7 @@ from sim.evidence import Pose
 from tests.grader.recordings import driven, published, recording
 from tests.students import flaws
 
+LATER = (3.0, 4.0, 3.0, 1.0, "left", "box")
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]
 
 
@@ -71,7 +71,7 @@ def test_arrives_names_the_goal_that_it_was_given_and_allows_its_tolerance():
     assert missed(arrives, end, (1.0, 0.5)).expected == "the robot within 0.1 m of (1, 0.5) m at the end"
 
 
-@pytest.mark.parametrize(("distance", "moved"), [(0.009, False), (0.011, True)])
+@pytest.mark.parametrize(("distance", "moved"), [(0.009, False), (0.01, False), (0.011, True)])
 def test_a_robot_that_moves_less_than_a_centimetre_did_not_move(distance, moved):
     hint = missed(arrives, driven([(0, 0), (distance, 0)]), (1.0, 0.0)).hint
     assert (hint == "") == moved
@@ -154,6 +154,12 @@ def test_stands_still_allows_half_a_second_and_half_a_centimetre():
     )
 
 
+def test_stands_still_allows_the_tolerance_itself():
+    stands_still(ending((0.4, 0.5, 0.5), (0.0, 0.0, 0.0)), tolerance=0.5)
+    miss = missed(stands_still, ending((0.4, 0.5, 0.75), (0.0, 0.0, 0.0)), tolerance=0.5)
+    assert miss.saw == "it turned by 0.750 rad"
+
+
 @pytest.mark.parametrize("side", [1, -1])
 def test_stands_still_looks_at_the_angle_too(side):
     full = math.tau * side
@@ -186,7 +192,7 @@ def test_a_run_without_a_robot_is_the_authors_mistake(measure):
 
 def test_has_no_contacts_says_where_the_first_one_was():
     has_no_contacts(driven(SQUARE))
-    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall")])
+    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall"), LATER])
     miss = missed(has_no_contacts, touched, "Look ahead.")
     assert miss.expected == "no contact with walls or boxes"
     assert miss.saw == "a wall touched at 1.5 s, at (1.00, 2.00) m"
@@ -200,19 +206,40 @@ def test_a_robot_stood_still_if_it_did_not_move_for_so_long():
     assert stood_still(rests, 20.0)
     assert not stood_still(rests, 30.0)
     assert not stood_still(driven([(0.0, 0.0)] * 5), 20.0)
+    assert stood_still(driven([(1.0, 0.0)] * 21), 20.0)
+
+
+def test_a_robot_that_moved_in_the_last_second_or_long_ago_for_a_moment_did_not_stand_still():
+    assert not stood_still(driven([*[(1.0, 0.0)] * 30, (1.1, 0.0)]), 20.0)
+    assert not stood_still(driven([*[(1.0, 0.0)] * 10, *[(1.1, 0.0)] * 19]), 20.0)
+    assert stood_still(driven([*[(1.0, 0.0)] * 10, *[(1.1, 0.0)] * 22]), 20.0)
+
+
+@pytest.mark.parametrize(("distance", "stood"), [(0.0009, True), (0.0011, False)])
+def test_a_robot_that_creeps_by_less_than_a_millimetre_stood_still(distance, stood):
+    assert stood_still(driven([*[(distance, 0.0)] * 30, (0.0, 0.0)]), 20.0) == stood
+
+
+@pytest.mark.parametrize("period", [2, 3, 5, 8, 10, 20])
+def test_a_robot_that_drives_in_a_circle_did_not_stand_still(period):
+    turns = [second * math.tau / period for second in range(60)]
+    assert not stood_still(driven([(math.cos(turn), math.sin(turn)) for turn in turns]), 20.0)
 
 
 def test_a_run_is_hopeless_some_time_after_a_touch_or_where_nothing_moves():
-    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall")])
+    touched = driven(SQUARE, contacts=[(1.5, 2.0, 1.0, 2.0, "front", "wall"), LATER])
     assert is_hopeless(touched, patience=2.0)
     assert not is_hopeless(touched, patience=2.5)
-    assert is_hopeless(driven([(0.0, 0.0)] * 30), patience=2.0)
+    assert is_hopeless(driven([(0.0, 0.0)] * 21), patience=2.0)
+    assert not is_hopeless(driven([(0.0, 0.0)] * 20), patience=2.0)
+    assert is_hopeless(driven([(1.0, 0.0), *[(0.0, 0.0)] * 22]), patience=2.0)
 
 
 def test_the_true_yaw_is_that_of_the_last_pose_until_then():
     turns = recording(path=[Pose(0.0, 0.0, 0.0, 0.0), Pose(1.0, 0.0, 0.0, math.pi / 2)])
-    assert [yaw_at(turns, stamp) for stamp in (-1.0, 0.5, 1.0)] == [0.0, 0.0, 90.0]
+    assert [yaw_at(turns, stamp) for stamp in (-1.0, 0.5, 0.9995, 1.0)] == [0.0, 0.0, 0.0, 90.0]
 
 
-def test_a_credit_in_tenths_is_rounded_down_and_from_0_to_1():
-    assert [tenths(credit) for credit in (-0.5, 0.3, 0.39, 1.7)] == [0.0, 0.3, 0.3, 1.0]
+def test_the_true_yaw_at_a_stamp_is_that_of_its_pose_although_sums_of_tenths_are_not_exact():
+    turns = recording(path=[Pose(0.0, 0.0, 0.0, 0.0), Pose(0.1 + 0.2, 0.0, 0.0, math.pi / 2)])
+    assert yaw_at(turns, 0.3) == 90.0
