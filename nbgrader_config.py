@@ -42,6 +42,8 @@ c.Execute.extra_arguments = ["--IPKernelApp.exec_lines=import sys; sys.stderr.na
 # Marking uses private worlds and seeds; Validate never sees the secret they come from.
 c.Autograde.pre_convert_hook = "grader.marking.secret.set_course_secret"
 c.Autograde.post_convert_hook = "grader.marking.secret.remove_course_secret"
+# c.LateDays.percent_per_day = 10 takes so many percent of the points for each day late that has begun.
+c.AssignLatePenalties.plugin_class = "grader.marking.gradebook.late_days.LateDays"
 # A submission's HTML must not run as script in the instructor's browser.
 c.HTMLExporter.sanitize_html = True
 SAFE = "grader.marking.gradebook.safe_html"

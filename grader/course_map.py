@@ -10,9 +10,11 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from grader.local_time import format_local
 from grader.page import format_points
 
 PART = re.compile(r"(\d\d)_(\w+)")
@@ -20,6 +22,7 @@ PART = re.compile(r"(\d\d)_(\w+)")
 TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
 NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
 DONE = 0.9  # fraction of a lesson's cells that counts as done
+DUE = "due.json"  # in course/; `python -m grader due` writes it
 NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
 
 
@@ -48,6 +51,7 @@ class CourseMap:
     def __init__(self, root: Path, here: Path) -> None:
         self._root, self._here = root, here
         self.notebooks = list(_notebooks(root))
+        self._due = _due_dates(root / "course" / DUE)
 
     @property
     def next(self) -> Notebook | None:
@@ -93,7 +97,9 @@ class CourseMap:
 
     def _state(self, item: Notebook) -> str:
         if item.most:
-            return f"{format_points(item.points)} of {format_points(item.most)} points"
+            due = self._due.get(item.path.parent.name)
+            until = f", due {format_local(due)}" if due else ""
+            return f"{format_points(item.points)} of {format_points(item.most)} points{until}"
         return "✔ done" if item.done else f"{item.run} of {item.cells} cells run"
 
 
@@ -107,6 +113,15 @@ def course_map(here: Path | str | None = None) -> CourseMap:
         if (root / "course").is_dir() and (root / "exercises").is_dir():
             return CourseMap(root, here)
     raise LookupError(f"{here} is not in the course: expected a folder with course/ and exercises/ above it.")
+
+
+def _due_dates(file: Path) -> dict[str, datetime]:
+    """When the assignments are due (UTC), as the instructor wrote it."""
+    try:
+        data = json.loads(file.read_text(encoding="utf-8"))
+        return {name: datetime.fromisoformat(when) for name, when in data.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
 
 
 def _notebooks(root: Path) -> Iterator[Notebook]:

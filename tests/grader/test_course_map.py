@@ -1,5 +1,6 @@
 import json
 import re
+import time
 from pathlib import Path
 
 import pytest
@@ -95,3 +96,17 @@ def test_the_start_page_links_to_the_glossary_and_to_the_differences_on_a_real_r
     for page in pages:
         links = re.findall(r"\]\((?!https://)([^)]+)\)", (ROOT / "course" / page).read_text("utf-8"))
         assert [link for link in links if not (ROOT / "course" / link).exists()] == []
+
+
+def test_assignments_have_their_due_date_in_local_time(course, monkeypatch):
+    monkeypatch.setenv("TZ", "Europe/Berlin")
+    time.tzset()
+    try:
+        (course / "course/due.json").write_text('{"01_nodes": "2026-12-01T17:00:00"}')
+        due = "1 nodes (exercises), 6.5 of 16 points, due Tue 1 December 2026, 18:00 CET"
+        assert repr(course_map(course)).splitlines()[1] == due
+    finally:
+        monkeypatch.undo()
+        time.tzset()
+    (course / "course/due.json").write_text("[]")
+    assert "due" not in repr(course_map(course))

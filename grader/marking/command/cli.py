@@ -102,6 +102,8 @@ def _report(options: argparse.Namespace, course: Course, settings: Settings, out
     summary = summarise(options.assignment, outcome.worth, outcome.results, outcome.standings, outcome.notes)
     if outcome.results:
         print(as_text(summary))
+    if outcome.due:
+        print(f"\n{outcome.due}")
     if settings.csv:
         write_atomically(Path(settings.csv), as_csv(options.assignment, outcome.results, outcome.standings))
     if settings.html:

@@ -11,12 +11,14 @@ from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
+from grader.local_time import format_local
 from grader.marking import secret
 from grader.marking.command.check_release import check_release
 from grader.marking.command.task_reader import TaskReader
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.book import Book
 from grader.marking.gradebook.course import Course, time_problem, timestamp
+from grader.marking.gradebook.due_dates import read_extensions
 from grader.marking.gradebook.feedback import is_stale, make_feedback
 from grader.marking.gradebook.find_submissions import find_submissions
 from grader.marking.gradebook.marked_notebooks import is_shown, marked_notebooks, write_notebooks
@@ -58,7 +60,8 @@ class Outcome:
     results: of all submissions that are marked, now or before, by student; without the notebooks' contents.
     worth: the points of each test cell, by notebook and cell. fresh: the students marked now. seconds: of the
     whole run. problems: a sentence for each thing that is left to do. standings: what the gradebook says, by
-    student. notes: of whom, and what the instructor should know. interrupted: whether Ctrl-C ended it.
+    student. notes: of whom, and what the instructor should know. due: a sentence on the due date,
+    if there is one. interrupted: whether Ctrl-C ended it.
     """
 
     results: dict[str, Result]
@@ -69,6 +72,7 @@ class Outcome:
     problems: list[str] = field(default_factory=list)
     standings: dict[str, Standing] = field(default_factory=dict)
     notes: list[tuple[str, str]] = field(default_factory=list)
+    due: str = ""
     interrupted: bool = False
 
 
@@ -201,7 +205,10 @@ class _ClassRun:
     def standings(self, assignment: str) -> dict[str, Standing]:
         """What the gradebook says of all students; {} if it can't be read."""
         try:
-            return self.book.standings(assignment)
+            extensions = read_extensions(self.course).get(assignment, {})
+            if due := self.book.due_dates().get(assignment):
+                self.outcome.due = f"{assignment} is due on {format_local(due)}."
+            return self.book.standings(assignment, extensions)
         except GradebookError:
             return {}  # it is among the problems already
 

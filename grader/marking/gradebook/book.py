@@ -1,6 +1,6 @@
 """Reads and writes nbgrader's gradebook, as `nbgrader autograde` does."""
 import contextlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from types import TracebackType
@@ -21,7 +21,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from grader.marking.errors import GradebookError
 from grader.marking.gradebook.course import Course
-from grader.marking.gradebook.student_standings import Standing, penalise, read_standings
+from grader.marking.gradebook.student_standings import Standing, extend, penalise, read_standings
 from grader.marking.result import CellResult, Result
 
 PATIENCE = 60.0  # seconds to wait for a locked SQLite file, if its address has no timeout
@@ -66,8 +66,7 @@ class Book:
 
     def __init__(self, course: Course) -> None:
         self._app = course.app
-        self._address = make_url(course.database)
-        url = self._address
+        url = self._address = make_url(course.database)
         if url.get_backend_name() == "sqlite" and "timeout" not in url.query:
             url = url.update_query_dict({"timeout": str(PATIENCE)})
         with self._translated_errors():
@@ -105,16 +104,31 @@ class Book:
             submissions = [found for each in book.assignments for found in each.submissions]
             return sorted(map(_mark, submissions), key=lambda mark: (mark.assignment, mark.student))
 
-    def standings(self, assignment: str) -> dict[str, Standing]:
-        """The standings by student, with penalties for the due date and the extensions as they are now."""
+    def standings(
+        self, assignment: str, extensions: Mapping[str, datetime] | None = None, ended: Collection[str] = ()
+    ) -> dict[str, Standing]:
+        """The standings by student, with penalties for due date and extensions as they are now.
+
+        extensions: until when (UTC), by student. ended: students who may have none any more.
+        """
         with self._transaction() as book:
             submissions = book.assignment_submissions(assignment)
             for submission in submissions:
+                extend(submission, extensions or {}, ended)
                 for notebook in submission.notebooks:
                     penalise(self._app, book, submission, notebook)
-            book.db.flush()
             book.db.expire_all()
             return read_standings(submissions)
+
+    def due_dates(self) -> dict[str, datetime | None]:
+        """When each assignment is due (UTC)."""
+        with self._transaction() as book:
+            return {each.name: each.duedate for each in sorted(book.assignments, key=lambda each: each.name)}
+
+    def set_due_date(self, assignment: str, when: datetime | None) -> None:
+        """Set or remove a due date (UTC)."""
+        with self._transaction() as book:
+            book.find_assignment(assignment).duedate = when
 
     def students(self) -> list[GradebookStudent]:
         """Everyone in the gradebook."""

@@ -15,6 +15,8 @@ from nbgrader.api import Gradebook, MissingEntry
 from pygments.formatters import HtmlFormatter
 from traitlets.config import Config
 
+from grader.local_time import format_local
+from grader.marking.gradebook.student_standings import DAY
 from grader.marking.outputs import FOR_INSTRUCTOR
 
 HEADING = re.compile(r"^#{1,6}\s+(.+?)\s*$", re.MULTILINE)
@@ -50,6 +52,7 @@ class StudentPage(HTMLExporter):
         about = (resources or {})["nbgrader"]
         self.environment.globals["page"] = {
             "name": _name(about),
+            "late": _late(about),
             "assignment": about["assignment"],
             "notebook": about["notebook"],
             "colours": HtmlFormatter().get_style_defs(".highlight"),  # of code
@@ -76,6 +79,17 @@ def _name(about: dict[str, Any]) -> str:
     except MissingEntry:
         name = ""
     return f"{name} ({student})" if name not in ("", student) else student
+
+
+def _late(about: dict[str, Any]) -> str:
+    """How late it was handed in, or ""."""
+    try:
+        with Gradebook(about["db_url"]) as book:
+            found = book.find_submission(about["assignment"], about["student"])
+            seconds, due = found.total_seconds_late, found.duedate
+    except MissingEntry:
+        return ""
+    return f"handed in {seconds / DAY:.1f} days after {format_local(due)}" if seconds else ""
 
 
 def _for_instructor(output: NotebookNode) -> bool:

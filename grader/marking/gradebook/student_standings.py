@@ -1,7 +1,8 @@
 """What the gradebook says of students who were marked: points and comments by hand, lateness, penalties."""
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import astuple, dataclass
+from datetime import datetime
 
 from nbgrader.api import Gradebook, SubmittedAssignment, SubmittedNotebook
 from nbgrader.apps import NbGrader
@@ -65,6 +66,15 @@ def _by_hand(grade: object) -> bool:
     return grade.manual_score is not None or bool(grade.extra_credit)
 
 
+def extend(submission: SubmittedAssignment, until: Mapping[str, datetime], ended: Collection[str]) -> None:
+    """Set the extension of a submission; one that nbgrader has and we don't stays, unless it has ended."""
+    student, due = submission.student.id, submission.assignment.duedate
+    if due and student in until:
+        submission.extension = until[student] - due
+    elif student in ended:
+        submission.extension = None
+
+
 def penalise(
     app: NbGrader, book: Gradebook, submission: SubmittedAssignment, note: SubmittedNotebook
 ) -> None:
@@ -80,3 +90,4 @@ def penalise(
         )
         if penalty is not None:
             note.late_submission_penalty = step._check_late_penalty(note, penalty)
+    book.db.flush()

@@ -132,6 +132,7 @@ def test_a_wrong_number_of_jobs_is_refused(command, capsys, jobs):
 def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
         "usage: python -m grader mark ASSIGNMENT [--help]\n"
+        "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
         "       python -m grader collect ARCHIVE.zip [--help]\n"
         "       python -m grader grades ASSIGNMENT [--help]\n"

@@ -1,0 +1,20 @@
+"""What being late costs: a share of the points for each day that has begun."""
+import math
+
+from nbgrader.plugins import LateSubmissionPlugin
+from traitlets import Float
+
+
+class LateDays(LateSubmissionPlugin):
+    """A plugin of nbgrader's `AssignLatePenalties`."""
+
+    percent_per_day = Float(0.0, min=0.0, max=100.0, help="percent of the points earned").tag(config=True)
+
+    def late_submission_penalty(
+        self, student_id: str, score: float, total_seconds_late: float
+    ) -> float | None:
+        """The points that are lost; what nbgrader's plugin gives if no percentage is set."""
+        if not self.percent_per_day:
+            return super().late_submission_penalty(student_id, score, total_seconds_late)
+        days = math.ceil(total_seconds_late / 86400)
+        return round(score * min(1.0, days * self.percent_per_day / 100), 2)
