@@ -16,7 +16,7 @@ from sim.notebook.kernel import shell
 
 # Entry points of this group explain a failure; each takes a recording and returns lines of text.
 GROUP = "sim.failure_explainers"
-# Dark red on light red: 8.9 to 1, in a light and in a dark page.
+# Dark red on light red: 8 to 1, in a light and in a dark page.
 STYLE = "color: #8c1d18; background-color: #fdecea; padding: 6px 10px; margin: 4px 0"
 _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 _reported: tuple[int, weakref.ref[Recording]] | None = None  # the execution count, and what was shown in it

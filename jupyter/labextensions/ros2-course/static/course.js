@@ -42,8 +42,12 @@ export async function plugins(share) {
       };
       tracker.widgetAdded.connect(extend);
       tracker.forEach((panel) => extend(null, panel));
-      lab.NotebookActions.executionScheduled.connect((_, { notebook }) => {
-        for (const [panel, comm] of comms) if (panel.content === notebook) comm.sendCells();
+      lab.NotebookActions.executionScheduled.connect((_, { notebook, cell }) => {
+        for (const [panel, comm] of comms) {
+          if (panel.content !== notebook) continue;
+          comm.sendCells();
+          if (cell.model.getMetadata("nbgrader")?.grade) panel.context.save(); // a check is of what was saved
+        }
       });
     },
   }];

@@ -14,7 +14,10 @@ export function validateButton(lab, app, panel) {
 async function validate(lab, app, panel) {
   const table = new Table(lab);
   const cells = [...panel.content.model.cells];
-  const tests = cells.filter((cell) => cell.getMetadata("nbgrader")?.grade).length;
+  const checks = checksOf(cells);
+  const tests = checks.size;
+  for (const [cell, { name, points }] of checks) table.wait(cell, name, points);
+  panel.context.save();
   table.setStatus(tests ? "Running the notebook in a new kernel ..." : "This notebook has no checks to run.");
   const closed = lab.showDialog({
     title: "Validation Results", body: table.widget, buttons: [lab.Dialog.okButton({ label: "Close" })],
@@ -25,25 +28,40 @@ async function validate(lab, app, panel) {
   let open = true;
   closed.then(() => { open = false; kernel.shutdown(); });
   try {
-    await runCells(kernel, cells, table, () => open);
+    await runCells(kernel, cells, checks, table, () => open);
   } catch (error) {
     if (open) table.setStatus(`The notebook could not be run to its end: ${error.message ?? error}`);
   } finally {
+    table.stopClock();
     if (open) await kernel.shutdown();
   }
 }
 
-async function runCells(kernel, cells, table, open) {
+/** The cells with a check, each with the heading above it and its points. */
+function checksOf(cells) {
+  const checks = new Map();
   let heading = "";
   for (const cell of cells) {
     const text = cell.sharedModel.getSource();
     if (cell.type === "markdown") heading = HEADING.exec(text)?.[1] ?? heading;
-    if (cell.type !== "code" || !text.trim()) continue;
     const grading = cell.getMetadata("nbgrader");
+    if (cell.type === "code" && text.trim() && grading?.grade) checks.set(cell, { name: heading, points: Number(grading.points) });
+  }
+  return checks;
+}
+
+async function runCells(kernel, cells, checks, table, open) {
+  let number = 0;
+  for (const cell of cells) {
+    const text = cell.sharedModel.getSource();
+    if (cell.type !== "code" || !text.trim()) continue;
+    const check = checks.get(cell);
+    if (check) table.begin(cell, `Check ${++number} of ${checks.size}: ${check.name}`);
     const { result, error } = await execute(kernel, text, cell.id);
     if (!open()) return;
-    if (grading?.grade) table.add(heading, result, Number(grading.points), error);
+    if (check) table.finish(cell, result, error);
   }
+  table.showTotal();
   table.setStatus("");
 }
 
@@ -59,15 +77,17 @@ async function execute(kernel, code, cellId) {
   return { result, error };
 }
 
+/** The table of checks: all rows from the beginning, results as they arrive, and the total at the end. */
 class Table {
   constructor(lab) {
     this.body = document.createElement("tbody");
-    this.total = row("th", ["Total", "0", ""]);
+    this.foot = document.createElement("tfoot");
+    this.rows = new Map();
     this.status = Object.assign(document.createElement("p"), { role: "status" });
-    const table = document.createElement("table"), head = document.createElement("thead"), foot = document.createElement("tfoot");
+    const table = document.createElement("table"), head = document.createElement("thead");
     head.append(row("th", ["Exercise", "Points", ""]));
-    foot.append(this.total);
-    table.append(head, this.body, foot);
+    for (const cell of head.querySelectorAll("th")) cell.scope = "col";
+    table.append(Object.assign(document.createElement("caption"), { textContent: "Points of each check" }), head, this.body, this.foot);
     table.className = "ros2-course-points";
     table.style.width = WIDTH;
     this.widget = new lab.Widget();
@@ -79,15 +99,40 @@ class Table {
     this.status.textContent = text;
   }
 
-  add(name, result, most, error) {
+  wait(cell, name, most) {
+    const line = row("td", [name, `– of ${short(most)}`, "waits"]);
+    this.rows.set(cell, { line, name, most });
+    this.body.append(line);
+  }
+
+  /** Show which check runs, and for how long: one with many runs may take a minute. */
+  begin(cell, text) {
+    const { line } = this.rows.get(cell), began = performance.now();
+    this.setStatus(`${text} ...`);
+    const show = () => { line.lastChild.textContent = `runs, ${Math.floor((performance.now() - began) / 1000)} s`; };
+    show();
+    this.stopClock();
+    this.clock = setInterval(show, 1000);
+  }
+
+  stopClock() {
+    clearInterval(this.clock);
+  }
+
+  finish(cell, result, error) {
+    this.stopClock();
+    const { line, name, most } = this.rows.get(cell);
     // As in nbgrader: a number is the points, an error gives none, and a check without either gives all.
     const value = /^-?\d+(\.\d+)?$/.test(result ?? "") ? Number(result) : error ? 0 : most;
     const points = Math.min(Math.max(value, 0), most);
     this.earned += points;
     this.most += most;
     const note = error || (points >= most ? "✔" : points ? "in part: run its check to see why" : "run its check to see why");
-    this.body.append(row("td", [name, `${short(points)} of ${short(most)}`, note]));
-    this.total.replaceChildren(...row("th", ["Total", `${short(this.earned)} of ${short(this.most)}`, ""]).children);
+    line.replaceChildren(...row("td", [name, `${short(points)} of ${short(most)}`, note]).children);
+  }
+
+  showTotal() {
+    this.foot.replaceChildren(row("th", ["Total", `${short(this.earned)} of ${short(this.most)}`, ""]));
   }
 }
 

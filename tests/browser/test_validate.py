@@ -1,0 +1,61 @@
+"""Validate shows all checks at once, results as they arrive, and the total at the end."""
+
+import re
+
+import pytest
+
+from tests.browser.lab import write_notebook
+
+pytestmark = pytest.mark.browser
+SLOW = "import time; time.sleep(4); 1.5"
+GRADE = """([index, points]) => {
+    const cell = window.notebook().content.model.cells.get(index);
+    const grade_id = `check-${index}`;
+    cell.setMetadata('nbgrader', {grade: true, points, grade_id, locked: true, schema_version: 3});
+}"""
+
+
+@pytest.fixture
+def checked(students_folder, open_lab):
+    """A notebook with a quick check and a slow one, of 2 points each."""
+    write_notebook(students_folder / "validate/two.ipynb", "x = 1", "2.0", SLOW)
+    with open_lab("validate/two.ipynb") as lab:
+        for index in (1, 2):
+            lab.page.evaluate(GRADE, [index, 2])
+        yield lab
+
+
+def rows(dialog):
+    return [" | ".join(row.locator("th, td").all_inner_texts()) for row in dialog.locator("tr").all()][1:]
+
+
+def test_rows_come_as_they_arrive_and_the_total_at_the_end(checked):
+    checked.page.locator(".validate-button").first.click()
+    dialog = checked.page.locator(".jp-Dialog", has_text="Validation Results")
+    dialog.locator("td", has_text="2 of 2").wait_for()
+    assert len(rows(dialog)) == 2  # and no total
+    assert rows(dialog)[0] == " | 2 of 2 | ✔"
+    dialog.locator("td", has_text=re.compile("^runs, [1-9] s$")).wait_for()
+    assert dialog.locator("p[role='status']").inner_text().startswith("Check 2 of 2: ")
+    checked.screenshot("validate-running")
+    dialog.locator("tfoot tr").wait_for()
+    assert rows(dialog) == [
+        " | 2 of 2 | ✔",
+        " | 1.5 of 2 | in part: run its check to see why",
+        "Total | 3.5 of 4 | ",
+    ]
+    assert dialog.locator("caption").inner_text() == "Points of each check"
+    assert dialog.locator("th[scope='col']").count() == 3
+    dialog.locator("button.jp-mod-accept").click()
+
+
+def test_a_check_that_runs_saves_the_notebook(checked):
+    assert checked.page.evaluate("window.notebook().context.model.dirty")
+    checked.run_cell(0)
+    assert checked.page.evaluate("window.notebook().context.model.dirty")
+    checked.page.evaluate(
+        "window.savedTimes = 0; window.notebook().context.saveState.connect((_, state) => {"
+        " if (state === 'completed') window.savedTimes += 1; })"
+    )
+    checked.run_cell(1)
+    checked.page.wait_for_function("window.savedTimes >= 1")
