@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from sim.evidence.rows import Message, Seconds
-from sim.ros.messages.decoder import decode
 
 # Services that every node has: recorded, but not offered as something a student's node does.
 NODE_SERVICES = frozenset({
@@ -117,4 +116,6 @@ class Goal:
 
 
 def _decode(type_: str, raw: bytes | None) -> Any:
+    from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
+
     return None if raw is None else decode(type_, raw)

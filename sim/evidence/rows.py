@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from sim.nanoseconds import EPOCH, SECOND
-from sim.ros.messages.decoder import decode
 
 Seconds = float
 
@@ -27,6 +26,8 @@ class Message(NamedTuple):
     @property
     def message(self) -> Any:
         """The message object; a fresh copy for each reader."""
+        from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
+
         return decode(self.type, self.raw)
 
 

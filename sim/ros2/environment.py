@@ -6,7 +6,6 @@ import os
 import sys
 from pathlib import Path
 
-from sim.notebook import in_notebook
 from sim.ros.fibers.scheduler import active
 from sim.ros2.system import CliError
 
@@ -25,6 +24,8 @@ def environment_before() -> dict[str, str]:
 
 def require_terminal(command: str, alternative: str) -> None:
     """Raise CliError in a notebook or a run, where a command can't start processes of its own."""
+    from sim.notebook import in_notebook  # imported late, because it is slow, as the recording is
+
     if active() is not None or in_notebook():
         raise CliError(
             f"`ros2 {command}` starts processes of their own, in a terminal. Here, write {alternative}."

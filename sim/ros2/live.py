@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import rclpy
-import rclpy.action
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from rclpy.signals import SignalHandlerOptions
@@ -157,8 +156,9 @@ def endpoints_seen_by(node: Node) -> list[Endpoint]:
     queries = {
         "service": node.get_service_names_and_types_by_node,
         "client": node.get_client_names_and_types_by_node,
-        "action server": lambda *of: rclpy.action.get_action_server_names_and_types_by_node(node, *of),
-        "action client": lambda *of: rclpy.action.get_action_client_names_and_types_by_node(node, *of),
+        # As rclpy.action does: that package imports numpy, which takes a while.
+        "action server": node.handle.get_action_server_names_and_types_by_node,
+        "action client": node.handle.get_action_client_names_and_types_by_node,
     }
     for name, space in dict.fromkeys(node.get_node_names_and_namespaces()):
         full = f"{space.rstrip('/')}/{name}"

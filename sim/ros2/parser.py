@@ -2,33 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import importlib
+import os
+import sys
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
-from sim.ros2.group import USAGE_ERROR, Parser, UsageError, build_parser
+from sim.ros2.group import USAGE_ERROR, Group, Parser, UsageError, build_parser
 from sim.ros2.system import CliError, Output, System
-from sim.ros2.verbs import echo, pkg_create, publishing  # noqa: F401  (each adds verbs to a group, in this order)
-from sim.ros2.verbs.action import action
-from sim.ros2.verbs.bag import bag
-from sim.ros2.verbs.doctor import doctor
-from sim.ros2.verbs.interface import interface
-from sim.ros2.verbs.launch import launch
-from sim.ros2.verbs.lifecycle import lifecycle
-from sim.ros2.verbs.node import node
-from sim.ros2.verbs.param import param
-from sim.ros2.verbs.pkg import pkg
-from sim.ros2.verbs.run import run
-from sim.ros2.verbs.service import service
-from sim.ros2.verbs.topic import topic
 
-GROUPS = [action, bag, doctor, interface, launch, lifecycle, node, param, pkg, run, service, topic]
+# The modules in `verbs` that add verbs to a command, in this order, and the command's help.
+COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
+    "action": (("action",), "Actions: list them, send a goal"),
+    "bag": (("bag",), "Bags: record messages, look at them, publish them again"),
+    "doctor": (("doctor",), "Check ROS setup and other potential issues"),
+    "interface": (("interface",), "Types of messages, services and actions"),
+    "launch": (("launch",), "Run a launch file"),
+    "lifecycle": (("lifecycle",), "Nodes with a lifecycle: their states and transitions"),
+    "node": (("node",), "Nodes: which there are, and how each is connected"),
+    "param": (("param",), "Parameters of nodes: list, get, set, describe, dump, load"),
+    "pkg": (("pkg", "pkg_create"), "Various package related sub-commands"),
+    "run": (("run",), "Run a package specific executable"),
+    "service": (("service",), "Services: list them, call one"),
+    "topic": (("topic", "echo", "publishing"), "Topics: list, listen, measure, publish"),
+}
 FAILED = 1  # exit status
 
 
-def make_parser(make_completer: Callable[..., Any] = lambda *_: None) -> Parser:
-    """The parser of all commands; see `build_parser`."""
-    return build_parser(GROUPS, make_completer)
+def load_group(name: str, verb: str = "") -> Group:
+    """The verbs of a command. verb: the only one that is needed, if the command has it; "" for all."""
+    first, *others = COMMANDS[name][0]
+    group = getattr(importlib.import_module(f"sim.ros2.verbs.{first}"), name)
+    for module in others:
+        if verb not in group.verbs:
+            importlib.import_module(f"sim.ros2.verbs.{module}")
+    return group
+
+
+def make_parser(make_completer: Callable[..., Any] = lambda *_: None, typed: Sequence[str] = ()) -> Parser:
+    """The parser of all commands; see `build_parser`. typed: the one command that is needed, and its verb."""
+    command, verb = (*typed, "", "")[:2]
+    groups = [
+        load_group(name, verb) if not typed or command == name else Group(name, help)
+        for name, (_, help) in COMMANDS.items()
+    ]
+    return build_parser(groups, make_completer)
+
+
+def typed_words() -> list[str]:
+    """The command and its verb on the command line; the command alone in a line that the shell completes."""
+    line = os.environ.get("COMP_LINE")
+    return (sys.argv[1:3] or [""]) if line is None else (line.split()[1:2] or [""])
 
 
 def execute(

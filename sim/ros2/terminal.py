@@ -19,6 +19,7 @@ from sim.ros2.environment import environment_before
 from sim.ros2.group import Completer
 from sim.ros2.live import LiveSystem
 from sim.ros2.system import CliError
+from sim.ros2.type_support import import_without_generators
 
 COMPLETION_SETTLING_TIME = 0.1  # s: pressing Tab again retries
 RETRY_INTERRUPT = 0.1  # s until a lost Ctrl-C is repeated
@@ -29,8 +30,9 @@ MARK = b"sim.ros2"  # in the installed script that starts this module
 def main() -> int:
     """Execute `ros2` on the command line; returns the exit status."""
     exec_real_ros2()
+    import_without_generators()
     signal.signal(signal.SIGINT, _interrupted)
-    command_parser = parser.make_parser(_make_completer)
+    command_parser = parser.make_parser(_make_completer, parser.typed_words())
     # Complete options only after a dash; if nothing is known, bash completes file names.
     argcomplete.autocomplete(
         command_parser,

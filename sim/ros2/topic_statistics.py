@@ -8,7 +8,6 @@ from collections import deque
 from collections.abc import Sequence
 
 from sim.nanoseconds import SECOND, Nanoseconds
-from sim.ros.messages.decoder import decode
 from sim.ros2.system import CliError, ReceivedMessage
 
 REPORT_PERIOD = 1.0  # s
@@ -117,6 +116,8 @@ class Delay(TopicStatistic):
 
     def add(self, message: ReceivedMessage) -> None:
         """As `TopicStatistic`. Raises CliError for a message without a header."""
+        from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
+
         decoded = decode(message.type, message.raw)
         if not hasattr(decoded, "header"):
             raise CliError("msg does not have header")

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 
-from sim.ros.messages.decoder import decode
 from sim.ros2.group import argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.qos_options import QOS, profile_from_options
@@ -163,6 +162,8 @@ def _format(message: ReceivedMessage, options: Namespace) -> str | None:
     """A message as text; None if the filter excludes it."""
     if options.raw:
         return f"{message.raw!r}\n---"
+    from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
+
     value = decode(message.type, message.raw)
     for part in filter(None, (options.field or "").split(".")):
         try:
