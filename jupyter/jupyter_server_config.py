@@ -31,6 +31,7 @@ c.ServerApp.jpserver_extensions = {
 c.LabApp.extra_labextensions_path = [str(HERE / "labextensions")]
 # Terminals find colcon and ros2 in PATH, like cells. Jupyter may start a login shell by default, which would
 # reset PATH; and the scripts that colcon writes are for bash.
-c.ServerApp.terminado_settings = {"shell_command": ["bash"]}
+c.ServerApp.terminado_settings = {"shell_command": ["bash", "--rcfile", str(HERE / "terminal.bashrc")]}
+os.environ["ROS2_COURSE"] = str(COURSE)
 os.environ["PATH"] = os.pathsep.join([os.path.join(sys.prefix, "bin"), os.environ.get("PATH", os.defpath)])
 os.environ["PYTHONSTARTUP"] = str(HERE / "kernel_start.py")  # executed by kernels, too
