@@ -26,6 +26,7 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "run": (("run",), "Run a package specific executable"),
     "service": (("service",), "Services: list them, call one"),
     "topic": (("topic", "echo", "publishing"), "Topics: list, listen, measure, publish"),
+    "wtf": (("doctor",), "Use `wtf` as alias to `doctor`"),
 }
 FAILED = 1  # exit status
 

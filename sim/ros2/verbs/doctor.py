@@ -16,6 +16,7 @@ from sim.ros2.group import Group, flag
 from sim.ros2.system import System, is_hidden
 
 doctor = Group("doctor", "Check ROS setup and other potential issues")
+wtf = Group("wtf", "Use `wtf` as alias to `doctor`", doctor.verbs)
 IGNORED_TOPICS = ("/parameter_events", "/rosout")
 
 

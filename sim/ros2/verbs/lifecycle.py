@@ -88,6 +88,23 @@ def set_(system: System, options: Namespace) -> None:
     system.print_line("Transitioning successful")
 
 
+@lifecycle.verb(
+    "list",
+    argument("node_name", help="Name of the ROS node", completer=_managed),
+    HIDDEN,
+    flag("-a", "--all", help="Display all existing transitions"),
+)
+def list_(system: System, options: Namespace) -> None:
+    """Output a list of available transitions."""
+    node = _node(system, options)
+    service = "get_transition_graph" if options.all else "get_available_transitions"
+    request = GetAvailableTransitions.Request()
+    for each in system.call(GetAvailableTransitions, f"{node}/{service}", request).available_transitions:
+        system.print_line(f"- {each.transition.label} [{each.transition.id}]")
+        system.print_line(f"\tStart: {each.start_state.label}")
+        system.print_line(f"\tGoal: {each.goal_state.label}")
+
+
 def _find(available: list[Transition], label_or_id: str) -> Transition:
     for each in available:
         if label_or_id in (each.label, str(each.id)):

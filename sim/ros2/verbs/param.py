@@ -111,6 +111,16 @@ def set_(system: System, options: Namespace) -> None:
     system.print_line(f"Set parameter successful{reason}")
 
 
+@param.verb("delete", NODE, NAME, HIDDEN)
+def delete(system: System, options: Namespace) -> None:
+    """Delete parameter."""
+    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    ((_, result),) = _set(system, node, [Parameter(name=options.parameter_name)])
+    if not result.successful:
+        raise CliError(f"Deleting parameter failed{f': {result.reason}' if result.reason else ''}")
+    system.print_line("Deleted parameter successfully")
+
+
 def _set(system: System, node: str, parameters: list[Parameter]) -> list[tuple[Parameter, Any]]:
     request = SetParameters.Request(parameters=parameters)
     response = system.call(SetParameters, f"{node}/set_parameters", request)
