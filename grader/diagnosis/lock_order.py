@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from grader.diagnosis.student_nodes import StudentNode, student_nodes
 from sim.evidence import Recording
-from sim.notebook.attribute_analysis import Methods, called_names, own_attribute
+from sim.notebook.attribute_analysis import called_names, own_attribute
+from sim.notebook.class_source import Methods
 from sim.notebook.name_analysis import looked_up_names
 from sim.notebook.run_programs import run_programs
 

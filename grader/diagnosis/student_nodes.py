@@ -8,15 +8,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from sim.evidence import CallbackRun, Endpoint, Recording
-from sim.notebook.attribute_analysis import (
-    AttributeUse,
-    Function,
-    Methods,
-    attributes_of,
-    methods_of,
-    own_attribute,
-    reached,
-)
+from sim.notebook.attribute_analysis import AttributeUse, attributes_of, own_attribute, reached
+from sim.notebook.class_source import Function, Methods, methods_of
 from sim.notebook.run_programs import run_programs
 
 _KINDS = {

@@ -8,7 +8,8 @@ from typing import Any
 
 from grader.diagnosis.student_nodes import StudentNode, assignments, student_nodes
 from sim.evidence import Recording
-from sim.notebook.attribute_analysis import Methods, function_tree, own_attribute, reached, reads
+from sim.notebook.attribute_analysis import own_attribute, reached, reads
+from sim.notebook.class_source import Methods, function_tree
 from sim.notebook.run_programs import run_programs
 
 OWN_GROUP = "MutuallyExclusiveCallbackGroup()"

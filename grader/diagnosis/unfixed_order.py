@@ -6,7 +6,8 @@ import ast
 
 from grader.diagnosis.student_nodes import StudentNode, assignments, student_nodes
 from sim.evidence import Recording
-from sim.notebook.attribute_analysis import Function, own_attribute, reached
+from sim.notebook.attribute_analysis import own_attribute, reached
+from sim.notebook.class_source import Function
 
 START = 0.5  # s: by so much programs of a robot start earlier or later
 _SENDS = ("publish", "call_async", "send_goal_async", "call", "send_goal")

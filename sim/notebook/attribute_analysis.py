@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import inspect
 from collections.abc import (
     Iterable,
     Iterator,
@@ -14,12 +13,10 @@ from collections.abc import (
     Sequence,
     Set,
 )
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-Function = ast.FunctionDef | ast.AsyncFunctionDef
-Methods = dict[str, Function]
+from sim.notebook.class_source import LIBRARIES, Function, Methods, methods_of
 
-_LIBRARIES = ("builtins", "rclpy")  # packages whose base classes are no code of the user's
 _NOT_METHODS = ("property", "cached_property", "staticmethod", "classmethod")
 # Methods of containers that change them.
 _MUTATORS = {"appendleft", "popleft", "put", "sort"}.union(
@@ -57,36 +54,6 @@ def attributes_of(class_: type) -> dict[str, AttributeUse]:
             frozenset(guards(parts, methods)) & known,
         )
     return found
-
-
-def methods_of(class_: type) -> Methods:
-    """The syntax trees of the user's methods and properties by name, inherited ones included.
-
-    Lines are those of the file or cell.
-    """
-    found: Methods = {}
-    for base in reversed(class_.__mro__):
-        if base.__module__.split(".")[0] not in _LIBRARIES:
-            for name, value in list(vars(base).items()):
-                function = getattr(value, "fget", None) or getattr(value, "func", value)
-                tree = function_tree(function) if inspect.isfunction(function) else None
-                found.pop(name, None)
-                found |= {name: tree} if tree is not None else {}
-    return found
-
-
-def function_tree(function: Any) -> Function | None:
-    """The syntax tree of a function, with the lines of its file or cell; None without source."""
-    try:
-        function = inspect.unwrap(function)
-        source = inspect.getsource(function)
-        # An indented function is put into a block, because dedenting would change strings of several lines.
-        tree = ast.parse(f"if True:\n{source}" if source[:1].isspace() else f"\n{source}").body[0]
-        first = function.__code__.co_firstlineno
-    except (OSError, TypeError, ValueError, AttributeError, SyntaxError, IndexError):
-        return None
-    inner = tree.body[0] if isinstance(tree, ast.If) else tree
-    return ast.increment_lineno(inner, first - 2) if isinstance(inner, Function) else None
 
 
 def callback_names(methods: Methods) -> list[str]:
@@ -130,7 +97,7 @@ def assigned_names(class_: type, methods: Methods) -> frozenset[str]:
     values = {
         name
         for base in class_.__mro__
-        if base.__module__.split(".")[0] not in _LIBRARIES
+        if base.__module__.split(".")[0] not in LIBRARIES
         for name, value in vars(base).items()
         if not callable(value) and not name.startswith("__")
     }

@@ -63,6 +63,28 @@ class PairsByName(Pairs):
             self.sums.publish(Float64(data=last.data + msg.data))
 
 
+class StartsAtZero(Node):
+    def __init__(self, name):
+        super().__init__(name)
+        self.last = Float64()
+
+
+class PairsFromZero(StartsAtZero):
+    """Sets the attribute in the __init__ of its base class."""
+
+    def __init__(self):
+        super().__init__("pairs")
+        self.sums = self.create_publisher(Float64, "/sum", 10)
+        self.create_subscription(Float64, "/a", self.on_a, 10)
+        self.create_subscription(Float64, "/b", self.on_b, 10)
+
+    def on_a(self, msg):
+        self.last = msg
+
+    def on_b(self, msg):
+        self.sums.publish(Float64(data=self.last.data + msg.data))
+
+
 class PairsWithoutInit(Node):
     """Reads an attribute that does not exist before the first /a."""
 

@@ -79,6 +79,7 @@ SENTENCES = {
 RIGHT = [
     (orders.PairsCarefully, orders.TwoTopics),
     (orders.PairsByName, orders.TwoTopics),
+    (orders.PairsFromZero, orders.TwoTopics),
     (orders.OneTimer,),
     (orders.ReservesStock, orders.Shop),
     (orders.TestsStockAgain, orders.Shop),

@@ -3,7 +3,8 @@
 import pytest
 from rclpy.node import Node
 
-from sim.notebook.attribute_analysis import attributes_of, methods_of
+from sim.notebook.attribute_analysis import attributes_of
+from sim.notebook.class_source import methods_of
 
 
 class Pairs(Node):
@@ -72,6 +73,19 @@ class DefinesMore(Pairs):
         msg.add_done_callback(done)
 
 
+class Extends(Pairs):
+    def __init__(self):
+        super().__init__()
+        self.more = 0
+
+    def on_a(self, msg):
+        self.more += 1
+        super().on_a(msg)
+
+    def on_b(self, msg):
+        return Pairs.on_b(self, msg)
+
+
 def test_a_callback_has_what_its_methods_use():
     assert attributes_of(Pairs) == {
         "Pairs.on_a": ({"seen"}, {"last", "seen"}, set()),
@@ -90,6 +104,13 @@ def test_what_is_tested_first_is_guarded(class_):
 def test_a_function_that_is_only_defined_reads_later_and_counts_as_a_writer():
     uses = attributes_of(DefinesMore)["DefinesMore.on_b"]
     assert uses == (set(), {"total"}, set())
+
+
+def test_a_call_of_the_overridden_method_counts_as_its_body():
+    uses = attributes_of(Extends)
+    assert list(uses) == ["Extends.on_a", "Extends.on_b", "Extends.tick"]
+    assert uses["Extends.on_a"].writes == {"last", "more", "seen"}
+    assert uses["Extends.on_b"] == attributes_of(Pairs)["Pairs.on_b"]
 
 
 def test_lines_are_those_of_the_file():
