@@ -24,6 +24,8 @@ from sim.ros2.type_support import import_without_generators
 COMPLETION_SETTLING_TIME = 0.1  # s: pressing Tab again retries
 RETRY_INTERRUPT = 0.1  # s until a lost Ctrl-C is repeated
 INTERRUPTED = 2  # exit status after Ctrl-C, as the official command's
+KERNEL = "JPY_PARENT_PID"  # set in a notebook's kernel, and in what its cells start
+IN_CELL = "!ros2 looks at other processes. For what run(...) and play(...) do in this notebook, write %ros2."
 MARK = b"sim.ros2"  # in the installed script that starts this module
 
 
@@ -42,13 +44,19 @@ def main() -> int:
     )
     try:
         return parser.execute(
-            command_parser, None, lambda: LiveSystem(_print_line, _print_error), _print_line, _print_error
+            command_parser, None, _open_system, _print_line, _print_error
         )
     except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
     except BrokenPipeError:  # such as of `ros2 topic echo /scan | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+
+
+def _open_system() -> LiveSystem:
+    if KERNEL in os.environ:  # a notebook's cell with !ros2
+        _print_error(IN_CELL)
+    return LiveSystem(_print_line, _print_error)
 
 
 def _interrupted(*_: Any) -> None:

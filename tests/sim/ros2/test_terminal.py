@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.ros2.terminal import official_command
+from sim.ros2.terminal import IN_CELL, official_command
 from tests.patience import PATIENCE, until
 from tests.sim.ros2.official import OFFICIAL, plain
 from tests.sim.ros2.test_played import OURS as PLAYED
@@ -177,6 +177,12 @@ def test_a_domain_without_nodes_gets_a_hint_at_others(system):
     assert (status, out) == (0, "")
     assert err.startswith(f"Nobody is on ROS domain {elsewhere} of this machine; there are nodes on ")
     assert str(system) in err
+
+
+def test_a_command_in_a_cell_points_to_the_magic(system, monkeypatch):
+    monkeypatch.setenv("JPY_PARENT_PID", "1")
+    status, out, err = ended([*ROS2, "node", "list"], system)
+    assert (status, err) == (0, f"{IN_CELL}\n") and out
 
 
 def test_an_invalid_domain_is_reported():
