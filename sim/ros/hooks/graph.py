@@ -20,6 +20,7 @@ from rclpy.subscription import Subscription
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.scheduler import active, engine
+from sim.ros.hooks.contexts import NOT_VALID, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
 
@@ -33,6 +34,7 @@ def create_publisher(original: Callable) -> Callable:
         self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any
     ) -> Publisher:
         run = engine()
+        require_context(self, "Failed to create publisher")
         publisher = create_with_matching_type(
             lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
         )
@@ -60,6 +62,7 @@ def create_publisher(original: Callable) -> Callable:
 def create_subscription(original: Callable) -> Callable:
     def create_subscription(self: Node, msg_type: Any, topic: str, *arguments: Any, **keywords: Any) -> Any:
         run = engine()
+        require_context(self, "Failed to create subscription")
         subscription = create_with_matching_type(
             lambda type_: original(self, type_, topic, *arguments, **keywords), msg_type
         )
@@ -79,6 +82,7 @@ def create_subscription(original: Callable) -> Callable:
 @hook(Node, "create_timer", "the graph")
 def create_timer(original: Callable) -> Callable:
     def create_timer(self: Node, *arguments: Any, **keywords: Any) -> Any:
+        require_context(self, "failed to create timer", NOT_VALID)
         timer = original(self, *arguments, **keywords)
         run = engine()
         if run is not None:
@@ -102,6 +106,8 @@ def publish(original: Callable) -> Callable:
             raw = msg
         else:
             return original(self, msg)  # raises the TypeError that a student would get on a robot
+        with self.handle:  # raises InvalidHandle if it was destroyed
+            pass
         if not writer.context.alive:
             raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
         outgoing = writer.outgoing

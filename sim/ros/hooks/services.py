@@ -14,6 +14,7 @@ from rclpy.service import Service
 from rclpy.task import Future
 
 from sim.ros.fibers.scheduler import active, engine
+from sim.ros.hooks.contexts import require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 
@@ -29,6 +30,7 @@ def _seek(node: Node, service: Any) -> None:
 @hook(Node, "create_service", "the graph")
 def create_service(original: Callable) -> Callable:
     def create_service(self: Node, srv_type: Any, srv_name: str, *arguments: Any, **keywords: Any) -> Any:
+        require_context(self, "failed to create service")
         _seek(self, srv_name)
         service = original(self, srv_type, srv_name, *arguments, **keywords)
         run = engine()
@@ -72,6 +74,7 @@ def service_init(original: Callable) -> Callable:
 @hook(Node, "create_client", "the graph")
 def create_client(original: Callable) -> Callable:
     def create_client(self: Node, srv_type: Any, srv_name: str, **keywords: Any) -> Any:
+        require_context(self, "failed to create client")
         _seek(self, srv_name)
         client = original(self, srv_type, srv_name, **keywords)
         run = engine()

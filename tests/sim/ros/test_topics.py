@@ -1,6 +1,9 @@
 """Messages are handed over inside a run as the middleware would carry them."""
 
 import pytest
+import rclpy
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 from sim import Recording, run
 from sim.ros.transport.topics import MIDDLEWARE
@@ -73,8 +76,35 @@ def test_bytes_that_are_no_message_reach_nobody():
 
 def test_a_destroyed_publisher_refuses_to_publish():
     (error,) = run(topics.SpeaksAfterItsEnd, seconds=1, quiet=True).errors
-    assert error.type == "RCLError"
-    assert "Failed to publish: publisher pointer is invalid" in error.text
+    assert error.type == "InvalidHandle"
+    assert error.text == "cannot use Destroyable because destruction was requested"
+
+
+INVALID = "rcl node's context is invalid"
+NOT_VALID = "the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
+
+
+@pytest.mark.parametrize(
+    ("create", "text"),
+    [
+        ("create_publisher(String, 'chatter', 10)", f"Failed to create publisher: {INVALID}"),
+        ("create_subscription(String, 'chatter', print, 10)", f"Failed to create subscription: {INVALID}"),
+        ("create_service(Trigger, 'trigger', print)", f"failed to create service: {INVALID}"),
+        ("create_client(Trigger, 'trigger')", f"failed to create client: {INVALID}"),
+        ("create_timer(1.0, print)", f"failed to create timer: {NOT_VALID}"),
+    ],
+)
+def test_nothing_is_created_after_shutdown(create, text):
+    """rclpy's words, without the place in rcl's sources."""
+
+    def main():
+        rclpy.init()
+        node = rclpy.create_node("late")
+        rclpy.shutdown()
+        eval(f"node.{create}", {"node": node, "String": String, "Trigger": Trigger})
+
+    (error,) = run(main, seconds=1, quiet=True).errors
+    assert (error.type, error.text) == ("RCLError", text)
 
 
 @pytest.mark.parametrize("programs", [
