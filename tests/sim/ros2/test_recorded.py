@@ -135,7 +135,7 @@ def test_missing_names_and_options(said, command, words):
         (
             "tpic list",
             "ros2: error: argument COMMAND: there is no 'tpic', only action, bag, doctor, interface,"
-            " launch, lifecycle, node, param, pkg, run, service, topic. Did you mean topic?\n",
+            " launch, lifecycle, node, param, pkg, run, service, topic, wtf. Did you mean topic?\n",
         ),
         ("node list -x", "ros2: error: unrecognized arguments: -x\n"),
         ("topic hz", "ros2 topic hz: error: the following arguments are required: topic_name\n"),
