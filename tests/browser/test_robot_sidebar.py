@@ -7,7 +7,7 @@ from tests.browser.pictures import Picture
 from tests.browser.test_play_in_lab import CIRCLE, IMPORTS, eventually, live
 
 pytestmark = pytest.mark.browser
-BUSY = "import time; time.sleep(6)"
+BUSY = "import os, time\nwhile not os.path.exists('go'): time.sleep(0.1)"
 LARGE = {"width": 1440, "height": 900}
 VISIBLE = """() => {
     const shown = document.querySelector('.ros2-course-robot:not(.lm-mod-hidden) .stage canvas');
@@ -104,11 +104,12 @@ def test_saved_output_does_not_claim_that_the_robot_plays(playing):
     assert playing.page.get_by_role("button", name="Show the robot").count() == 0
 
 
-def test_while_a_cell_computes_the_picture_says_that_it_waits(playing):
+def test_while_a_cell_computes_the_picture_says_that_it_waits(playing, students_folder):
     playing.run_cell(2, wait=False)
     root = live(playing).root
     root.locator(".say", has_text="The robot waits: the kernel is busy with another cell").wait_for()
     assert "waits" in root.locator(".bar").inner_text()
+    (students_folder / "sidebar" / "go").touch()
     playing.wait_for_cell(2)
     Picture(root).wait_until("root => !root.classList.contains('waits')")
     Picture(root).wait_until("root => /runs at/.test(root.innerText)")

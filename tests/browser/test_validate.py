@@ -7,7 +7,7 @@ import pytest
 from tests.browser.lab import write_notebook
 
 pytestmark = pytest.mark.browser
-SLOW = "import time; time.sleep(4); 1.5"
+SLOW = "import os, time\nwhile not os.path.exists({!r}): time.sleep(0.1)\n1.5"
 GRADE = """([index, points]) => {
     const cell = window.notebook().content.model.cells.get(index);
     const grade_id = `check-${index}`;
@@ -17,8 +17,9 @@ GRADE = """([index, points]) => {
 
 @pytest.fixture
 def checked(students_folder, open_lab):
-    """A notebook with a quick check and a slow one, of 2 points each."""
-    write_notebook(students_folder / "validate/two.ipynb", "x = 1", "2.0", SLOW)
+    """A notebook with a quick check and one that waits for a file, of 2 points each."""
+    go = students_folder / "validate" / "go"
+    write_notebook(go.with_name("two.ipynb"), "x = 1", "2.0", SLOW.format(str(go)))
     with open_lab("validate/two.ipynb") as lab:
         for index in (1, 2):
             lab.page.evaluate(GRADE, [index, 2])
@@ -29,15 +30,16 @@ def rows(dialog):
     return [" | ".join(row.locator("th, td").all_inner_texts()) for row in dialog.locator("tr").all()][1:]
 
 
-def test_rows_come_as_they_arrive_and_the_total_at_the_end(checked):
+def test_rows_come_as_they_arrive_and_the_total_at_the_end(checked, students_folder):
     checked.page.locator(".validate-button").first.click()
     dialog = checked.page.locator(".jp-Dialog", has_text="Validation Results")
     dialog.locator("td", has_text="2 of 2").wait_for()
     assert len(rows(dialog)) == 2  # and no total
     assert rows(dialog)[0] == " | 2 of 2 | ✔"
-    dialog.locator("td", has_text=re.compile("^runs, [1-9] s$")).wait_for()
+    dialog.locator("td", has_text=re.compile(r"^runs, [1-9]\d* s$")).wait_for()
     assert dialog.locator("p[role='status']").inner_text().startswith("Check 2 of 2: ")
     checked.screenshot("validate-running")
+    (students_folder / "validate" / "go").touch()
     dialog.locator("tfoot tr").wait_for()
     assert rows(dialog) == [
         " | 2 of 2 | ✔",
