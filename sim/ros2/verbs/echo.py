@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterator
+from typing import Any
 
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 
@@ -29,10 +30,15 @@ def window(default: int) -> tuple:
     return argument("-w", "--window", type=positive_int, default=default, metavar="WINDOW", help=text)
 
 
-@topic.verb("hz", NAME, window(10000))
+@topic.verb(
+    "hz",
+    NAME,
+    window(10000),
+    argument("--filter", metavar="EXPR", help="Only measure messages m of which this is true"),
+)
 def hz(system: System, options: Namespace) -> None:
     """Print the average publishing rate to screen."""
-    _print_statistic(system, options.topic_name, Rate(options.window))
+    _print_statistic(system, options.topic_name, Rate(options.window), options.filter)
 
 
 @topic.verb("bw", NAME, window(100))
@@ -47,14 +53,16 @@ def delay(system: System, options: Namespace) -> None:
     _print_statistic(system, options.topic_name, Delay(options.window, system.epoch))
 
 
-def _print_statistic(system: System, name: str, statistic: TopicStatistic) -> None:
-    """Print a statistic every second or, of a recording, once."""
+def _print_statistic(
+    system: System, name: str, statistic: TopicStatistic, expression: str | None = None
+) -> None:
+    """Print a statistic every second or, of a recording, once. expression: which messages count."""
     name, type_ = _wait_for_topic(system, name)
     if statistic.header:
         system.print_line(statistic.header.format(name))
     received = False
     for message in system.subscribe({name: type_}, qos_profile_sensor_data):
-        if message is not None:
+        if message is not None and (expression is None or _matches(expression, _decoded(message))):
             received = True
             statistic.add(message)
         if system.finished or (message is None and system.time_limit is not None):
@@ -162,9 +170,7 @@ def _format(message: ReceivedMessage, options: Namespace) -> str | None:
     """A message as text; None if the filter excludes it."""
     if options.raw:
         return f"{message.raw!r}\n---"
-    from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
-
-    value = decode(message.type, message.raw)
+    value = _decoded(message)
     for part in filter(None, (options.field or "").split(".")):
         try:
             value = getattr(value, part)
@@ -177,6 +183,12 @@ def _format(message: ReceivedMessage, options: Namespace) -> str | None:
     length = None if options.full_length else options.truncate_length
     style = Style(length, options.no_arr, options.no_str, options.flow_style)
     return as_csv(value, style) if options.csv else f"{as_yaml(value, style)}---"
+
+
+def _decoded(message: ReceivedMessage) -> Any:
+    from sim.ros.messages.decoder import decode  # imported late, because numpy is slow
+
+    return decode(message.type, message.raw)
 
 
 def _matches(expression: str, message: object) -> bool:

@@ -100,6 +100,8 @@ def test_commands_that_need_running_nodes_are_refused(said, command):
         ("topic echo --once --qos-reliability reliable /place", "No message came on /place in this run.\n"),
         ("topic echo --once --qos-durability volatile --field data /greeting", "hello\n---\n"),
         ("topic echo --once --filter m.x>1 --field point /place", "x: 1.5\ny: 0.0\nz: 0.0\n---\n"),
+        ("topic hz --filter 1/0 /place", "--filter '1/0' fails: ZeroDivisionError: division by zero\n"),
+        ("topic hz --filter m.point.x>99 /place", "No message came on /place in this run.\n"),
         ("topic echo --filter m.x>2 --field point /place", "No message came on /place in this run.\n"),
         ("topic echo --filter 1/0 /place", "--filter '1/0' fails: ZeroDivisionError: division by zero\n"),
         ("topic echo --once --raw /greeting", r"b'\x00\x01\x00\x00\x06\x00\x00\x00hello\x00'" "\n---\n"),
