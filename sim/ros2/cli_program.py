@@ -25,7 +25,6 @@ def terminal(command: str | Callable[[], str]) -> Process:
     def ros2() -> None:  # the program's name
         _execute_line(command() if callable(command) else command)
 
-    ros2.bundled = True
     return Process(ros2)
 
 
