@@ -15,6 +15,7 @@ from sim.ros2.interface_types import type_class
 from sim.ros2.qos_options import QOS, profile_from_options
 from sim.ros2.system import POLL, CliError, Output, System
 from sim.ros2.text import fill, read_values
+from sim.ros2.verbs import echo as _echo  # noqa: F401  (its verbs come before `pub`)
 from sim.ros2.verbs.topic import NAME, topic, types_of
 from sim.suggestions import closest_match
 
