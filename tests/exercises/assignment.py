@@ -14,6 +14,7 @@ from grader import Exercise, Score
 from grader.diagnosis import find_flaw
 from tests.exercises.at_times import TIMES, working
 from tests.exercises.evidence import Evidence
+from tests.exercises.orders import fallen_short_in_orders
 from tests.exercises.score_tables import (
     NOT_STARTED,
     executed,
@@ -29,6 +30,8 @@ from tests.students.teams import programs_of
 
 PRIVATE = 8, 40  # other seeds, at least and at most, as students get them; tests.exercises.seeds tries more
 PRIVATE_SECONDS = 1500.0  # of simulated time, for which an exercise is tried with other seeds
+LEAST_ORDERS, ORDERS_OF_PACKAGES = 50, 8  # tried with each exercise; tests.exercises.orders tries more
+ORDERS = {"13_delivery": 200}
 LONG = 15.0  # s of simulated time, of all runs of an exercise
 RAISED = re.compile(r"^  Saw: \w*(Error|Exception)\b", re.M)
 
@@ -151,6 +154,12 @@ class Assignment:
         (least, most), judge = PRIVATE, self.judge(exercise)
         number = least if judge.package else min(max(int(PRIVATE_SECONDS / simulated(judge)), least), most)
         assert list(fallen_short(self.topic(), exercise, range(number))) == []
+
+    @pytest.mark.soak
+    def test_right_nodes_earn_everything_in_every_order(self, exercise):
+        number = ORDERS_OF_PACKAGES if self.judge(exercise).package else ORDERS.get(self.folder, LEAST_ORDERS)
+        numbers = range(1, number + 1)
+        assert list(fallen_short_in_orders(self.topic(), exercise, numbers)) == []
 
     def test_a_right_node_that_works_only_at_times_breaks_no_check(self, exercise, times):
         """It misses what it doesn't do; a check that then finds nothing to judge is no mistake of ours."""
