@@ -50,6 +50,7 @@ class Exercise:
     package: the name of the package that is built and run. `grade` then takes the folder of a workspace,
         `prepare` of each scenario says which of its programs runs, and checks are given a `PackageRun`.
     build_type: that of the package; one of "ament_cmake" has interfaces, and is read in place of being built.
+    waits: as in Scenario.
     names_count: names are a part of the task, so those alone may earn more than 30 % of the points.
     extra_allowed: messages beyond those that the task wants cost nothing.
 
@@ -67,6 +68,7 @@ class Exercise:
     scenarios: Sequence[Scenario] = ()
     may_end: bool = False
     network: Network | None = None
+    waits: bool = True
     package: str = ""
     build_type: str = PYTHON
     names_count: bool = False
@@ -134,7 +136,8 @@ class Exercise:
 
     def runs(self, secret: str = "") -> list[tuple[Scenario, int]]:
         """Scenarios with their seeds: public ones, or private ones from a secret."""
-        one = Scenario(self.world, self.seconds, 0, self.companions, self.until, network=self.network)
+        about = {"network": self.network, "waits": self.waits}
+        one = Scenario(self.world, self.seconds, 0, self.companions, self.until, **about)
         public = [(scenario, scenario.seed) for scenario in self.scenarios] or [(one, s) for s in self.seeds]
         if not secret:
             return public

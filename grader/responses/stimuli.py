@@ -1,6 +1,7 @@
 """What the course's programs send, and what the student's programs publish in response."""
 
 import bisect
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +11,7 @@ from grader.checks.no_data import no_data
 from grader.responses.comparison import same, text_of
 from grader.responses.window import EDGE, Row, Window
 from sim.evidence import Call, Message, Recording, Seconds
+from sim.order import SPREAD
 
 
 def from_course(run: Recording, topic: str, *, at_least: int = 1, settled: Seconds = 0.0,
@@ -130,10 +132,19 @@ class Stimuli:
             expected = self.what or f"messages on {self.topic}"
             raise no_data(run, expected, f"{len(chosen)}", run.graph.publishers(self.topic))
         answers = from_student(run, self.answered_on)
-        return [self._with_responses(row, answers) for row in chosen]
+        moments = [row.stamp for row in run.received(self.topic)] if run.order else []
+        ends = {stamp: end for stamp, end in itertools.pairwise(moments) if self._is_near(stamp, end)}
+        return [self._with_responses(row, answers, ends.get(row.stamp)) for row in chosen]
 
-    def _with_responses(self, message: Message, answers: Sequence[Message]) -> Stimulus:
+    def _is_near(self, stamp: Seconds, following: Seconds) -> bool:
+        """Whether the next stimulus, in another order, came so early that it cuts this one's window short."""
+        return self.within - 2 * SPREAD < following - stamp <= self.within
+
+    def _with_responses(
+        self, message: Message, answers: Sequence[Message], following: Seconds | None
+    ) -> Stimulus:
         window = Window(message.stamp + self.not_before, message.stamp + self.within)
+        window = window if following is None else window.before(following)
         return Stimulus(message, window, self.answered_on, tuple(window.rows(answers)))
 
 

@@ -136,10 +136,7 @@ class Recording(RunData):
         """
         sent = [message for message in self.messages(topic) if message.from_course]
         order = Order.parse(self.order or None)
-        if order is None:
-            return sent
-        receivers = {end.node for end in self.graph.subscriptions(topic) if not end.from_course}
-        return arrived(sent, receivers, order, self.started_at, self.ended.stamp)
+        return sent if order is None else arrived(self, topic, sent, order, self.started_at)
 
     def calls_of(
         self, service: str | None = None, client: str | None = None, server: str | None = None

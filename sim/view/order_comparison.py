@@ -37,7 +37,9 @@ def comparison(explanation: str, usual: Recording, other: Recording | None) -> s
 
 def runs_side_by_side(usual: Recording, other: Recording) -> str:
     """Two tables, one for each run: what each node did around the first difference."""
-    rows = [_rows(recording) for recording in (usual, other)]
+    named = " ".join(departure.text for departure in other.departures)
+    hidden = {node for node in other.course_nodes if node not in named}  # the robot, mostly
+    rows = [[row for row in _rows(recording) if row.node not in hidden] for recording in (usual, other)]
     first = next(
         (i for i, pair in enumerate(zip(*rows, strict=False)) if pair[0] != pair[1]), min(map(len, rows))
     )
@@ -98,11 +100,14 @@ _STYLE = """<style>
 .sim-orders { display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start; overflow-x: auto; }
 .sim-orders table { border-collapse: collapse; font-size: 90%; }
 .sim-orders caption { text-align: left; font-weight: bold; padding: 0.3em 0; }
-.sim-orders td, .sim-orders th { text-align: left; padding: 0.15em 0.7em; border-bottom: 1px solid #8884; }
+.sim-orders table :is(td, th) {
+  text-align: left; vertical-align: top; padding: 0.15em 0.7em; border-bottom: 1px solid #8884;
+}
+.sim-orders table tr { background: none; }
 .sim-orders td:first-child { font-variant-numeric: tabular-nums; white-space: nowrap; }
-.sim-orders .departure td { color: #b35900; font-style: italic; }
-.sim-orders .error { color: #c0392b; font-weight: bold; }
-.sim-orders tr.first { background: #ffb70333; }
-[data-jp-theme-light="false"] .sim-orders .departure td { color: #ffb266; }
-[data-jp-theme-light="false"] .sim-orders .error { color: #ff8a80; }
+.sim-orders table .departure td { color: #a04d00; font-style: italic; }
+.sim-orders table td.error { color: #b3261e; font-weight: bold; }
+.sim-orders table tr.first td { background: #ffb70340; }
+[data-jp-theme-light="false"] .sim-orders table .departure td { color: #ffb266; }
+[data-jp-theme-light="false"] .sim-orders table td.error { color: #ff8a80; }
 </style>"""

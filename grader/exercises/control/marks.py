@@ -15,7 +15,9 @@ NEAR, SOON, MOST = 0.05, 4.0, 0.12  # m, s, m
 FLOAT = "std_msgs/msg/Float64"
 Leg = tuple[Seconds, Seconds, float]  # from when, until when, to where
 
-marks = Exercise("marks", "To the mark", world=weak_cart, seconds=17, companions=[Marks], seeds=(1, 2))
+marks = Exercise(
+    "marks", "To the mark", world=weak_cart, seconds=17, companions=[Marks], seeds=(1, 2), waits=False
+)
 
 
 @marks.check(2)

@@ -18,7 +18,9 @@ ANSWERS = "/brightest"
 ASIDE = ("A callback that takes long belongs in a callback group of its own, and a MultiThreadedExecutor "
          "spins the node: with one of the two alone nothing changes.")
 
-worker = Exercise("worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2))
+worker = Exercise(
+    "worker", "Out of the way", world=work_cart, seconds=10, companions=[Camera], seeds=(1, 2), waits=False
+)
 pictures = Stimuli("/picture", answered_on=ANSWERS, within=SOON, what="pictures")
 
 

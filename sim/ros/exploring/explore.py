@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from sim.evidence import Recording
@@ -19,6 +18,16 @@ SILENT = {"quiet": True, "expect_error": True}
 
 Holds = Callable[[Recording], bool]
 Attempt = Callable[[str | int], tuple[Recording, bool]]
+
+
+class Progress(Protocol):
+    """Shows how far a search is."""
+
+    def show(self, text: str, done: int) -> None:
+        """Say what is going on; done: the number of orders tried."""
+
+    def end(self) -> None:
+        """Leave nothing behind."""
 
 
 class Judge(Protocol):
@@ -81,7 +90,7 @@ class _Search:
     """One search. The result grows in `found`."""
 
     def __init__(self, attempt: Attempt, orders: int, level: str, spread: float) -> None:
-        self.progress = _Progress(orders)
+        self.progress = _progress(orders)
         self.found = Explored(Recording(), level=level)
         self._attempt, self._orders, self._level, self._spread = attempt, orders, level, spread
 
@@ -124,23 +133,29 @@ class _Search:
                 pass
 
 
-@dataclass
-class _Progress:
-    """A line with a bar, in a notebook and in a terminal."""
+def _progress(orders: int) -> Progress:
+    """What shows how far the search is: a bar in a notebook, a line in a terminal."""
+    if in_notebook():
+        from sim.view.progress_bar import ProgressBar  # imported here because it is slow
 
-    orders: int
-    shown: bool = field(default_factory=lambda: in_notebook() or sys.stderr.isatty())
-    width: int = 0
+        return ProgressBar(orders)
+    return _Line(orders)
+
+
+class _Line:
+    """A line in a terminal that is replaced again and again; nothing elsewhere."""
+
+    def __init__(self, orders: int) -> None:
+        self._orders, self._width, self._shown = orders, 0, sys.stderr.isatty()
 
     def show(self, text: str, done: int) -> None:
-        """Replace the line."""
-        if self.shown:
-            bar = "#" * (20 * done // self.orders)
-            line = f"[{bar:<20}] {text}"
-            print(f"\r{line:<{self.width}}", end="", file=sys.stderr, flush=True)
-            self.width = len(line)
+        """As Progress."""
+        if self._shown:
+            line = f"[{'#' * (20 * done // self._orders):<20}] {text}"
+            print(f"\r{line:<{self._width}}", end="", file=sys.stderr, flush=True)
+            self._width = len(line)
 
     def end(self) -> None:
-        """Remove the line."""
-        if self.width:
-            print("\r" + " " * self.width + "\r", end="", file=sys.stderr, flush=True)
+        """As Progress."""
+        if self._width:
+            print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)

@@ -69,6 +69,10 @@ class FirstAtOnce(Patient):
 
     def take(self, msg):
         super().take(msg)
+        self.first = self.create_timer(0.01, self.send_first)  # by then it has found the arm
+
+    def send_first(self):
+        self.first.cancel()
         self.target = self.next()
         self.publisher.publish(Float64(data=self.target))
 
