@@ -18,7 +18,7 @@ SLOW = 1.5  # times as long as needed, and
 REST = 0.5  # s more, is still fine
 
 trajectory = Exercise("trajectory", "A path for the arm", world=arm_of, seconds=14.5, companions=teacher,
-                      seeds=(1, 2))
+                      seeds=(1, 2), waits=False)
 
 
 class Lesson(NamedTuple):

@@ -13,7 +13,9 @@ TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
 RADIUS, SPEED = 0.5, 0.3  # m, m/s
 NEAR, ROUND = 0.08, 6.0  # m from the circle; rad of it that are driven, and turned
 # What ros2 prints about a command that is wrong.
-COMPLAINT = re.compile("error:|command not found|is not a command|can't be read|populate field|is invalid")
+COMPLAINT = re.compile(
+    "error:|command not found|is not a command|can't be read|populate field|is invalid|is not what it looks"
+)
 TIMEOUT = 0.5  # s after which the robot stops without a command
 
 pub = Exercise("pub", "Drive with one command", world="room", seconds=12, extra_allowed=True)
@@ -77,7 +79,7 @@ def _how_to_read(wrong: str) -> str:
     if "unrecognized arguments" in wrong:
         return ("The values are one word for the terminal: put quotes round them, '{...}', as they have "
                 "spaces.")
-    if "no attribute 'x:" in wrong or "no attribute 'linear:" in wrong:
+    if "needs a space" in wrong:
         return "YAML wants a space after each colon: {x: 0.3}, not {x:0.3}."
     if "populate field" in wrong:
         return "`ros2 interface show geometry_msgs/msg/Twist` shows the fields of the message."

@@ -65,16 +65,22 @@ class SaysItAgain(Patient):
 
 
 class FirstAtOnce(Patient):
-    """The first goes out as soon as it is known, as the task says."""
+    """The first goes out as soon as it is known and the arm is found, as the task says."""
+
+    first = None
 
     def take(self, msg):
         super().take(msg)
-        self.first = self.create_timer(0.01, self.send_first)  # by then it has found the arm
+        self.first = self.create_timer(0.01, self.send_first)
 
     def send_first(self):
         self.first.cancel()
         self.target = self.next()
         self.publisher.publish(Float64(data=self.target))
+
+    def watch(self, msg):
+        if self.first is not None and self.first.is_canceled():
+            super().watch(msg)
 
 
 def main_step_by_step():
