@@ -11,6 +11,7 @@ from sim.order import Draw, Order
 from sim.ros.fibers.fiber import Fiber, Program
 
 MOST_PREEMPTIONS = 8  # in a run: almost all known faults need one or two
+MOST_DEPARTURES = 20_000  # that are listed
 PICKED_LINES = 1.2  # times the intensity: the share of lines before which threads may be preempted
 LATE_VISITS = 300  # executions of a line before which it may begin at the latest
 FIRST, USUAL, LAST = -1, 0, 1
@@ -31,7 +32,7 @@ class Choices:
     def list(self, draw: Draw, node: str, kind: str, text: str) -> None:
         """A choice departs from the usual one. Each is listed once at a time."""
         now = self._now()
-        if (now, draw.id) not in self._listed:
+        if (now, draw.id) not in self._listed and len(self._departures) < MOST_DEPARTURES:
             self._listed.add((now, draw.id))
             self._departures.append(Departure(now / SECOND, node, kind, text, draw.id))
 

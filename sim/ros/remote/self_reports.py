@@ -5,6 +5,7 @@ No other process can verify these reports, so they are only validated, shortened
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from sim.evidence import (
     UndeliveredMessage,
 )
 from sim.nanoseconds import SECOND
+from sim.ros.fibers.choices import MOST_DEPARTURES
 from sim.ros.recorder.recorder import LEVELS, MAX_LOG_LINES
 from sim.ros.remote.validation import ProtocolError, TextBudget, valid_float, valid_list
 
@@ -32,6 +34,7 @@ MAX_TIMER_PERIOD = 1e9  # s
 KINDS = ("timer", "subscription", "service", "client", "action", "event", "guard condition", "task")
 
 DEPARTURES = ("turn", "callback", "message", "start", "thread")
+DEPARTURE_ID = re.compile("[0-9a-f]{6}")
 
 
 class SelfReports:
@@ -129,8 +132,9 @@ class SelfReports:
         self._recording.callbacks.append(run)
 
     def _departure(self, stamp: Any, node: Any, kind: Any, text: Any, id_: Any) -> None:
-        if kind not in DEPARTURES:
+        if kind not in DEPARTURES or not isinstance(id_, str) or not DEPARTURE_ID.fullmatch(id_):
             raise ProtocolError("a departure of unknown kind")
         at = valid_float(stamp, "the time of a departure", 0, self._now)
-        texts = self._name(node), kind, self._texts.take(text, "a departure"), self._name(id_)
-        self._recording.departures.append(Departure(at, *texts))
+        found = Departure(at, self._name(node), kind, self._texts.take(text, "a departure"), id_)
+        if len(self._recording.departures) < MOST_DEPARTURES:
+            self._recording.departures.append(found)

@@ -236,6 +236,8 @@ def test_an_invalid_event_ends_the_run(events, words):
         ({"timers": [["/a", -1, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
         ({"timers": [["/a", True, "b"]]}, "a timer's period that is not a number from 0 to 1e+09"),
         ({"callbacks": [[0, 0, "/a", "b", "dance"]]}, "a callback of unknown kind"),
+        ({"departures": [[0, "/a", "dance", "x", "2b71ed"]]}, "a departure of unknown kind"),
+        ({"departures": [[0, "/a", "turn", "x", "2b71ed,"]]}, "a departure of unknown kind"),
         (
             {"callbacks": [[0.5, 0, "/a", "b", "timer"]]},
             "the beginning of a callback that is not a number from 0 to 0",
