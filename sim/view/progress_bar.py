@@ -1,4 +1,4 @@
-"""A progress bar below a cell, which disappears at the end."""
+"""A progress bar below a cell; at the end a line says how much was done."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ class ProgressBar:
     """A bar with a text. most: where it is full."""
 
     def __init__(self, most: int) -> None:
-        self._most = most
+        self._most, self._done = most, 0
         self._handle: DisplayHandle | None = None
 
     def show(self, text: str, done: int) -> None:
         """Show a text, and how much is done."""
+        self._done = done
         bar = HTML(f"<label><progress max='{self._most}' value='{done}'></progress> {escape(text)}</label>")
         if self._handle is None:
             self._handle = display(bar, display_id=True)
@@ -23,7 +24,7 @@ class ProgressBar:
             self._handle.update(bar)
 
     def end(self) -> None:
-        """Remove it."""
+        """Replace the bar with the number."""
         if self._handle is not None:
-            self._handle.update(HTML(""))
+            self._handle.update(HTML(f"<small>Orders tried: {self._done}</small>"))
             self._handle = None

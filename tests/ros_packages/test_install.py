@@ -150,7 +150,7 @@ def test_ctrl_c_stops_the_build_with_one_sentence(changed, tmp_path):
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     ) as terminal:  # fmt: skip
-        assert [terminal.stdout.readline() for _ in range(2)][1] == "  1 of 9: a_msgs\n"
+        assert [terminal.stdout.readline() for _ in range(2)][1] == "  1 of 10: a_msgs\n"
         os.killpg(terminal.pid, signal.SIGINT)
         output = terminal.communicate(timeout=PATIENCE)[1]
     assert output == "Stopped: the ROS interfaces are built when the same command is run again.\n"

@@ -19,7 +19,8 @@ def add_place(error: Exception, place: str | None) -> None:
     """Append the place of an entity to the text of an error, unless a place is in it already."""
     if place and not getattr(error, "place", ""):
         error.place = place
-        error.args = (f"{error} ({place})",)
+        text, *_ = (*error.args, error)  # not str(error): a KeyError quotes its text
+        error.args = (f"{text} ({place})",)
 
 
 def place_in_python() -> str | None:

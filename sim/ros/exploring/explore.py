@@ -27,7 +27,7 @@ class Progress(Protocol):
         """Say what is going on; done: the number of orders tried."""
 
     def end(self) -> None:
-        """Leave nothing behind."""
+        """The search is over."""
 
 
 class Judge(Protocol):

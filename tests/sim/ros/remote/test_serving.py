@@ -69,7 +69,7 @@ def test_a_function_is_called_with_the_nodes(wires, nodes):
 
 
 def test_nodes_that_can_t_be_run_are_reported(wires):
-    wires[0].send(do="run", seconds=1.0, seed=0, preparation="")
+    wires[0].send(do="run", seconds=1.0, seed=0, order="", preparation="")
     wires[0].send(do="go", now=0, events=[])
     Remote(wires[0]).end()
     assert serve(wires[1], [5]) == {"do": "end"}
