@@ -101,7 +101,7 @@ _STYLE = """<style>
 .sim-orders table { border-collapse: collapse; font-size: 90%; }
 .sim-orders caption { text-align: left; font-weight: bold; padding: 0.3em 0; }
 .sim-orders table :is(td, th) {
-  text-align: left; vertical-align: top; padding: 0.15em 0.7em; border-bottom: 1px solid #8884;
+  text-align: left !important; vertical-align: top; padding: 0.15em 0.7em; border-bottom: 1px solid #8884;
 }
 .sim-orders table tr { background: none; }
 .sim-orders td:first-child { font-variant-numeric: tabular-nums; white-space: nowrap; }
