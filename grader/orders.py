@@ -1,7 +1,8 @@
 """An exercise's runs happen in different orders: a check passes if it passes in each that is graded.
 
 The first run has the usual order of what happens at the same time. Each other one has an order derived from
-its seed, so that it is private when a class is marked.
+its seed, so that it is private when a class is marked. Once something is missed, the remaining runs have the
+usual order, in which a mistake is easiest to see.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from sim.ros.exploring import failure_of, list_departures, shrink
 USUAL = ""
 LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"  # without those that look alike
 KEY_LENGTH = 4
-MOST_RUNS = 24  # to find the fewest differences that explain a miss
+MOST_RUNS, MOST_SECONDS = 24, 120.0  # simulated, to find the fewest differences that explain a miss
 
 Judged = tuple[Recording, list[Verdict]]
 
@@ -97,11 +98,12 @@ def _fewest_differences(
 ) -> Recording:
     """The run with the fewest departures in which one of these checks still misses."""
     best, whole, runs = recording, Order.parse(order), 0
+    most = min(MOST_RUNS, int(MOST_SECONDS / max(recording.stamp, 1.0)))
 
     def fails(ids: list[str]) -> bool:
         nonlocal best, runs
         runs += 1
-        if runs > MOST_RUNS:
+        if runs > most:
             return False
         tried, verdicts = judge(str(whole.limited_to(frozenset(ids))))
         missed = any(verdict.name in due and verdict.status != "passed" for verdict in verdicts)
