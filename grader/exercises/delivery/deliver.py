@@ -51,7 +51,8 @@ def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
     until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
     world = functools.partial(warehouse, kind)
-    return Scenario(world, seconds, seed, until=until, prepare=prepare, name=kind, fair=FAIR[kind])
+    about = {"prepare": prepare, "name": kind, "fair": FAIR[kind], "one_order": True}
+    return Scenario(world, seconds, seed, until=until, **about)
 
 
 deliver = Exercise(
