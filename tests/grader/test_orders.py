@@ -91,7 +91,7 @@ def test_a_node_that_is_right_in_every_order_earns_everything(adds):
     assert score.differences == ()
 
 
-def test_a_node_that_is_right_by_luck_misses_and_is_told_where_the_orders_part(adds):
+def test_the_feedback_of_a_node_that_is_right_by_luck_says_where_the_orders_part(adds):
     score = adds.grade(PairsByArrival)
     assert float(score) == 0
     (verdict,) = score.verdicts

@@ -156,7 +156,7 @@ class RunningProgram:
     def _wait_for_start(self) -> None:
         """In another order than the usual one, a program may start later, unless another process has it."""
         scheduler = self.scheduler
-        here = not (self.from_course or hasattr(self.target, "runs_elsewhere"))
+        here = not (self.from_course or getattr_static(self.target, "runs_elsewhere", False) is True)
         if scheduler.choices is not None and here:
             delay = scheduler.choices.start_delay(self)
             if delay:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from types import CodeType, FrameType
+from types import CodeType, FrameType, FunctionType
+from typing import Any
 
 _LIBRARIES = ("rclpy", "sim", "importlib", "threading")
 
@@ -34,8 +35,15 @@ def _class_mentions(owner: type) -> bool:
         if kind.__module__.split(".")[0] in _LIBRARIES:
             continue
         for member in vars(kind).values():
-            function = getattr(member, "__func__", None) or getattr(member, "fget", None) or member
-            code = getattr(function, "__code__", None)
-            if isinstance(code, CodeType) and _mentions(code):
+            if any(_mentions(function.__code__) for function in _functions_of(member)):
                 return True
     return False
+
+
+def _functions_of(member: Any) -> list[FunctionType]:
+    """The functions of a class's member. Its type is asked, and not the member: that may be any object."""
+    if type(member) in (staticmethod, classmethod):
+        member = member.__func__
+    elif type(member) is property:
+        member = member.fget
+    return [member] if type(member) is FunctionType else []

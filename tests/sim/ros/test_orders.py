@@ -34,3 +34,25 @@ def test_its_right_twin_is_not_reported(racy: Racy):
 def test_its_right_twin_is_not_reported_in_a_thousand_orders(racy: Racy):
     found = explore(*racy.right, holds=no_errors, level=racy.level, orders=1_000, seconds=racy.seconds)
     assert found.failed is None, found.explanation
+
+
+class Evasive:
+    """An object that answers no question."""
+
+    def __getattribute__(self, name):
+        raise RuntimeError(f"no {name}")
+
+
+EVASIVE = Evasive()
+
+
+class HasEvasiveParts(PROGRAMS["pairing"].wrong[1]):
+    """A right node beside such an object, and with one in it."""
+
+    part = Evasive()
+
+
+def test_objects_that_answer_no_question_do_not_stop_another_order():
+    recording = run(HasEvasiveParts, seconds=1, quiet=True, order=1)
+    assert recording.errors == []
+    assert len(recording.messages("/a")) >= 4
