@@ -1,4 +1,6 @@
 """How confined processes end, and that none outlives its end."""
+
+import gc
 import os
 import select
 import signal
@@ -81,10 +83,12 @@ def test_when_the_warm_process_dies_a_new_one_takes_its_place(make_commanded):
 
 def test_nothing_is_left_of_many(usual_sandbox, make_commanded):
     make_commanded(usual_sandbox).leave()
+    gc.collect()  # files of earlier tests that only a garbage collection closes
     before = len(os.listdir("/proc/self/fd"))
     for _ in range(20):
         make_commanded(usual_sandbox).leave()
-    assert len(os.listdir("/proc/self/fd")) == before
+    gc.collect()
+    assert len(os.listdir("/proc/self/fd")) <= before
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
