@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import count
 from types import SimpleNamespace
 from typing import Any, Protocol
@@ -57,6 +58,7 @@ class LaunchContext:
         self._handlers: deque[_EventHandler] = deque()
         self._events: deque[Event] = deque()
         self._wake = asyncio.Event()
+        self._at_end = contextlib.ExitStack()
 
     # -- events --------------------------------------------------------------------------------------
 
@@ -83,6 +85,10 @@ class LaunchContext:
     async def emit_event(self, event: Event) -> None:
         """As `emit_event_sync`."""
         self.emit_event_sync(event)
+
+    def call_at_end(self, function: Callable[[], None]) -> None:
+        """Call a function when the launch service ends, after everything that was launched is complete."""
+        self._at_end.callback(function)
 
     # -- names and their values ----------------------------------------------------------------------
 

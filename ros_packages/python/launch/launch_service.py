@@ -127,6 +127,7 @@ class LaunchService:
                     self._shutdown(text)
                     self.failure, status = self.failure or error, 1
         finally:
+            context._at_end.close()
             self.__loop = self.__task = context.asyncio_loop = None
 
     def _process(self, event: Event) -> None:

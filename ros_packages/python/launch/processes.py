@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import sys
 from collections.abc import Callable
 from typing import Protocol
@@ -24,7 +25,9 @@ class Process(Protocol):
 
 
 class ProcessStarter(Protocol):
-    """Starts the processes of a launch file."""
+    """Starts the processes of a launch file. pid: of the process that launch itself runs in."""
+
+    pid: int
 
     def find_bundled(self, package: str, executable: str) -> str | None:
         """The path of an executable that is bundled for a package, for `start`; None if there is none.
@@ -45,7 +48,7 @@ class SystemProcessStarter:
     """
 
     def __init__(self, bundled: Callable[[str, str], list[str] | None] | None = None) -> None:
-        self._bundled, self._commands = bundled, {}
+        self.pid, self._bundled, self._commands = os.getpid(), bundled, {}
 
     def find_bundled(self, package: str, executable: str) -> str | None:
         """As `ProcessStarter`. Raises what `bundled` raises."""

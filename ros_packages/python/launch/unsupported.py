@@ -20,8 +20,8 @@ LEFT_OUT = {
         "LaunchLogDir NotSubstitution OrSubstitution ThisLaunchFile"
     ),
     "launch_ros.actions": (
-        "ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes ROSTimer RosTimer "
-        "SetParametersFromFile SetROSLogDir SetRemap SetUseSimTime"
+        "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetParametersFromFile "
+        "SetROSLogDir SetRemap SetUseSimTime"
     ),
     "launch_ros.descriptions": "ComposableNode Parameter",
     "launch_ros.substitutions": "Parameter",

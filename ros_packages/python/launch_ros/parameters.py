@@ -17,6 +17,7 @@ from launch.substitution import SomeSubstitutionsType, Substitution, Substitutio
 from launch.utilities import ensure_argument_type, text_of, value_of
 from launch.yaml_frontend.substitutions import parse_substitution
 
+GLOBAL_PARAMETERS = "global_params"  # the launch configuration that all nodes read
 SCALARS = (bool, int, float, str)
 
 

@@ -10,7 +10,7 @@ from launch.yaml_frontend.actions import parse_command, process_options
 from launch.yaml_frontend.entity import Entity, expose_action
 from launch.yaml_frontend.xml_file import XmlText
 
-from launch_ros.actions import Node, PushRosNamespace, SetParameter
+from launch_ros.actions import LifecycleNode, Node, PushRosNamespace, SetParameter
 from launch_ros.parameters import ParameterFile, ParameterValue
 
 TYPES = {"str": str, "int": int, "float": float, "bool": bool}
@@ -18,10 +18,23 @@ TYPES = {"str": str, "int": int, "float": float, "bool": bool}
 
 @expose_action("node")
 def _node(entity: Entity) -> Action:
+    return Node(**_node_arguments(entity))
+
+
+@expose_action("lifecycle_node")
+def _lifecycle_node(entity: Entity) -> Action:
+    name, namespace = (entity.get_text(key, optional=False) for key in ("name", "namespace"))
+    given = _node_arguments(entity) | {"name": name, "namespace": namespace}
+    autostart = entity.get_text("autostart")
+    return LifecycleNode(**given, autostart=False if autostart is None else autostart)
+
+
+def _node_arguments(entity: Entity) -> dict[str, Any]:
     remappings = [
         (remap.get_text("from", False), remap.get_text("to", False)) for remap in entity.get_entities("remap")
     ]
-    given = {
+    return {
+        "executable": entity.get_text("exec", optional=False),
         "package": entity.get_text("pkg"),
         "name": entity.get_text("name"),
         "namespace": entity.get_text("namespace"),
@@ -30,9 +43,7 @@ def _node(entity: Entity) -> Action:
         "remappings": remappings,
         "arguments": parse_command(entity, "args"),
         "ros_arguments": parse_command(entity, "ros_args"),
-    }
-    executable = entity.get_text("exec", optional=False)
-    return Node(executable=executable, **given, **process_options(entity))
+    } | process_options(entity)
 
 
 def _parameter(entity: Entity) -> Any:

@@ -35,10 +35,14 @@ def _unsupported(program: str) -> UnsupportedProgram:
 
 
 class SimProcessStarter:
-    """Starts the processes of a launch file as programs of a run. error: of the first that can't be one."""
+    """Starts the processes of a launch file as programs of a run. error: of the first that can't be one.
+
+    pid: a sequential number of the launch file.
+    """
 
     def __init__(self, run: Any) -> None:
         self.run, self.error, self._numbers = run, None, count(1)
+        self.pid = run.programs.index(run.current.process) + 1
         self._bundled: dict[str, Callable[[], None]] = {}
 
     def find_bundled(self, package: str, name: str) -> str | None:
@@ -127,7 +131,11 @@ class SimProcess:
             status = -self._killed
             raise
         finally:
-            self._call_in_loop(self._status.set_result, status)
+            self._call_in_loop(self._set_status, status)
+
+    def _set_status(self, status: int) -> None:
+        if not self._status.done():  # canceled, when launch itself was interrupted
+            self._status.set_result(status)
 
 
 def _as_main(cmd: list[str], folder: str) -> tuple[Callable[[], None], list[str]]:

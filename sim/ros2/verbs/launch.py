@@ -6,9 +6,11 @@ import os
 import sys
 from argparse import Namespace
 
+from sim import ros_environment
 from sim.ros.absent_names import explain_absent_name
 from sim.ros.launching import files
 from sim.ros.packages import bundled_command, packages
+from sim.ros2.domains import selected_domain
 from sim.ros2.environment import environment_before, require_terminal
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.system import CliError, Output
@@ -55,6 +57,7 @@ def launch_(output: Output, options: Namespace) -> None:
 
     if options.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    ros_environment.open_to_this_machine(selected_domain())  # for launch's own node, with lifecycle nodes
     noninteractive = options.noninteractive or not sys.stdin.isatty()
     service = LaunchService(argv=rest, noninteractive=noninteractive, debug=options.debug)
     service.context.process_starter = SystemProcessStarter(bundled_command)

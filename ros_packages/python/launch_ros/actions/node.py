@@ -1,30 +1,26 @@
-"""The actions for nodes."""
+"""The action `Node`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 import yaml
 from launch.action import Action
 from launch.actions import ExecuteProcess
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
-from launch.substitution import SomeSubstitutionsType, SubstitutionFailure
-from launch.unsupported import refuse
+from launch.substitution import SomeSubstitutionsType
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, text_of
 
+from launch_ros.namespaces import NAMESPACE, join_namespaces, validate_name, validate_namespace
 from launch_ros.parameters import (
+    GLOBAL_PARAMETERS,
     ParameterFile,
-    evaluate_parameter,
     evaluate_parameter_dict,
     write_parameter_file,
 )
 from launch_ros.substitutions import ExecutableInPackage
-
-__all__ = ["Node", "PushROSNamespace", "PushRosNamespace", "SetParameter"]
-
-NAMESPACE, PARAMETERS = "ros_namespace", "global_params"  # the launch configurations that all nodes read
 
 
 class Node(ExecuteProcess):
@@ -63,6 +59,7 @@ class Node(ExecuteProcess):
         self.__parameters = list(parameters or ())
         self.__remappings = [(source, target) for source, target in remappings or ()]
         self.__final_name: str | None = None
+        self.__name_rules: list[str] = []
 
     @property
     def node_package(self) -> Any:
@@ -81,31 +78,42 @@ class Node(ExecuteProcess):
             raise RuntimeError("cannot access 'node_name' before executing action")
         return self.__final_name
 
+    @property
+    def is_lifecycle_node(self) -> bool:
+        """Whether the node has the states of a lifecycle."""
+        return False
+
     def is_node_name_fully_specified(self) -> bool:
         """Whether both name and namespace are specified."""
         parts = self.UNSPECIFIED_NODE_NAME, self.UNSPECIFIED_NODE_NAMESPACE
         return not any(part in self.node_name for part in parts)
 
-    def execute(self, context: LaunchContext) -> None:
+    def execute(self, context: LaunchContext) -> list[Action] | None:
         """As `Action`."""
-        if self.__final_name is None:
-            arguments = [*self.__name_arguments(context), *self.__parameter_arguments(context)]
+        first_time = self.final_cmd is None
+        self._expand_name(context)
+        if first_time:
+            arguments = [*self.__name_rules, *self.__parameter_arguments(context)]
             for source, target in self.__remappings:
                 arguments += ["-r", f"{text_of(context, source)}:={text_of(context, target)}"]
             self.cmd.extend(normalize_to_list_of_substitutions(argument) for argument in arguments)
         super().execute(context)
         if self.is_node_name_fully_specified():
             self.__warn_if_not_unique(context)
+        return None
 
-    def __name_arguments(self, context: LaunchContext) -> list[str]:
+    def _expand_name(self, context: LaunchContext) -> None:
+        """Perform the substitutions in name and namespace, once; raises what makes them invalid."""
+        if self.__final_name is not None:
+            return
         name = None if self.__name is None else text_of(context, self.__name)
         namespace = None if self.__namespace is None else text_of(context, self.__namespace)
         try:
-            namespace = _join_namespaces(context.launch_configurations.get(NAMESPACE), namespace)
+            namespace = join_namespaces(context.launch_configurations.get(NAMESPACE), namespace)
             if name is not None:
-                _validate_name(name)
+                validate_name(name)
             if namespace is not None:
-                _validate_namespace(namespace)
+                validate_namespace(namespace)
         except Exception:
             get_logger("launch_ros.actions.node").error(
                 "Error while expanding or validating node name or namespace for "
@@ -115,12 +123,14 @@ class Node(ExecuteProcess):
             raise
         shown = self.UNSPECIFIED_NODE_NAMESPACE if namespace is None else namespace.rstrip("/")
         self.__final_name = f"{shown}/{name or self.UNSPECIFIED_NODE_NAME}"
-        arguments = [] if name is None else ["-r", f"__node:={name}"]
-        return arguments if namespace is None else [*arguments, "-r", f"__ns:={namespace}"]
+        rules = {"__node": name, "__ns": namespace}
+        self.__name_rules = [
+            word for key, value in rules.items() if value is not None for word in ("-r", f"{key}:={value}")
+        ]
 
     def __parameter_arguments(self, context: LaunchContext) -> list[str]:
         arguments = []
-        for name, value in context.launch_configurations.get(PARAMETERS, ()):
+        for name, value in context.launch_configurations.get(GLOBAL_PARAMETERS, ()):
             text = yaml.safe_dump(value, default_flow_style=True).removesuffix("\n").removesuffix("\n...")
             arguments += ["-p", f"{name}:={text}"]
         for given in self.__parameters:
@@ -145,86 +155,3 @@ class Node(ExecuteProcess):
                 f"there are now at least {count} nodes with the name {self.node_name} created within this "
                 "launch context"
             )
-
-
-class PushROSNamespace(Action):
-    """Puts all later nodes of its group into this namespace, inside those that were pushed before."""
-
-    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__namespace = normalize_to_list_of_substitutions(namespace)
-
-    @property
-    def namespace(self) -> list[Any]:
-        """The namespace."""
-        return self.__namespace
-
-    def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
-        pushed, before = text_of(context, self.__namespace), context.launch_configurations.get(NAMESPACE)
-        namespace = _join_namespaces(before, pushed)
-        try:
-            _validate_namespace(namespace)
-        except Exception:
-            raise SubstitutionFailure(
-                f"The resulting namespace is invalid: [previous_namespace='{before}', "
-                f"pushed_namespace='{pushed}']"
-            ) from None
-        context.launch_configurations[NAMESPACE] = namespace
-
-
-PushRosNamespace = PushROSNamespace
-
-
-class SetParameter(Action):
-    """Sets this parameter of all later nodes of its group."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name, self.__value = name, value
-
-    @property
-    def name(self) -> Any:
-        """Its name."""
-        return self.__name
-
-    @property
-    def value(self) -> Any:
-        """Its value."""
-        return self.__value
-
-    def execute(self, context: LaunchContext) -> None:
-        """As `Action`."""
-        name = text_of(context, self.__name)
-        parameters = context.launch_configurations.setdefault(PARAMETERS, [])
-        parameters.append((name, evaluate_parameter(context, name, self.__value)))
-
-
-def _join_namespaces(base: str | None, namespace: str | None) -> str | None:
-    """A namespace inside another one, unless it begins with a slash; absolute. None if both are None."""
-    if namespace is None:
-        found = base
-    elif namespace.startswith("/") or not base:
-        found = namespace
-    else:
-        found = f"{base.rstrip('/')}/{namespace}"
-    if found is None:
-        return None
-    found = found if found == "/" else found.rstrip("/")
-    return found if found.startswith("/") else f"/{found}"
-
-
-def _validate_name(name: str) -> None:
-    from rclpy.validate_node_name import validate_node_name
-
-    validate_node_name(name)
-
-
-def _validate_namespace(namespace: str) -> None:
-    from rclpy.validate_namespace import validate_namespace
-
-    validate_namespace(namespace)
-
-
-def __getattr__(name: str) -> NoReturn:
-    refuse(__name__, name, __all__)
