@@ -181,8 +181,9 @@ def test_a_domain_without_nodes_gets_a_hint_at_others(system):
 
 def test_a_command_in_a_cell_points_to_the_magic(system, monkeypatch):
     monkeypatch.setenv("JPY_PARENT_PID", "1")
-    status, out, err = ended([*ROS2, "node", "list"], system)
-    assert (status, err) == (0, f"{IN_CELL}\n") and out
+    status, out, err = ended([*ROS2, "topic", "list"], system)
+    assert (status, err) == (0, f"{IN_CELL}\n")
+    assert "/parameter_events" in out
 
 
 def test_an_invalid_domain_is_reported():

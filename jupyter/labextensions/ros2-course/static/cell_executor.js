@@ -9,7 +9,8 @@ export function waitingExecutor(lab) {
     activate: () => Object.freeze({
       runCell: async (cell) => {
         const context = cell.sessionContext;
-        if (cell.cell.model.type === "code" && context && !context.session?.kernel) await context.initialize();
+        // Not initialize(): before the notebook's metadata is read, that would ask which kernel is meant.
+        if (cell.cell.model.type === "code" && context && !context.session?.kernel) await context.ready;
         return lab.runCell(cell);
       },
     }),
