@@ -123,6 +123,16 @@ def publish(original: Callable) -> Callable:
     return publish
 
 
+@hook(Publisher, "get_subscription_count", "a subscription counts as soon as messages reach it")
+def get_subscription_count(original: Callable) -> Callable:
+    def get_subscription_count(self: Publisher) -> int:
+        count = original(self)
+        writer = self.__dict__.get("_sim")
+        return count if engine() is None or writer is None else max(count - writer.undiscovered(), 0)
+
+    return get_subscription_count
+
+
 @hook(Publisher, "assert_liveliness", "an assertion counts at the run's time")
 def assert_liveliness(original: Callable) -> Callable:
     def assert_liveliness(self: Publisher) -> None:

@@ -132,6 +132,10 @@ class DataWriter(PublisherEndpoint):
         channels = () if self.outgoing is None else self.outgoing.channels
         return [*self.readers, *(channel.reader for channel in channels)]
 
+    def undiscovered(self) -> int:
+        """How many matched subscriptions a message would not reach yet, because they were just created."""
+        return sum(not self.has_discovered(reader) for reader in self._matched_readers())
+
     def assert_liveliness(self) -> None:
         """Its publisher is alive. On best effort that reaches no subscription, as with Fast DDS."""
         if self._liveliness is not None:

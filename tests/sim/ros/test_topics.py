@@ -142,3 +142,18 @@ def test_a_subscription_that_is_as_new_hears_nothing_of_that_moment():
     assert [(line.stamp, line.node) for line in recording.logs] == [
         (1.0, "hears"), (2.0, "hears"), (2.0, "late"),
     ]  # fmt: skip
+
+
+def counts_subscriptions():
+    """Counts at once, and again a moment later."""
+    rclpy.init()
+    node = rclpy.create_node("counts")
+    publisher = node.create_publisher(String, "words", 10)
+    for _ in range(2):
+        node.get_logger().info(str(publisher.get_subscription_count()))
+        rclpy.spin_once(node, timeout_sec=0.1)
+
+
+def test_a_subscription_counts_as_soon_as_messages_reach_it():
+    recording = run(topics.Hears, counts_subscriptions, seconds=1, quiet=True)
+    assert [(line.stamp, line.text) for line in recording.logs] == [(0.0, "0"), (0.1, "1")]
