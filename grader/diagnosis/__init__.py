@@ -65,6 +65,8 @@ GUESSES = (
     radio.lost_on_the_network,
     radio.late_on_the_network,
 )
+# In place of a diagnosis, where no missed check says that the lost message mattered.
+STRICTER = {connections.published_too_early: connections.only_message_too_early}
 # Of `tell` only: more exact than the diagnoses, for programs that have just been begun.
 FIRST_ATTEMPTS = (first_attempts.publish_not_reached, first_attempts.long_period)
 # What no check need ask for.
@@ -86,7 +88,7 @@ def explain(recording: Recording) -> str:
 
 def find_flaw(recording: Recording) -> str:
     """What is certainly wrong in a run without an error, the most important first; "" when nothing is."""
-    certain = [diagnose for diagnose in DIAGNOSES if diagnose not in GUESSES]
+    certain = [STRICTER.get(diagnose, diagnose) for diagnose in DIAGNOSES if diagnose not in GUESSES]
     unused = certain.index(activity.unused_publisher)  # what is likelier comes before
     ordered = (*certain[:unused], *FIRST_ATTEMPTS, *certain[unused:], *FLAWS)
     return _first(recording, ordered) or order_findings.find(recording)

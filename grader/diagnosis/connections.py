@@ -8,6 +8,8 @@ from itertools import product
 from sim.evidence import Recording, UndeliveredMessage
 from sim.evidence.qos import offer, refusal
 
+STREAM = 10  # more messages of one node on a topic are a stream: the first one is not what others wait for
+
 
 def incompatible_qos(recording: Recording) -> str:
     """A subscription that asks for more than the publisher offers: ROS then connects nothing.
@@ -46,9 +48,19 @@ def publisher_for_each_message(recording: Recording, topic: str | None = None) -
 
 def published_too_early(recording: Recording) -> str:
     """A message that is sent the moment its publisher or a subscription was made, and reaches nobody."""
-    early = next((row for row in recording.undelivered if _is_loss(recording, row)), None)
-    if early is None:
+    return _too_early([row for row in recording.undelivered if _is_loss(recording, row)])
+
+
+def only_message_too_early(recording: Recording) -> str:
+    """As `published_too_early`, unless the message is the first of a stream."""
+    rows = [row for row in recording.undelivered if _is_loss(recording, row)]
+    return _too_early([row for row in rows if len(recording.messages(row.topic, row.node)) <= STREAM])
+
+
+def _too_early(lost: list[UndeliveredMessage]) -> str:
+    if not lost:
         return ""
+    early = lost[0]
     return (
         f"{early.node} published on {early.topic} at {early.stamp:.3g} s, before those who listen there had "
         "found it: two programs need a moment to discover each other, and what is sent before that is lost. "

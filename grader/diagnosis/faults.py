@@ -34,9 +34,7 @@ _MAIN_HANGS = (
     "A main() that loops by itself lets no callback run. To keep a node alive, and let its timers and "
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
 )
-_FLOOD = (
-    "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
-)
+_FLOOD = "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
 
 
 def find_fault(recording: Recording) -> Fault | None:

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Recording
+import ast
+import builtins
+
+from grader.diagnosis.student_nodes import StudentNode, assignments, student_nodes
+from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Endpoint, Recording
+from sim.notebook.attribute_analysis import own_attribute
 
 KINDS = ("timer", "subscription")  # of callbacks that may publish, the likelier first
 MAX_FIRES = 2  # a timer that fired no more often in a whole run may have the wrong period
 MIN_PERIOD = 2.0  # s
+INPUTS = ("subscription", "service")  # kinds of callbacks that others cause
+ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
 def publish_not_reached(recording: Recording) -> str:
@@ -17,7 +24,7 @@ def publish_not_reached(recording: Recording) -> str:
             continue
         runs = [run for run in recording.callbacks if run.node == end.node]
         ran = next(filter(None, ([run for run in runs if run.kind == kind] for kind in KINDS)), [])
-        if ran:
+        if ran and not _may_wait(recording, end, ran[0]):
             count = _times(ran, ran[0].callback)
             return (
                 f"{end.node} has a publisher on {end.name}, but never publishes: {ran[0].callback} ran "
@@ -25,6 +32,44 @@ def publish_not_reached(recording: Recording) -> str:
                 "before it, or a method that is never called; a print in front of it shows which."
             )
     return ""
+
+
+def _may_wait(recording: Recording, end: Endpoint, ran: CallbackRun) -> bool:
+    """Whether the code publishes only for subscribers, and there are none; or only after certain input."""
+    node = next((node for node in student_nodes(recording) if node.name == end.node), None)
+    if node is None or ran.callback not in node.uses:
+        return False
+    methods = node.parts(ran.callback)
+    tests = [
+        part.test for method in methods for part in ast.walk(method) if isinstance(part, ast.If | ast.IfExp)
+    ]
+    parts = [part for test in tests for part in ast.walk(test)]
+    local = {part.id for part in parts if isinstance(part, ast.Name)}
+    parts += [
+        part
+        for method in methods
+        for target, value in assignments(method)
+        if value is not None and isinstance(target, ast.Name) and target.id in local
+        for part in ast.walk(value)
+    ]
+    calls = {getattr(part, "attr", "") for part in parts}
+    if "get_subscription_count" in calls:
+        return not recording.graph.subscriptions(end.name)
+    return "get_parameter" in calls or any(_is_input(node, ran, part) for part in parts)
+
+
+def _is_input(node: StudentNode, ran: CallbackRun, part: ast.AST) -> bool:
+    """Whether it is an attribute that another callback writes for its input, or a limit of a message."""
+    name = own_attribute(part)
+    if name:
+        writers = [
+            node.registered.get(callback) for callback in node.writers(name) if callback != ran.callback
+        ]
+        return any(row is not None and row.kind in INPUTS for row in writers)
+    if ran.kind != "subscription" or not isinstance(part, ast.Compare):
+        return False
+    names = {inner.id for inner in ast.walk(part) if isinstance(inner, ast.Name)}
+    return bool(names - {"self", *dir(builtins)}) and any(isinstance(each, ORDERS) for each in part.ops)
 
 
 def long_period(recording: Recording) -> str:

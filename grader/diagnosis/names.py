@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterable, Iterator
 
@@ -11,6 +12,8 @@ from sim.suggestions import NAME_CUTOFF, closest_match, closest_ros_name
 
 # Kinds of ends that take something, each with the kind that gives it.
 _TAKERS = (("subscription", "publisher"), ("client", "service"), ("action client", "action server"))
+OTHER_WORD = 0.5  # similarity below which two words are no typos of each other
+OPPOSITES = ({"start", "stop"}, {"on", "off"}, {"input", "output"}, {"inner", "outer"}, {"source", "target"})
 
 
 def shared_name(recording: Recording) -> str:
@@ -62,14 +65,28 @@ def service_name_typo(recording: Recording) -> str:
 def _may_be_typo(given: Endpoint, wanted: Endpoint) -> bool:
     """Whether two ends of nearly the same name were meant to meet.
 
-    Not two of the course's, nor two of one node, which passes something on, nor two that differ in type
-    or only in a number, as those of two robots do.
+    Not two of the course's, nor two of one node, which passes something on, nor two that differ in type,
+    or only in numbers or in words such as left and right, as those of two robots do.
     """
     if given.from_course and wanted.from_course:
         return False
     numbered = re.sub(r"\d+", "0", given.name) == re.sub(r"\d+", "0", wanted.name)
     students = not given.from_course and not wanted.from_course
-    return given.node != wanted.node and given.type == wanted.type and not (numbered and students)
+    apart = students and (numbered or _are_other_words(given.name, wanted.name))
+    return given.node != wanted.node and given.type == wanted.type and not apart
+
+
+def _are_other_words(one: str, other: str) -> bool:
+    """Whether two names differ only in whole words, none of which is a typo of its counterpart."""
+    pairs = [re.split("[/_]", name) for name in (one, other)]
+    if len(pairs[0]) != len(pairs[1]):
+        return False
+    differing = [pair for pair in zip(*pairs, strict=True) if pair[0] != pair[1]]
+    return any(set(pair) in OPPOSITES or _similarity(*pair) < OTHER_WORD for pair in differing)
+
+
+def _similarity(one: str, other: str) -> float:
+    return difflib.SequenceMatcher(None, one, other, autojunk=False).ratio()
 
 
 def misspelt(recording: Recording) -> list[tuple[str, str]]:

@@ -20,7 +20,7 @@ def not_offered(recording: Recording) -> str:
         for end in recording.graph.ends(client_kind):
             if end.node in bundled:
                 continue
-            waits = (end.node, end.name) in asked or end.node not in active
+            waits = (end.node, end.name) in asked or end.node not in active | _gave_up(recording)
             if end.name not in offered and waits:
                 return (
                     f"{end.node} has a client for the {what} {end.name}, but no node offers it. "
@@ -32,6 +32,13 @@ def not_offered(recording: Recording) -> str:
             nodes = ", ".join(recording.graph.nodes)
             return f"{call.client} calls {service} of the node {node}, but there are only {nodes}."
     return ""
+
+
+def _gave_up(recording: Recording) -> set[str]:
+    """Nodes that logged something, of programs that ended by themselves: they know what is missing."""
+    if recording.ended.reason != "finished":
+        return set()
+    return {"/" + line.node.replace(".", "/") for line in recording.logs if line.stamp > 0.0}
 
 
 def no_server(recording: Recording) -> str:

@@ -1,0 +1,25 @@
+"""Right programs in styles that the course doesn't teach, each for a diagnosis that could mistake it."""
+
+from tests.students.foreign import (
+    driving,
+    executors,
+    legacy,
+    services,
+    shapes,
+    small,
+    state,
+    talking,
+    waiting,
+)
+
+CORPUS = [
+    *small.CORPUS,
+    *shapes.CORPUS,
+    *state.CORPUS,
+    *legacy.CORPUS,
+    *executors.CORPUS,
+    *talking.CORPUS,
+    *services.CORPUS,
+    *driving.CORPUS,
+    *waiting.CORPUS,
+]
