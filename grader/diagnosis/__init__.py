@@ -13,6 +13,7 @@ from grader.diagnosis import (
     order_findings,
     owners,
     parameters,
+    program_end,
     radio,
     services,
     two_executors,
@@ -78,6 +79,7 @@ FLAWS = (
     driving.two_drivers,
     driving.rare_commands,
     driving.left_driving,
+    program_end.ends_in_error,
 )
 
 

@@ -61,6 +61,7 @@ class RunData:
     course_nodes: set[str] = field(default_factory=set)
     shared: set[str] = field(default_factory=set)  # names that a course node and a student's node both have
     course_errors: list[CallbackError] = field(default_factory=list)  # raised in programs of the course
+    end_errors: list[CallbackError] = field(default_factory=list)  # left a main() after the Ctrl-C at the end
     network: Network | None = None  # between hosts; None where all programs run on one
     hosts: dict[str, str] = field(default_factory=dict)  # of the nodes, where there is a network
     crossings: list[Crossing] = field(default_factory=list)  # what became of messages on the network

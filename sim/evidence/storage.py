@@ -36,7 +36,8 @@ _KEYS = {
     "undelivered": "unheard",
     "course_errors": "failures",
 }
-ADDED = "node_facts", "order", "departures"  # later than the format: older files don't have them
+# Fields that came later than the format: older files don't have them.
+ADDED = "node_facts", "order", "departures", "end_errors"
 _YES = {True: "yes", False: "no"}
 _D = TypeVar("_D", bound=RunData)
 PLAIN = (float, int, str, bool, bytes, Any)

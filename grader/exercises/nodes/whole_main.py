@@ -61,5 +61,5 @@ def destroys_the_node(run: Recording, trace: Trace) -> None:
 def shuts_down(run: Recording, trace: Trace) -> None:
     """ROS is shut down."""
     if trace.still_up:
-        hint = "What rclpy.init() began, rclpy.shutdown() ends: last line of the finally block."
+        hint = "What rclpy.init() began, rclpy.try_shutdown() ends: last line of the finally block."
         raise Missed("rclpy.ok() to be False after main()", "it is still True", hint)

@@ -16,6 +16,7 @@ from sim.ros.engine.limits import RunLimits
 from sim.ros.engine.output import ProgramOutput
 from sim.ros.engine.process_state import RclpyState, SeededBytes
 from sim.ros.engine.program import Process
+from sim.ros.engine.program_ends import end_programs
 from sim.ros.engine.running_program import RunningProgram, destroy
 from sim.ros.engine.simtime import SimulatedTime
 from sim.ros.fibers.choices import Choices
@@ -157,7 +158,7 @@ class Engine(Scheduler):
         self.recorder.close()
         try:
             self.guard.impatient = True
-            self._end_programs()
+            end_programs(self)
         finally:
             for program in self.programs:
                 self._free(program)
@@ -170,19 +171,6 @@ class Engine(Scheduler):
             self.rclpy.context.destroy()
             del self.time
             self.waiters.clear()
-
-    def _end_programs(self) -> None:
-        """As Ctrl-C does: each main thread is interrupted. What still runs after that is ended by force."""
-        self._throw(KeyboardInterrupt, [fiber for fiber in self.fibers if fiber.thread is None])
-        self.output.silent = True
-        for waiter in list(self.waiters.all):
-            waiter.end_coroutines()
-        for _ in range(2):  # twice, for code that swallows the first
-            self._throw(RunOver, self.fibers)
-
-    def _throw(self, stop: type[BaseException], into: list[Fiber]) -> None:
-        self.throw(stop, into)
-        self.finish()
 
     def finish(self) -> None:
         """Let programs run on that have to end now."""
@@ -226,6 +214,8 @@ class Engine(Scheduler):
                 self.recorder.program_exited(error, fiber.name)
             else:
                 self.recorder.error(error, fiber.name)
+            if fiber is program.main and not (program.from_course or program.bundled):
+                self.recorder.end_error(error, fiber.name)
             self.current = None
         if fiber is program.main or (program.main.done and not self.lives(program)):
             threads = [f for f in self.fibers if f.process is program and not f.done]

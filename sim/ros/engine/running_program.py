@@ -39,6 +39,7 @@ class SharedContext:
 
     def __init__(self, process: RunningProgram, arguments: Sequence[str]) -> None:
         self.process, self.alive = process, True
+        process.contexts.append(self)
         if process.borrowed_init is None:
             process.borrowed_init = False
         words = list(arguments)
@@ -102,6 +103,8 @@ class RunningProgram:
         # None: a function that has not called rclpy.init() yet; True: init() was lent to it; False: settled
         self.borrowed_init: bool | None = False
         self.main: Fiber | None = None
+        self.contexts: list[SharedContext] = []  # of each init()
+        self.handles_interrupt = False  # rclpy's own handler of SIGINT is installed
         self.log_level: int | None = None
         self.thread_numbers, self.pool_numbers = count(1), count()  # for names, as Python counts them
 
@@ -202,6 +205,15 @@ class RunningProgram:
         rclpy.spin(node)
         node.destroy_node()
         rclpy.try_shutdown()
+
+    def shut_down(self) -> None:
+        """What rclpy's handler of SIGINT does before Python's own one raises KeyboardInterrupt.
+
+        As there, no callback of `Context.on_shutdown` is called.
+        """
+        if self.handles_interrupt:
+            for context in self.contexts:
+                context.alive = False
 
     def lend_init(self) -> None:
         """Let a function that only makes a node do so without calling rclpy.init() itself."""

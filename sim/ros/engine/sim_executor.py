@@ -34,6 +34,7 @@ from sim.ros.fibers.fiber import Fiber
 from sim.ros.fibers.waiter import NEVER, Waiter
 
 RCLError = _rclpy.RCLError
+NOT_VALID = "the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
 
 
 def never() -> bool:
@@ -92,6 +93,8 @@ class SimExecutor(Waiter):
         engine = self.engine
         engine.current.process.check_init()
         until = self._end_of(timeout)
+        if until is not None and until > engine.now and not shared_context(self.executor.context).alive:
+            raise RCLError(f"failed to create timer: {NOT_VALID}")  # rclpy's, for the timeout
         self.spinning += 1
         self._report_lost_nodes()
         try:

@@ -16,6 +16,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from sim.ros.fibers.scheduler import active, engine
+from sim.ros.hooks.contexts import INVALID, is_shut_down, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 from sim.ros.recorder.action_goals import key
@@ -27,6 +28,8 @@ def _action_end(owner: type, kind: str) -> None:
         def __init__(
             self: Any, node: Node, action_type: Any, action_name: str, *more: Any, **keywords: Any
         ) -> None:
+            if is_shut_down(getattr(node, "_context", None)):
+                raise ValueError(f"Failed to create {kind}: {INVALID}")
             original(self, node, action_type, action_name, *more, **keywords)
             run = engine()
             if run is not None:
@@ -99,6 +102,7 @@ def send_goal_request(original: Callable) -> Callable:
 @hook(ActionClient, "server_is_ready", "a client that finds a server ready has discovered it")
 def server_is_ready(original: Callable) -> Callable:
     def server_is_ready(self: ActionClient) -> bool:
+        require_context(self._node, "Failed to check if action server is available")
         ready = original(self)
         if engine() is not None and ready and "_sim" in self.__dict__:
             self._sim.server_seen = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
 
@@ -9,11 +10,14 @@ from sim.ros.engine.running_program import shared_context
 from sim.ros.fibers.scheduler import engine
 
 INVALID = "rcl node's context is invalid"
-NOT_VALID = "the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
+
+
+def is_shut_down(context: Context | None) -> bool:
+    """Whether a program of a run has shut down this context of its own."""
+    return engine() is not None and context is not None and not shared_context(context).alive
 
 
 def require_context(node: Node, failed: str, reason: str = INVALID) -> None:
     """Raise RCLError in a run if the node's program has shut rclpy down. failed: what can't be done."""
-    context = getattr(node, "_context", None)  # Node.__init__ may not have been called
-    if engine() is not None and context is not None and not shared_context(context).alive:
+    if is_shut_down(getattr(node, "_context", None)):  # Node.__init__ may not have been called
         raise _rclpy.RCLError(f"{failed}: {reason}")

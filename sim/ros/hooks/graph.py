@@ -19,8 +19,9 @@ from rclpy.subscription import Subscription
 
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.engine.running_program import shared_context
+from sim.ros.engine.sim_executor import NOT_VALID
 from sim.ros.fibers.scheduler import active, engine
-from sim.ros.hooks.contexts import NOT_VALID, require_context
+from sim.ros.hooks.contexts import require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.lenient import convert_float_message, create_with_matching_type
 
@@ -92,6 +93,22 @@ def create_timer(original: Callable) -> Callable:
     return create_timer
 
 
+def _require_context(publisher: Publisher, failed: str) -> None:
+    """As `require_context`, with the words of a publisher."""
+    writer = publisher.__dict__.get("_sim")
+    if writer is not None and not writer.context.alive and engine() is not None:
+        raise _rclpy.RCLError(f"{failed}: publisher's context is invalid")
+
+
+@hook(Publisher, "get_subscription_count", "after rclpy.shutdown() it does not work")
+def get_subscription_count(original: Callable) -> Callable:
+    def get_subscription_count(self: Publisher) -> int:
+        _require_context(self, "failed to get subscription count")
+        return original(self)
+
+    return get_subscription_count
+
+
 @hook(Publisher, "publish", "every message is recorded as the bytes that are sent")
 def publish(original: Callable) -> Callable:
     def publish(self: Publisher, msg: Any) -> None:
@@ -108,8 +125,7 @@ def publish(original: Callable) -> Callable:
             return original(self, msg)  # raises the TypeError that a student would get on a robot
         with self.handle:  # raises InvalidHandle if it was destroyed
             pass
-        if not writer.context.alive:
-            raise _rclpy.RCLError("Failed to publish: publisher's context is invalid")
+        _require_context(self, "Failed to publish")
         outgoing = writer.outgoing
         if outgoing is not None and not outgoing.has_room():
             what = f"room in the history of {writer.topic}"
@@ -136,6 +152,7 @@ def get_subscription_count(original: Callable) -> Callable:
 @hook(Publisher, "assert_liveliness", "an assertion counts at the run's time")
 def assert_liveliness(original: Callable) -> Callable:
     def assert_liveliness(self: Publisher) -> None:
+        _require_context(self, "Failed to assert liveliness on the Publisher")
         original(self)
         if engine() is not None and "_sim" in self.__dict__:
             self._sim.assert_liveliness()
@@ -146,6 +163,7 @@ def assert_liveliness(original: Callable) -> Callable:
 @hook(Publisher, "wait_for_all_acked", "it waits in simulated time for messages on the network")
 def wait_for_all_acked(original: Callable) -> Callable:
     def wait_for_all_acked(self: Publisher, timeout: Duration = FOR_EVER) -> bool:
+        _require_context(self, "Failed to wait for all acknowledgements")
         run = engine()
         writer = self.__dict__.get("_sim")
         if run is None or writer is None or writer.outgoing is None:

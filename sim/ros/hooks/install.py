@@ -11,6 +11,7 @@ from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     event_loops,
     executors,
     graph,
+    graph_queries,
     node_in_cell,
     parameters,
     processes,

@@ -10,6 +10,7 @@ from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleNodeMixin
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 from sim.ros.engine.running_program import SharedContext
 from sim.ros.fibers.scheduler import engine
@@ -52,18 +53,29 @@ def ok(original: Callable) -> Callable:
     return ok
 
 
-def _no_signal_handlers(name: str) -> None:
-    @hook(rclpy, name, "rclpy's handlers would take the interrupt away from the notebook's kernel")
-    def ignore(original: Callable) -> Callable:
-        def replacement(*arguments: Any, **keywords: Any) -> None:
-            if engine() is None:
-                original(*arguments, **keywords)
+@hook(rclpy, "install_signal_handlers", "at its end, a run does what rclpy's handler does on Ctrl-C")
+def install_signal_handlers(original: Callable) -> Callable:
+    def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
+        run = engine()
+        if run is None:
+            return original(options)
+        if options in (SignalHandlerOptions.ALL, SignalHandlerOptions.SIGINT):
+            run.current.process.handles_interrupt = True
+        return None
 
-        return replacement
+    return install_signal_handlers
 
 
-_no_signal_handlers("install_signal_handlers")
-_no_signal_handlers("uninstall_signal_handlers")
+@hook(rclpy, "uninstall_signal_handlers", "as for their installation")
+def uninstall_signal_handlers(original: Callable) -> Callable:
+    def uninstall_signal_handlers() -> None:
+        run = engine()
+        if run is None:
+            return original()
+        run.current.process.handles_interrupt = False
+        return None
+
+    return uninstall_signal_handlers
 
 
 @hook(Node, "__init__", "a node gets its program's arguments, and is destroyed when that ends")

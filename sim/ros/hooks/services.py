@@ -14,7 +14,7 @@ from rclpy.service import Service
 from rclpy.task import Future
 
 from sim.ros.fibers.scheduler import active, engine
-from sim.ros.hooks.contexts import require_context
+from sim.ros.hooks.contexts import INVALID, is_shut_down, require_context
 from sim.ros.hooks.table import hook
 from sim.ros.messages.codec import encode, expect
 
@@ -88,20 +88,6 @@ def create_client(original: Callable) -> Callable:
     return create_client
 
 
-def _looking(original: Callable) -> Callable:
-    def looking(self: Node, *arguments: Any, **keywords: Any) -> Any:
-        run = engine()
-        if run is not None and run.transport.peer is not None:
-            run.transport.peer.seek()
-        return original(self, *arguments, **keywords)
-
-    return looking
-
-
-for _name in ("get_service_names_and_types", "get_service_names_and_types_by_node", "count_services"):
-    hook(Node, _name, "another process's services get proxies when a node looks for them")(_looking)
-
-
 @hook(
     _rclpy.Client,
     "send_request",
@@ -140,6 +126,8 @@ def call_async(original: Callable) -> Callable:
 @hook(Client, "service_is_ready", "a client that finds a service ready has discovered it")
 def service_is_ready(original: Callable) -> Callable:
     def service_is_ready(self: Client) -> bool:
+        if is_shut_down(self.context):
+            raise _rclpy.RCLError(f"failed to check service availability: {INVALID}")
         ready = original(self)
         if engine() is not None and ready and "_sim" in self.__dict__:
             self._sim.server_seen = True

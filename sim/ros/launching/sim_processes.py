@@ -100,8 +100,9 @@ class SimProcess:
         return await self._status
 
     def send_signal(self, number: int) -> None:
-        """As launch's `Process`: SIGINT raises KeyboardInterrupt, and every other signal kills it."""
+        """As launch's `Process`: SIGINT is Ctrl-C, and every other signal kills it."""
         if number == signal.SIGINT:
+            self._process.shut_down()
             self._process.main.thrown = KeyboardInterrupt()
             return
         self._killed = number

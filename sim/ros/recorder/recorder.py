@@ -65,6 +65,7 @@ class Recorder(RecorderBase):
     def __init__(self, scheduler: Scheduler, recording: Recording) -> None:
         super().__init__(scheduler, recording)
         self.calls, self.goals = Calls(self), Goals(self)
+        self.ending = False  # the run is over, and programs end as after Ctrl-C
         self.declared: list[DeclaredEndpoint] = []  # all endpoints, ROS's own included
         self._course_nodes: set[str] = set()  # names
         self._student_nodes: set[str] = set()
@@ -179,6 +180,11 @@ class Recorder(RecorderBase):
         if not isinstance(error, NO_FAULT):
             self._record(error, callback, node)
 
+    def end_error(self, error: BaseException, program: str) -> None:
+        """An exception left a main() after the Ctrl-C at the end of the run."""
+        if self.ending and not isinstance(error, NO_FAULT):
+            self.recording.end_errors.append(self._row(error, program, None))
+
     def undelivered(self, sender: str, topic: str) -> None:
         """A message was sent before a subscription was discovered; recorded once for a node and topic."""
         if (sender, topic) not in self._undelivered:
@@ -218,16 +224,18 @@ class Recorder(RecorderBase):
         if not self.open or any(known is error for known in self._known):
             return
         self._known.append(error)
-        name = node if node is not None else self.name_of(None)
-        row = CallbackError(
-            self.now, name, callback, type(error).__name__, text_of(error), student_traceback(error)
-        )
+        row = self._row(error, callback, node)
         self.recording.errors.append(row)
         if self.is_course_node():
             self.recording.course_errors.append(row)
 
+    def _row(self, error: BaseException, callback: str, node: str | None) -> CallbackError:
+        name = node if node is not None else self.name_of(None)
+        text, traceback = text_of(error), student_traceback(error)
+        return CallbackError(self.now, name, callback, type(error).__name__, text, traceback)
+
     def close(self) -> None:
-        """The run is over: what student code does while it is torn down is not evidence."""
-        self.open = False
+        """The run is over: what student code does while it ends is no evidence, but what its end raises."""
+        self.open, self.ending = False, True
         self._known.clear()
         self.declared.clear()

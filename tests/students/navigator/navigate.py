@@ -296,7 +296,7 @@ def main_with_try():
         pass
     finally:
         node.destroy_node()
-        rclpy.shutdown()
+        rclpy.try_shutdown()
 
 
 main = main_of(Navigator)

@@ -56,7 +56,7 @@ def main_with_everything_global(args=None):
         rclpy.spin(node)
     except KeyboardInterrupt:
         node.destroy_node()
-        rclpy.shutdown()
+        rclpy.try_shutdown()
 
 
 class SaysMoreThanItMust(Counter):

@@ -74,7 +74,7 @@ def main_as_in_tutorials(args=None):
     finally:
         node.destroy_node()
         if rclpy.ok():
-            rclpy.shutdown()
+            rclpy.try_shutdown()
 
 
 class AheadOnly(Stopper):

@@ -83,7 +83,7 @@ def main_with_function_and_threads():
     finally:
         executor.shutdown()
         node.destroy_node()
-        rclpy.shutdown()
+        rclpy.try_shutdown()
 
 
 class SlowAdder(Adder):

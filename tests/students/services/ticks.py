@@ -90,7 +90,7 @@ def main_with_threads(args=None):
         executor.spin()
     finally:
         node.destroy_node()
-        rclpy.shutdown()
+        rclpy.try_shutdown()
 
 
 def main_that_asks_beside_spin(args=None):
