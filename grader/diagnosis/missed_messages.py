@@ -41,7 +41,9 @@ def _sentence(recording: Recording, end: Endpoint, messages: list[Message]) -> s
 
 
 def _lifespan(recording: Recording, end: Endpoint) -> float:
-    """The shortest lifespan of the topic's publishers and of this subscription, s; 0 for none."""
-    ends = [end, *recording.graph.publishers(end.name)]
+    """What a message was too old for, s: this subscription, or its latching publisher; 0 for neither."""
+    ends = [end]
+    if end.qos.get("durability") == _LATCHED:
+        ends += [each for each in recording.graph.publishers(end.name) if each.qos["durability"] == _LATCHED]
     limits = [limit for each in ends if (limit := each.qos.get("lifespan")) and limit > 0]
     return min(limits, default=0.0)

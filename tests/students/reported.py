@@ -17,7 +17,7 @@ from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, Si
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 from tf2_ros import Buffer, TransformBroadcaster, TransformListener
@@ -229,10 +229,13 @@ class Once(Node):
         self.create_publisher(String, "chatter", 10).publish(String(data="hello"))
 
 
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
 class OnceWithALifespan(Node):
     def __init__(self):
         super().__init__("once")
-        qos = QoSProfile(depth=10, lifespan=Duration(seconds=0.1))
+        qos = QoSProfile(depth=10, lifespan=Duration(seconds=0.1), durability=LATCHED.durability)
         self.publisher = self.create_publisher(String, "chatter", qos)
         self.timer = self.create_timer(0.5, self.tick)
 
@@ -242,15 +245,27 @@ class OnceWithALifespan(Node):
 
 
 class Listener(Node):
+    qos = 10
+
     def __init__(self):
         super().__init__("listener")
-        self.create_subscription(String, "chatter", self.take, 10)
+        self.create_subscription(String, "chatter", self.take, self.qos)
 
     def take(self, message):
         self.get_logger().info(message.data)
+
+
+class LatchedListener(Listener):
+    qos = LATCHED
 
 
 def listens_late():
     time.sleep(1.0)
     rclpy.init()
     spin(Listener(), SingleThreadedExecutor())
+
+
+def listens_late_to_latched():
+    time.sleep(1.0)
+    rclpy.init()
+    spin(LatchedListener(), SingleThreadedExecutor())

@@ -76,7 +76,7 @@ class Channel:
         self._newest = sample.number
         if not self.open:
             return
-        if sample.expires <= now:
+        if self.reader.is_expired(sample):
             self._counts.expired += 1
             return
         self._counts.late = max(self._counts.late, (now - sample.stamp) / SECOND)

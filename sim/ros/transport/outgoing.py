@@ -29,10 +29,9 @@ class OutgoingChannels:
         else:
             channel = Channel(writer, reader)
         self.channels.append(channel)
-        alive = [sample for sample in latched if sample.expires > writer.scheduler.now]
-        if alive:
-            self._history.restore(alive)
-        for sample in alive:
+        if latched:
+            self._history.restore(latched)
+        for sample in latched:
             channel.send(sample)
 
     def send(self, sample: Sample) -> None:

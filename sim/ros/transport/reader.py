@@ -14,7 +14,7 @@ from sim.ros.fibers.waiter import Waiter
 from sim.ros.messages.decoder import decode_message
 from sim.ros.transport.context import TransportContext
 from sim.ros.transport.endpoint import Sample, TopicEndpoint
-from sim.ros.transport.qos import queue_length
+from sim.ros.transport.qos import FOREVER, queue_length
 from sim.ros.transport.qos_events import (
     CHANGED,
     MISSED,
@@ -57,6 +57,7 @@ class DataReader(TopicEndpoint):
         counts = event_counts(run, events, OF_READER)
         self.liveliness = liveliness_monitor(run, self.profile, counts.get(CHANGED))
         self._deadline = deadline_lease(run, self.profile, counts.get(REQUESTED))
+        self._lifespan = profile.lifespan.nanoseconds or FOREVER
         self._lost = counts.get(MISSED)
 
     def receive(self, sample: Sample) -> None:
@@ -66,6 +67,10 @@ class DataReader(TopicEndpoint):
         self.queue.append(sample)
         self.waiter.wake()
 
+    def is_expired(self, sample: Sample) -> bool:
+        """Whether a message is older than this subscription's lifespan; the publisher's is not asked here."""
+        return self.scheduler.now - sample.stamp >= self._lifespan
+
     def on_lost(self, count: int) -> None:
         """So many messages did not come before the one that comes now."""
         if self._lost is not None:
@@ -74,9 +79,10 @@ class DataReader(TopicEndpoint):
     def take(self) -> Sample | None:
         """The next message; None if there is none."""
         while self.queue:
-            raw, stamp, number, expires = self.queue.popleft()
-            if expires <= self.scheduler.now:
+            sample = self.queue.popleft()
+            if self.is_expired(sample):
                 continue
+            raw, stamp, number, _ = sample
             if self.raw:
                 return Sample(bytes(raw), stamp, number)
             try:

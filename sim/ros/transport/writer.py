@@ -119,13 +119,14 @@ class DataWriter(PublisherEndpoint):
         self._all_known_after = max(self._all_known_after, reader.created_at)
         if reader.liveliness is not None:
             reader.liveliness.matched(self)
-        latched = self._latched if latches(reader.profile) else ()
+        now, latching = self.scheduler.now, latches(reader.profile)
+        latched = [sample for sample in self._latched if latching and sample.expires > now]
         if self.outgoing is None or self.host == reader.host:
             self.readers.append(reader)
             for sample in latched:
                 reader.receive(sample)
         else:
-            self.outgoing.connect(reader, list(latched))
+            self.outgoing.connect(reader, latched)
 
     def _matched_readers(self) -> list[DataReader]:
         """Those on this host and on others."""

@@ -74,7 +74,7 @@ FLAWS = {
     (reported.Once, reported.listens_late): LOST.format("0"),
     (
         reported.OnceWithALifespan,
-        reported.listens_late,
+        reported.listens_late_to_latched,
     ): "/once sent its only message on /chatter at 0.5 s, and it "
     "expired before /listener took it: the lifespan is 0.1 s. Spin the node from the start, or use a longer lifespan.",
 }

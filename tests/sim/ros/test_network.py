@@ -140,9 +140,15 @@ def lone(seed):
 
 
 def test_lifespans_end_on_the_way():
-    recording = through(Network(delay=0.5), network.BriefCounter, network.Hearer, seconds=3)
+    recording = through(Network(delay=0.5), network.BriefCounter, network.BriefHearer, seconds=3)
     assert logged(recording) == []
     assert crossing(recording).expired == 25
+
+
+def test_the_lifespan_of_the_publisher_ends_no_message_that_is_on_its_way():
+    recording = through(Network(delay=0.5), network.BriefCounter, network.Hearer, seconds=3)
+    assert [text for _, text in logged(recording)] == [str(number) for number in range(1, 26)]
+    assert crossing(recording).expired == 0
 
 
 def test_late_joiners_get_what_is_latched_through_the_network():

@@ -92,8 +92,14 @@ def test_lost_messages_are_told_with_the_next_one_that_comes():
 
 
 def test_messages_that_wait_expire_in_simulated_time():
-    assert received(qos_events.Talker, qos_events.Sleeper) == [
+    assert received(qos_events.Talker, qos_events.BriefSleeper) == [
         (0.5, "heard 0"), (2.25, "heard 2"), (4.0, "heard 6"),
+    ]  # fmt: skip
+
+
+def test_the_lifespan_of_the_publisher_lets_no_message_expire_that_has_arrived():
+    assert received(qos_events.Talker, qos_events.Sleeper) == [
+        (0.5, "heard 0"), (2.25, "heard 1"), (4.0, "heard 2"),
     ]  # fmt: skip
 
 

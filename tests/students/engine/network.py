@@ -78,6 +78,12 @@ class BriefCounter(Counter):
     qos = BRIEF
 
 
+class BriefHearer(Hearer):
+    """Wants nothing that is older than half a second."""
+
+    qos = BRIEF
+
+
 class LatchingCounter(Counter):
     """Says five things, and latches the last three."""
 

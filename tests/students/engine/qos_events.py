@@ -234,13 +234,21 @@ def latched_talker():
 class Sleeper(Node):
     """Sleeps in its callbacks, so that messages wait."""
 
+    profile = 10
+
     def __init__(self):
         super().__init__("sleeper")
-        self.create_subscription(Int32, "count", self.hear, 10)
+        self.create_subscription(Int32, "count", self.hear, self.profile)
 
     def hear(self, msg):
         self.get_logger().info(f"heard {msg.data}")
         time.sleep(1.75)
+
+
+class BriefSleeper(Sleeper):
+    """Wants nothing that is older than a second."""
+
+    profile = BRIEF
 
 
 def late():
