@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, thread_time
 from types import CodeType, FrameType
+from typing import NoReturn
 
 import greenlet
 
@@ -92,6 +94,21 @@ class Guard:
         if self._student_code() is not None:
             raise KeyboardInterrupt  # what a program on a robot gets
 
+    @property
+    def waiting_limit(self) -> float:
+        """How long, in seconds of wall time, a stretch of student code may wait without computing."""
+        return (0.1 if self.impatient or self.interrupted else 1.0) * WAITING_LIMIT
+
+    def waited(self, what: str) -> NoReturn:
+        """The current fiber has waited for that as long as it may: raise Hang in it."""
+        fiber = self._scheduler.current
+        with outside_student_code():
+            line = student_line(sys._getframe(1))
+            self.hang = self.hang or Hang(
+                f"{self._where(fiber)} waited for {WAITING_LIMIT:g} s of real time for {what}{line}."
+            )
+        raise self.hang
+
     def _student_code(self) -> Fiber | None:
         """The fiber that the signal came into; None in the moment before it continues: the hub still runs."""
         return None if greenlet.getcurrent() is self._scheduler.hub else self._scheduler.current
@@ -139,8 +156,8 @@ class Guard:
         signal.setitimer(signal.ITIMER_REAL, BUSY_CHECK, CHECK_EVERY)
 
     def _judge(self, fiber: Fiber, frame: FrameType | None) -> None:
-        share = 0.1 if self.impatient or self.interrupted else 1.0
-        stuck = self._computing >= share * COMPUTING_LIMIT or self._waiting >= share * WAITING_LIMIT
+        limit = self.waiting_limit
+        stuck = self._computing >= COMPUTING_LIMIT * limit / WAITING_LIMIT or self._waiting >= limit
         long = self._total >= self._total_limit or self._wall >= SECOND_LIMIT
         if not long and self._can_wait(fiber, frame):
             return

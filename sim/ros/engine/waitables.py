@@ -26,5 +26,6 @@ def is_ready(waitable: Any, context: Context) -> bool:
         )
         wait_set.clear_entities()
         waitable.add_to_wait_set(wait_set)
-        wait_set.wait(0)
+        if sizes.num_guard_conditions or sizes.num_clients or sizes.num_services:
+            wait_set.wait(0)  # which refuses an empty one
         return waitable.is_ready(wait_set)

@@ -8,6 +8,7 @@ from typing import Any
 
 from sim.ros.hooks import (  # noqa: F401  (each declares its hooks)
     actions,
+    children,
     event_loops,
     executors,
     graph,

@@ -14,19 +14,17 @@ from rclpy.time_source import TimeSource
 from rclpy.timer import Timer
 from rclpy.utilities import get_default_context
 
-from sim.nanoseconds import EPOCH, SECOND, Nanoseconds
+from sim.nanoseconds import EPOCH, UPTIME, Nanoseconds
 from sim.ros.engine.clock_switch import ClockSwitch
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
-# Simulated uptime at the start of a run, so that the steady clock does not start at zero.
-UP: Nanoseconds = 3600 * SECOND
 ON_SWITCH = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
 
 
 def _offset(clock: Clock) -> Nanoseconds:
     """What a clock shows at the start of a run."""
-    return UP if clock.clock_type is ClockType.STEADY_TIME else EPOCH
+    return UPTIME if clock.clock_type is ClockType.STEADY_TIME else EPOCH
 
 
 @hook(

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import builtins
-import multiprocessing.connection
 import os
 import sched
 import signal
-import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 import numpy.random
 
-from sim.nanoseconds import EPOCH, SECOND, nanoseconds
-from sim.ros.fibers.scheduler import engine, outside_student_code
+from sim.nanoseconds import EPOCH, SECOND, UPTIME, nanoseconds
+from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
 
-CALENDAR = time.CLOCK_REALTIME, time.CLOCK_TAI  # the numbers of those that count from 1970
+# What clocks show at the start of a run, by their numbers; the others count from the start of the machine.
+AT_START = {time.CLOCK_REALTIME: EPOCH, time.CLOCK_TAI: EPOCH}
+AT_START |= dict.fromkeys((time.CLOCK_PROCESS_CPUTIME_ID, time.CLOCK_THREAD_CPUTIME_ID), 0)
 
 
 @hook(time, "sleep", "sleeping takes simulated time")
@@ -52,7 +52,7 @@ def _clock(name: str, epoch: int, convert: Callable[[int], Any]) -> None:
 
 
 for _name in ("time", "monotonic", "perf_counter"):
-    _epoch = EPOCH if _name == "time" else 0
+    _epoch = EPOCH if _name == "time" else UPTIME
     _clock(_name, _epoch, lambda nanoseconds: nanoseconds / SECOND)
     _clock(f"{_name}_ns", _epoch, int)
 
@@ -65,7 +65,7 @@ def _clock_by_number(name: str, convert: Callable[[int], Any]) -> None:
             if run is None:
                 return original(number)
             run.count_call("looks at a clock")
-            return convert(run.now + (EPOCH if number in CALENDAR else 0))
+            return convert(run.now + AT_START.get(number, UPTIME))
 
         return read
 
@@ -155,24 +155,6 @@ def exit_now(original: Callable) -> Callable:
         raise SystemExit(status)
 
     return _exit
-
-
-@hook(subprocess.Popen, "_wait", "another process runs in wall time, which takes no simulated time")
-def wait_for_child(original: Callable) -> Callable:
-    def _wait(self: subprocess.Popen, timeout: float | None) -> int:
-        with outside_student_code():  # it sleeps between two polls, and its time-out is in wall time
-            return original(self, timeout)
-
-    return _wait
-
-
-@hook(multiprocessing.connection, "wait", "another process runs in wall time, which takes no simulated time")
-def wait_for_connections(original: Callable) -> Callable:
-    def wait(object_list: Iterable[Any], timeout: float | None = None) -> list[Any]:
-        with outside_student_code():
-            return original(object_list, timeout)
-
-    return wait
 
 
 @hook(sched.scheduler, "__init__", "it bound its clock and its sleep before there were hooks")

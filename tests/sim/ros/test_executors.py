@@ -34,3 +34,9 @@ def test_waiting_for_callbacks_ends_as_rclpys_does():
         (0.25, "TimeoutException"), (0.25, "TimeoutException"), (1.0, "TimeoutException"),
         (1.0, "ConditionReachedException"), (1.0, "ShutdownException"), (1.0, "ExternalShutdownException"),
     ]  # fmt: skip
+
+
+def test_spin_once_begins_with_the_first_entity_when_its_timeout_is_another():
+    assert [text for _, text in logged(run(executors.spins_once_each_time, seconds=3, quiet=True))] == [
+        "first", "first", "first", "first", "second", "first",
+    ]  # fmt: skip

@@ -1,11 +1,13 @@
 """Code that never gives control back is stopped and named; the next run in the same process is as usual."""
 
+import re
+
 import pytest
 
 from sim import run
 from sim.ros.engine import guard
 from tests.sim.ros.evidence import raised, why
-from tests.students.engine import hangs, mains
+from tests.students.engine import hangs, mains, timing
 
 LOOP = "{} computed for {} s without coming to an end, at line {}: {}."
 STUCK = (
@@ -162,3 +164,22 @@ def test_endless_recursion_is_an_error(usual):
 def test_the_others_are_recorded_to_the_end_of_that_moment(usual):
     recording = run(hangs.Loop, mains.Counter, seconds=3, quiet=True)
     assert [received.stamp for received in recording.messages("/count")] == [0.5, 1.0]
+
+
+@pytest.mark.parametrize("program, line", [
+    (timing.waits_for_a_slow_child, 'subprocess.run(["sleep", "60"], check=True)'),
+    (timing.waits_for_a_slow_child_with_a_timeout, "child.wait(timeout=50)"),
+    (timing.waits_for_a_slow_connection, "multiprocessing.connection.wait([here])"),
+], ids=["run", "wait", "connection"])  # fmt: skip
+def test_waiting_for_another_process_has_a_limit_on_wall_time(program, line, monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 0.3)
+    recording = run(program, seconds=3, quiet=True)
+    begin = f"{program.__name__}() at t = 0 s waited for 0.3 s of real time for another process"
+    assert re.sub(r"line \d+", "line N", recording.ended.detail) == f"{begin}, at line N: {line}."
+    assert (recording.ended.reason, recording.errors) == ("hang", [])
+
+
+def test_a_shorter_wait_for_another_process_ends_as_it_does_without_a_run(monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 60.0)
+    recording = run(timing.waits_shortly_for_a_connection, seconds=3, quiet=True)
+    assert [line.text for line in recording.logs] == ["0", "1"]

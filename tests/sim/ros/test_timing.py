@@ -65,7 +65,7 @@ def test_another_process_takes_no_simulated_time():
 
 def test_all_clocks_show_simulated_time():
     names = ["time", "time_ns", "gettime", "gettime_ns"]
-    names += ["monotonic", "perf_counter", "node", "steady", "system"]
+    names += ["monotonic", "perf_counter", "computing", "process_time", "node", "steady", "system"]
     assert stamps(timing.all_clocks) == [(2.5, f"{name} 2.5") for name in names]
 
 
@@ -99,8 +99,7 @@ def test_datetime_shows_simulated_time():
 
 
 def test_timeouts_add_up():
-    """A timeout of 0.2 s from 0.4 s on ends a nanosecond late: the sum of the two is more than 0.6."""
-    assert [stamp for stamp, _ in stamps(timing.three_timeouts)] == [0.2, 0.4, 0.600000001]
+    assert [stamp for stamp, _ in stamps(timing.three_timeouts)] == [0.2, 0.4, 0.6]
 
 
 def test_a_logger_throttles_by_simulated_time():

@@ -34,6 +34,10 @@ def test_a_client_in_a_waitable_gets_its_answers():
     assert received(waitables.Calling) == [(0.5, "asked"), (1.0, "asked"), (1.5, "asked"), (2.0, "asked")]
 
 
+def test_a_waitable_without_entities_is_looked_at_whenever_its_executor_wakes():
+    assert received(waitables.raises_a_flag) == [(0.5, "seen"), (1.0, "seen"), (1.5, "seen"), (2.0, "seen")]
+
+
 def test_a_timer_in_a_waitable_is_refused():
     assert raised(run(waitables.Ticking, seconds=2, quiet=True)) == [
         (

@@ -2,6 +2,7 @@
 
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import rclpy
 from rclpy.executors import (
@@ -102,3 +103,14 @@ def all_ends():
     another = OneByOne()
     rclpy.shutdown()
     say_why(another)
+
+
+def spins_once_each_time():
+    """Both timers are due at every look: with an equal timeout it goes on, with another it begins anew."""
+    rclpy.init()
+    node = Node("often")
+    for name in ("first", "second"):
+        node.create_timer(0.001, partial(node.get_logger().info, name))
+    for timeout in (1.0, 2.0, 3.0, 4.0, 4.0, 4.0):
+        time.sleep(0.25)
+        rclpy.spin_once(node, timeout_sec=timeout)

@@ -1,6 +1,7 @@
 """Nodes that wait, each in its own way, and say in their log when they went on."""
 
 import multiprocessing
+import multiprocessing.connection
 import os
 import sched
 import signal
@@ -177,6 +178,38 @@ def waits_for_children():
     node.get_logger().info(f"alive: {child.is_alive()}")
 
 
+def waits_for_a_slow_child():
+    rclpy.init()
+    Node("parent")
+    subprocess.run(["sleep", "60"], check=True)
+
+
+def waits_for_a_slow_child_with_a_timeout():
+    rclpy.init()
+    Node("parent")
+    with subprocess.Popen(["sleep", "60"]) as child:
+        try:
+            child.wait(timeout=50)
+        finally:
+            child.kill()
+
+
+def waits_for_a_slow_connection():
+    rclpy.init()
+    Node("parent")
+    here, _there = multiprocessing.Pipe()
+    multiprocessing.connection.wait([here])
+
+
+def waits_shortly_for_a_connection():
+    rclpy.init()
+    node = Node("parent")
+    here, there = multiprocessing.Pipe()
+    node.get_logger().info(str(len(multiprocessing.connection.wait([here], 0.01))))
+    there.send(1)
+    node.get_logger().info(str(len(multiprocessing.connection.wait([here]))))
+
+
 def busy_wait():
     """Waits as one should not: it asks for the time over and over."""
     rclpy.init()
@@ -205,9 +238,11 @@ def all_clocks():
         "time": time.time() - 1_735_689_600,
         "time_ns": time.time_ns() / 1e9 - 1_735_689_600,
         "gettime": time.clock_gettime(time.CLOCK_REALTIME) - 1_735_689_600,
-        "gettime_ns": time.clock_gettime_ns(time.CLOCK_MONOTONIC) / 1e9,
-        "monotonic": time.monotonic(),
-        "perf_counter": time.perf_counter(),
+        "gettime_ns": time.clock_gettime_ns(time.CLOCK_MONOTONIC) / 1e9 - 3600,
+        "monotonic": time.monotonic() - 3600,
+        "perf_counter": time.perf_counter() - 3600,
+        "computing": time.clock_gettime(time.CLOCK_PROCESS_CPUTIME_ID),
+        "process_time": time.process_time(),
         "node": node.get_clock().now().nanoseconds / 1e9 - 1_735_689_600,
         "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9 - 3600,
         "system": Clock().now().nanoseconds / 1e9 - 1_735_689_600,

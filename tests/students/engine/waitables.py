@@ -250,3 +250,35 @@ def by_hand_and_client():
     for node in (ByHand(), Client()):
         executor.add_node(node)
     executor.spin()
+
+
+class Flag(Waitable):
+    """Has nothing that a wait set could wait for: it is looked at whenever the executor wakes."""
+
+    def __init__(self, group):
+        super().__init__(group)
+        self.raised = False
+
+    def get_num_entities(self):
+        return NumberOfEntities()
+
+    def add_to_wait_set(self, wait_set):
+        pass
+
+    def is_ready(self, wait_set):
+        return self.raised
+
+    def take_data(self):
+        self.raised = False
+
+    async def execute(self, taken):
+        rclpy.logging.get_logger("flag").info("seen")
+
+
+def raises_a_flag():
+    rclpy.init()
+    node = Node("raiser")
+    flag = Flag(node.default_callback_group)
+    node.add_waitable(flag)
+    node.create_timer(0.5, lambda: setattr(flag, "raised", True))
+    rclpy.spin(node)
