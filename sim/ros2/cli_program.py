@@ -52,7 +52,7 @@ def _execute_line(line: str) -> None:
 
 
 def _execute(arguments: Sequence[str]) -> None:
-    execute(make_parser(), list(arguments), lambda: RunSystem(print), print, print)
+    execute(make_parser(), list(arguments), lambda _: RunSystem(print), print, print)
 
 
 class RunSystem(LiveSystem):

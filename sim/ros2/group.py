@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, NoReturn
 
+from sim.ros2.absent import absent_command, absent_option
 from sim.ros2.system import CliError, System
 from sim.suggestions import closest_match
 
@@ -76,6 +77,17 @@ class UsageError(CliError):
 class Parser(argparse.ArgumentParser):
     """Raises an exception where argparse exits, and suggests the correct argument for a misspelt one."""
 
+    def parse_args(self, *arguments: Any) -> argparse.Namespace:  # type: ignore[override]
+        """As `ArgumentParser.parse_args`; what the official command has and this one lacks is named."""
+        options, unknown = self.parse_known_args(*arguments)
+        words = f"{options.command or ''} {getattr(options, 'verb', '')}".strip()
+        for option in unknown:
+            if absent := absent_option(words, option):
+                raise UsageError(absent)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return options
+
     def error(self, message: str) -> NoReturn:
         """As `ArgumentParser.error`, but raises `UsageError`."""
         quotes = QUOTES if UNQUOTED.match(message) else ""
@@ -83,16 +95,24 @@ class Parser(argparse.ArgumentParser):
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
+            absent = absent_command(f"{self.prog.partition(' ')[2]} {value}".strip())
+            if absent and action.dest in ("command", "verb"):
+                raise UsageError(absent)
             near = closest_match(str(value), [str(choice) for choice in action.choices])
             hint = f" Did you mean {near}?" if near else ""
             choices = ", ".join(map(str, action.choices))
             raise argparse.ArgumentError(action, f"there is no {value!r}, only {choices}.{hint}")
 
 
-def build_parser(groups: list[Group], make_completer: Callable[..., Any]) -> Parser:
+def build_parser(
+    groups: list[Group],
+    make_completer: Callable[..., Any],
+    more_options: Callable[[str], tuple[Argument, ...]] = lambda _: (),
+) -> Parser:
     """The parser of all groups. In its result, `function` is the verb's function.
 
     make_completer: returns argcomplete's completer, from that of an argument and its verb's `without_system`.
+    more_options: those that a command and verb, such as "topic echo", has in addition.
     """
     parser = Parser(prog="ros2", description="Look into a running ROS 2 system, and speak to it.")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
@@ -109,7 +129,7 @@ def build_parser(groups: list[Group], make_completer: Callable[..., Any]) -> Par
             else:
                 verb_parser = command
             verb_parser.set_defaults(function=verb.function, without_system=verb.without_system)
-            for names, settings, completer in verb.arguments:
+            for names, settings, completer in (*verb.arguments, *more_options(f"{group.name} {name}")):
                 action = verb_parser.add_argument(*names, **settings)
                 if completer is not None:
                     made = make_completer(completer, verb.without_system)

@@ -29,7 +29,7 @@ class LiveSystem(System):
     """The nodes of one ROS domain; a context manager.
 
     print_line: prints a line of the output. print_error: prints hints on stderr. settling_time: seconds
-    without a change until the graph counts as complete.
+    without a change until the graph counts as complete. spin_time: seconds of discovery, whatever changes.
     """
 
     def __init__(
@@ -37,9 +37,11 @@ class LiveSystem(System):
         print_line: Callable[[str], None] = print,
         print_error: Callable[[str], None] = lambda _: None,
         settling_time: float = SETTLING_TIME,
+        spin_time: float | None = None,
     ) -> None:
         super().__init__(print_line)
         self._print_error, self._settling_time = print_error, settling_time
+        self._spin_time = spin_time
 
     def __enter__(self) -> LiveSystem:
         self.domain = domains.selected_domain()
@@ -57,6 +59,17 @@ class LiveSystem(System):
 
     def _discover(self) -> None:
         """Wait until no more nodes are discovered. Print a hint if there are none."""
+        if self._spin_time is None:
+            self._wait_for_graph()
+        else:
+            end = time.monotonic() + self._spin_time
+            while (left := end - time.monotonic()) > 0:
+                rclpy.spin_once(self._node, timeout_sec=left)
+        if not self.nodes and (hint := domains.no_nodes_hint(self.domain)):
+            self._print_error(hint)
+
+    def _wait_for_graph(self) -> None:
+        """Wait until the graph no longer changes."""
         began = time.monotonic()
         known: Any = None
         quiet = 0  # checks without a change; on a busy machine each takes longer
@@ -67,8 +80,6 @@ class LiveSystem(System):
             rclpy.spin_once(self._node, timeout_sec=POLL_GRAPH)
             found = self._node.get_node_names_and_namespaces(), self._node.get_topic_names_and_types()
             quiet, known = (quiet + 1 if found == known else 0), found
-        if not self.nodes and (hint := domains.no_nodes_hint(self.domain)):
-            self._print_error(hint)
 
     def _is_incomplete(self) -> bool:
         """Whether there is a participant whose nodes, or a node whose endpoints, are not known yet."""

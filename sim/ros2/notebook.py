@@ -21,7 +21,7 @@ def ros2(line: str) -> None:
         print(f"{line!r} can't be read: {error}.")
         return
     try:
-        execute(_parser(), arguments, lambda: nullcontext(_system()), print, print)
+        execute(_parser(), arguments, lambda _: nullcontext(_system()), print, print)
     except KeyboardInterrupt:
         print("Stopped.")
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import importlib
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
+from sim.ros2.discovery_options import discovery_options
 from sim.ros2.group import USAGE_ERROR, Group, Parser, UsageError, build_parser
 from sim.ros2.system import CliError, Output, System
 
@@ -48,7 +50,7 @@ def make_parser(make_completer: Callable[..., Any] = lambda *_: None, typed: Seq
         load_group(name, verb) if not typed or command == name else Group(name, help)
         for name, (_, help) in COMMANDS.items()
     ]
-    return build_parser(groups, make_completer)
+    return build_parser(groups, make_completer, discovery_options)
 
 
 def typed_words() -> list[str]:
@@ -60,14 +62,15 @@ def typed_words() -> list[str]:
 def execute(
     parser: Parser,
     arguments: list[str] | None,
-    system: Callable[[], AbstractContextManager[System]],
+    system: Callable[[Namespace], AbstractContextManager[System]],
     print_line: Callable[[str], None],
     print_error: Callable[[str], None],
 ) -> int:
     """Execute a command; returns its exit status.
 
-    arguments: those after "ros2"; None for those of the command line. system: opens the system that the
-    command inspects. print_line: prints a line of the output. print_error: prints an error.
+    arguments: those after "ros2"; None for those of the command line. system: opens the system that
+    a command with these options inspects. print_line: prints a line of the output. print_error: prints an
+    error.
     """
     try:
         options = parser.parse_args(arguments)
@@ -76,7 +79,7 @@ def execute(
         elif options.without_system:
             options.function(Output(print_line), options)
         else:
-            with system() as opened:
+            with system(options) as opened:
                 options.function(opened, options)
     except UsageError as error:
         print_error(str(error))

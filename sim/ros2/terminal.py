@@ -53,10 +53,10 @@ def main() -> int:
         return 0
 
 
-def _open_system() -> LiveSystem:
+def _open_system(options: Namespace) -> LiveSystem:
     if KERNEL in os.environ:  # a notebook's cell with !ros2
         _print_error(IN_CELL)
-    return LiveSystem(_print_line, _print_error)
+    return LiveSystem(_print_line, _print_error, spin_time=getattr(options, "spin_time", None))
 
 
 def _interrupted(*_: Any) -> None:
