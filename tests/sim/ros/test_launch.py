@@ -126,10 +126,11 @@ import sys
 import helper
 import rclpy
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 
 def main():
-    rclpy.init()
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = Node("talker")
     node.get_logger().info(f"{helper.WORD} {sys.argv[1:2]}")
     while rclpy.ok():
