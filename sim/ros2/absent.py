@@ -18,6 +18,7 @@ COMMANDS = {
 _SERVICES = "recorded calls are played as events, on topics. Use `--topics /name/_service_event`"
 _ALWAYS_MCAP = "bags are written uncompressed, in one MCAP file. Leave it out"
 _NO_KEYS = "there are no keys to press. Use `--rate`, `--start-offset` or Ctrl-C"
+_NO_INFO = "messages are printed alone. Use `ros2 topic delay`, or a callback with MessageInfo,"
 _STDIN = "values are not read from stdin. Write them as an argument"
 _SIM_TIME = "it is measured by the clock of this machine. Leave it out"
 # Command and verb, and then each option with the reason and what to do, without the end of the sentence.
@@ -67,7 +68,8 @@ OPTIONS = {
     },
     "doctor": {"--exclude-packages": "no versions of packages are compared. Leave it out"},
     "service call": {"--stdin": _STDIN},
-    "topic pub": {"--stdin": _STDIN},
+    "topic echo": {"--include-message-info": _NO_INFO, "-i": _NO_INFO},
+    "topic pub": {"--stdin": _STDIN, "--use-sim-time": _SIM_TIME, "-s": _SIM_TIME},
     "topic hz": {"--use-sim-time": _SIM_TIME, "-s": _SIM_TIME},
     "topic bw": {"--use-sim-time": _SIM_TIME, "-s": _SIM_TIME},
     "topic delay": {"--use-sim-time": _SIM_TIME, "-s": _SIM_TIME},

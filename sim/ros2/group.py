@@ -49,7 +49,7 @@ class Verb(NamedTuple):
 
 @dataclass
 class Group:
-    """The verbs of one command, or a command without verbs, such as `ros2 doctor`."""
+    """The verbs of one command; one without a name is the command itself, such as `ros2 doctor`."""
 
     name: str
     help: str
@@ -58,7 +58,7 @@ class Group:
     def verb(
         self, name: str, *arguments: Argument, without_system: bool = False
     ) -> Callable[[VerbFunction], VerbFunction]:
-        """Add a verb, whose help is the function's docstring. An empty name makes it a command without verbs.
+        """Add a verb, whose help is the function's docstring. An empty name makes it the command itself.
 
         without_system: the function needs no system, and gets an `Output` instead of one.
         """
@@ -80,7 +80,7 @@ class Parser(argparse.ArgumentParser):
     def parse_args(self, *arguments: Any) -> argparse.Namespace:  # type: ignore[override]
         """As `ArgumentParser.parse_args`; what the official command has and this one lacks is named."""
         options, unknown = self.parse_known_args(*arguments)
-        words = f"{options.command or ''} {getattr(options, 'verb', '')}".strip()
+        words = f"{options.command or ''} {getattr(options, 'verb', None) or ''}".strip()
         for option in unknown:
             if absent := absent_option(words, option):
                 raise UsageError(absent)
@@ -121,8 +121,9 @@ def build_parser(
         verbs = None
         for name, verb in group.verbs.items():
             if name:
+                needed = "" not in group.verbs
                 verbs = verbs or command.add_subparsers(
-                    metavar="VERB", dest="verb", required=True, parser_class=Parser
+                    metavar="VERB", dest="verb", required=needed, parser_class=Parser
                 )
                 text = (verb.function.__doc__ or "").split("\n\n")[0]
                 verb_parser = verbs.add_parser(name, help=text, description=text)

@@ -18,7 +18,7 @@ from sim.ros2.system import CliError, Output, System
 COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "action": (("action",), "Actions: list them, send a goal"),
     "bag": (("bag",), "Bags: record messages, look at them, publish them again"),
-    "doctor": (("doctor",), "Check ROS setup and other potential issues"),
+    "doctor": (("doctor", "hello"), "Check ROS setup and other potential issues"),
     "interface": (("interface",), "Types of messages, services and actions"),
     "launch": (("launch",), "Run a launch file"),
     "lifecycle": (("lifecycle",), "Nodes with a lifecycle: their states and transitions"),
@@ -26,9 +26,9 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "param": (("param",), "Parameters of nodes: list, get, set, describe, dump, load"),
     "pkg": (("pkg", "pkg_create"), "Various package related sub-commands"),
     "run": (("run",), "Run a package specific executable"),
-    "service": (("service",), "Services: list them, call one"),
+    "service": (("service", "service_echo"), "Services: list them, call one"),
     "topic": (("topic", "echo", "publishing"), "Topics: list, listen, measure, publish"),
-    "wtf": (("doctor",), "Use `wtf` as alias to `doctor`"),
+    "wtf": (("doctor", "hello"), "Use `wtf` as alias to `doctor`"),
 }
 FAILED = 1  # exit status
 

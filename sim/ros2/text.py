@@ -48,8 +48,18 @@ _Dumper.add_representer(dict, _fields)
 
 def as_yaml(message: Any, style: Style = Style()) -> str:  # noqa: B008  (a tuple)
     """A message as YAML, with a final newline."""
+    return dump(as_dict(message, style), style)
+
+
+def as_dict(message: Any, style: Style) -> dict[str, Any]:
+    """A message as a dictionary, with values as they are printed."""
+    return _plain(message, None, style)
+
+
+def dump(values: dict[str, Any], style: Style) -> str:
+    """What `as_dict` returns as YAML, with a final newline."""
     look = {"allow_unicode": True, "width": sys.maxsize, "default_flow_style": style.flow}
-    return yaml.dump(_plain(message, None, style), Dumper=_Dumper, **look)
+    return yaml.dump(values, Dumper=_Dumper, **look)
 
 
 def as_csv(message: Any, style: Style = Style()) -> str:  # noqa: B008

@@ -16,7 +16,7 @@ from sim.ros2.group import Group, flag
 from sim.ros2.system import System, is_hidden
 
 doctor = Group("doctor", "Check ROS setup and other potential issues")
-wtf = Group("wtf", "Use `wtf` as alias to `doctor`", doctor.verbs)
+wtf = Group("wtf", "Use `wtf` as alias to `doctor`", doctor.verbs)  # the same verbs, also those added later
 IGNORED_TOPICS = ("/parameter_events", "/rosout")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,18 +10,12 @@ from rclpy.qos import QoSProfile, qos_profile_sensor_data
 
 from sim.ros2.group import argument, flag
 from sim.ros2.interface_types import installed_type
+from sim.ros2.print_options import PRINTING, positive_int, style_of
 from sim.ros2.qos_options import QOS, profile_from_options
 from sim.ros2.system import CliError, ReceivedMessage, System, suggestion
-from sim.ros2.text import Style, as_csv, as_yaml
+from sim.ros2.text import as_csv, as_yaml
 from sim.ros2.topic_statistics import Bandwidth, Delay, Rate, TopicStatistic
 from sim.ros2.verbs.topic import NAME, topic, types_of
-
-
-def positive_int(text: str) -> int:
-    """The value of an option that must be a positive integer."""
-    if not text.isdecimal() or not int(text):
-        raise ArgumentTypeError("value must be a positive integer")
-    return int(text)
 
 
 def window(default: int) -> tuple:
@@ -113,13 +107,9 @@ def _only_type(name: str, known: dict[str, list[str]]) -> str:
         completer=types_of,
     ),
     *QOS,
-    flag("--csv", help="Output all recursive fields separated by commas (e.g. for plotting)"),
     argument("--field", help="Echo a selected field of a message; '.' selects sub-fields"),
-    flag("-f", "--full-length", help="Output all elements of arrays, bytes and strings"),
-    argument("-l", "--truncate-length", type=positive_int, default=128, help="Their length otherwise"),
-    flag("--no-arr", help="Don't print array fields of messages"),
-    flag("--no-str", help="Don't print string fields of messages"),
-    flag("--flow-style", help="Print collections in one line"),
+    *PRINTING,
+    flag("--no-lost-messages", help="Changes nothing: lost messages are not reported"),
     flag("--raw", help="Echo the raw binary representation"),
     argument("--filter", metavar="EXPR", help="Only messages m of which this Python expression is true"),
     flag("--once", help="Print the first message received and then exit."),
@@ -180,8 +170,7 @@ def _format(message: ReceivedMessage, options: Namespace) -> str | None:
         return None
     if not hasattr(value, "SLOT_TYPES"):
         return f"{value}\n---"
-    length = None if options.full_length else options.truncate_length
-    style = Style(length, options.no_arr, options.no_str, options.flow_style)
+    style = style_of(options)
     return as_csv(value, style) if options.csv else f"{as_yaml(value, style)}---"
 
 

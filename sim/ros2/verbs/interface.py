@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from ament_index_python import get_resources
 
+from sim.ros.messages.codec import message_class
 from sim.ros.messages.type_definitions import installed_file
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.interface_types import KINDS, interfaces, types_in_package
@@ -19,6 +20,11 @@ ONLY = (
     flag("-m", "--only-msgs", help="Only message types"),
     flag("-s", "--only-srvs", help="Only service types"),
     flag("-a", "--only-actions", help="Only action types"),
+)
+TYPE = argument(
+    "type",
+    help="The interface (e.g. 'example_interfaces/msg/String')",
+    completer=lambda *_: [name for kind in KINDS for name in interfaces(kind)],
 )
 PARTS = 3  # of a type's name
 INTEGERS = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
@@ -62,12 +68,25 @@ def packages(output: Output, options: Namespace) -> None:
 
 
 @interface.verb(
+    "proto",
+    TYPE,
+    flag("--no-quotes", help="Output has no outer quotes"),
+    without_system=True,
+)
+def proto(output: Output, options: Namespace) -> None:
+    """Output an interface prototype."""
+    from sim.ros2.text import as_yaml  # imported late, because numpy is slow
+
+    _lines(options.type)  # raises if there is no such type
+    kind = message_class(options.type)
+    part = {"srv": "Request", "action": "Goal"}.get(options.type.split("/")[1])
+    text = as_yaml((getattr(kind, part) if part else kind)())
+    output.print_line(text if options.no_quotes else f'"{text}"')
+
+
+@interface.verb(
     "show",
-    argument(
-        "type",
-        help="The interface (e.g. 'example_interfaces/msg/String')",
-        completer=lambda *_: [name for kind in KINDS for name in interfaces(kind)],
-    ),
+    TYPE,
     flag("--all-comments", help="Show all comments, including for nested interface definitions"),
     flag("--no-comments", help="Show no comments or whitespace"),
     without_system=True,
