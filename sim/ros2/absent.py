@@ -18,12 +18,14 @@ COMMANDS = {
 _SERVICES = "recorded calls are played as events, on topics. Use `--topics /name/_service_event`"
 _ALWAYS_MCAP = "bags are written uncompressed, in one MCAP file. Leave it out"
 _NO_KEYS = "there are no keys to press. Use `--rate`, `--start-offset` or Ctrl-C"
+_NO_COUNTS = "requests and responses are counted together. Use `ros2 bag info`"
 _NO_INFO = "messages are printed alone. Use `ros2 topic delay`, or a callback with MessageInfo,"
 _STDIN = "values are not read from stdin. Write them as an argument"
 _SIM_TIME = "it is measured by the clock of this machine. Leave it out"
 # Command and verb, and then each option with the reason and what to do, without the end of the sentence.
 OPTIONS = {
     "action send_goal": {"--stdin": _STDIN},
+    "bag info": {"--verbose": _NO_COUNTS, "-v": _NO_COUNTS},
     "bag play": {
         "--services": _SERVICES,
         "--exclude-services": _SERVICES,

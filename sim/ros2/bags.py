@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,14 +12,13 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Schema
 from mcap.writer import Writer
 
-from sim.distro import DISTRO
 from sim.nanoseconds import SECOND, Nanoseconds
 from sim.ros.messages.type_definitions import definition
+from sim.ros2.bag_metadata import Contents
 from sim.ros2.system import CliError, ReceivedMessage
 
 RELIABILITIES, DURABILITIES = ("", "reliable", "best_effort"), ("", "transient_local", "volatile")
 QOS = "offered_qos_profiles"  # key in a channel's metadata
-VERSION = 8  # of metadata.yaml
 
 
 class BagWriter:
@@ -30,7 +27,7 @@ class BagWriter:
     epoch: as `System.epoch`.
     """
 
-    def __init__(self, folder: Path, epoch: Nanoseconds) -> None:
+    def __init__(self, folder: Path, epoch: Nanoseconds = 0) -> None:
         self.folder, self.file = folder, folder / f"{folder.name}_0.mcap"
         try:
             folder.mkdir(parents=True)
@@ -40,9 +37,7 @@ class BagWriter:
             raise CliError(f"Output folder '{folder}' can't be made: {error.strerror}.") from None
         self._writer, self._epoch = Writer(str(self.file)), epoch
         self._channels: dict[str, int] = {}
-        self.counts: Counter[str] = Counter()
-        self._types: dict[str, str] = {}
-        self._span: list[int] = []
+        self.contents = Contents()
 
     def __enter__(self) -> BagWriter:
         self._writer.start("ros2", "ros2-notebook-course")
@@ -50,59 +45,33 @@ class BagWriter:
 
     def __exit__(self, *exception: object) -> None:
         self._writer.finish()
-        (self.folder / "metadata.yaml").write_text(yaml.safe_dump(self._metadata(), sort_keys=False))
+        write_metadata(self.folder, self.contents, [self.file])
 
     def write(self, message: ReceivedMessage, qos: dict[str, Any]) -> None:
         """Add a message. qos: of a publisher of its topic."""
-        topic = message.topic
-        if topic not in self._channels:
-            schema = self._writer.register_schema(message.type, "ros2msg", definition(message.type).encode())
-            offered = {
-                "reliability": RELIABILITIES.index(qos.get("reliability", "reliable")),
-                "durability": DURABILITIES.index(qos.get("durability", "volatile")),
-            }
-            metadata = {QOS: yaml.safe_dump([offered])}
-            self._channels[topic] = self._writer.register_channel(topic, "cdr", schema, metadata)
-            self._types[topic] = message.type
+        offered = {
+            "reliability": RELIABILITIES.index(qos.get("reliability", "reliable")),
+            "durability": DURABILITIES.index(qos.get("durability", "volatile")),
+        }
         received, sent = (self._epoch + round(moment * SECOND) for moment in (message.stamp, message.sent))
-        self._span = [min([received, *self._span]), max([received, *self._span])]
-        self._writer.add_message(self._channels[topic], received, message.raw, sent, self.counts.total())
-        self.counts[topic] += 1
+        metadata = {QOS: yaml.safe_dump([offered])}
+        self.add(message.topic, message.type, message.raw, (received, sent), metadata)
 
-    def _metadata(self) -> dict[str, Any]:
-        begin, end = self._span or (0, 0)
-        span = {
-            "duration": {"nanoseconds": end - begin},
-            "starting_time": {"nanoseconds_since_epoch": begin},
-            "message_count": self.counts.total(),
-        }
-        topics = [
-            {
-                "topic_metadata": {
-                    "name": name,
-                    "type": self._types[name],
-                    "serialization_format": "cdr",
-                    QOS: "",
-                    "type_description_hash": "",
-                },
-                "message_count": count,
-            }
-            for name, count in sorted(self.counts.items())
-        ]
-        return {
-            "rosbag2_bagfile_information": {
-                "version": VERSION,
-                "storage_identifier": "mcap",
-                **span,
-                "topics_with_message_count": topics,
-                "compression_format": "",
-                "compression_mode": "",
-                "relative_file_paths": [self.file.name],
-                "files": [{"path": self.file.name, **span}],
-                "custom_data": None,
-                "ros_distro": DISTRO,
-            }
-        }
+    def add(
+        self, topic: str, type_: str, raw: bytes, times: tuple[int, int], metadata: dict[str, str]
+    ) -> None:
+        """Add a message's bytes. times: when it was received and sent. metadata: of its topic's channel."""
+        if topic not in self._channels:
+            schema = self._writer.register_schema(type_, "ros2msg", definition(type_).encode())
+            self._channels[topic] = self._writer.register_channel(topic, "cdr", schema, metadata)
+        self._writer.add_message(self._channels[topic], times[0], raw, times[1], self.contents.counts.total())
+        self.contents.add(topic, type_, times[0])
+
+
+def write_metadata(folder: Path, contents: Contents, files: list[Path]) -> None:
+    """Write the metadata.yaml of a bag."""
+    text = yaml.safe_dump(contents.metadata(files), sort_keys=False)
+    (folder / "metadata.yaml").write_text(text)
 
 
 @dataclass(frozen=True)
@@ -131,47 +100,14 @@ class Bag:
             except Exception as error:  # the library raises many kinds of errors for a damaged file
                 raise CliError(f"{file} is not an MCAP file, or it is damaged ({error}).") from None
 
+    @property
+    def contents(self) -> Contents:
+        """What is in it."""
+        found = Contents()
+        for schema, channel, message in self.messages():
+            found.add(channel.topic, schema.name, message.log_time)
+        return found
+
     def info(self) -> str:
         """A summary, as `ros2 bag info` prints it."""
-        counts: Counter[tuple[str, str]] = Counter()
-        span: list[int] = []
-        for schema, channel, message in self.messages():
-            counts[channel.topic, schema.name] += 1
-            span = [min([message.log_time, *span]), max([message.log_time, *span])]
-        begin, end = span or (0, 0)
-        topics = [
-            f"Topic: {topic} | Type: {type_} | Count: {count} | Serialization Format: cdr"
-            for (topic, type_), count in sorted(counts.items())
-        ]
-        rows = {
-            "Files": ("\n" + 19 * " ").join(file.name for file in self.files),
-            "Bag size": _size(sum(file.stat().st_size for file in self.files)),
-            "Storage id": "mcap",
-            "ROS Distro": DISTRO,
-            "Duration": f"{_seconds(end - begin)}s",
-            "Start": _date(begin),
-            "End": _date(end),
-            "Messages": counts.total(),
-            "Topic information": ("\n" + 19 * " ").join(topics),
-            "Service": 0,
-        }
-        lines = [f"{name + ':':19}{value}" for name, value in rows.items()]
-        return "\n".join(["", *lines, "Service information: "])
-
-
-def _seconds(nanoseconds: int) -> str:
-    return f"{nanoseconds // SECOND}.{nanoseconds % SECOND:09}"
-
-
-def _date(nanoseconds: int) -> str:
-    local = time.localtime(nanoseconds // SECOND)
-    clock = time.strftime("%b %e %Y %H:%M:%S", local)
-    return f"{clock}.{nanoseconds % SECOND:09} ({_seconds(nanoseconds)})"
-
-
-def _size(number: float) -> str:
-    units = ["B", "KiB", "MiB", "GiB"]
-    while number >= 1024 and len(units) > 1:
-        number /= 1024
-        del units[0]
-    return f"{number:.0f} B" if units[0] == "B" else f"{number:.1f} {units[0]}"
+        return self.contents.info(self.files)

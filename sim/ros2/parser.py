@@ -17,7 +17,7 @@ from sim.ros2.system import CliError, Output, System
 # The modules in `verbs` that add verbs to a command, in this order, and the command's help.
 COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "action": (("action",), "Actions: list them, send a goal"),
-    "bag": (("bag",), "Bags: record messages, look at them, publish them again"),
+    "bag": (("bag", "bag_play"), "Bags: record messages, look at them, publish them again"),
     "doctor": (("doctor", "hello"), "Check ROS setup and other potential issues"),
     "interface": (("interface",), "Types of messages, services and actions"),
     "launch": (("launch",), "Run a launch file"),

@@ -1,55 +1,46 @@
-"""ros2 bag: record messages, print information about a bag, and play it back."""
+"""ros2 bag: record messages, print information about a bag, copy and repair it."""
 
 from __future__ import annotations
 
 import time
 from argparse import Namespace
 from pathlib import Path
-from typing import Any
 
-import rclpy
 import yaml
-from mcap.records import Channel
-from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from sim.nanoseconds import SECOND
-from sim.ros.messages.codec import message_class
-from sim.ros2.bags import DURABILITIES, QOS, RELIABILITIES, Bag, BagWriter
+from sim.ros2.bags import Bag, BagWriter, write_metadata
 from sim.ros2.group import Group, argument, flag
 from sim.ros2.interface_types import installed_type
 from sim.ros2.system import CliError, Output, System, suggestion
-from sim.ros2.verbs.publishing import MARGIN, positive_float
+from sim.ros2.topic_selection import SELECTING, TopicSelection
 
 bag = Group("bag", "Bags: record messages, look at them, publish them again")
 PATH = argument("bag_path", type=Path, help="The folder of a bag, or an .mcap file")
+STORAGE = argument("-s", "--storage", choices=["mcap"], default="mcap", help="The only format: mcap")
 
 
 @bag.verb(
     "record",
-    argument("topics_positional", nargs="*", metavar="TOPIC", help="Topics to record"),
-    argument("--topics", nargs="+", default=[], metavar="TOPIC", help="Topics to record"),
-    flag("-a", "--all", help="Record all topics"),
+    *SELECTING,
     argument("-o", "--output", type=Path, help="The folder to make; by default it is named by the time"),
+    STORAGE,
+    flag("--no-discovery", help="Only topics present at startup will be recorded"),
+    argument("-p", "--polling-interval", type=int, default=100, help="Changes nothing: it looks often"),
+    argument("--max-cache-size", type=int, help="Changes nothing: each message is written at once"),
+    flag("--disable-keyboard-controls", help="Changes nothing: there are none"),
 )
 def record(system: System, options: Namespace) -> None:
     """Record ROS data to a bag."""
-    requested = [*options.topics, *options.topics_positional]
-    if not requested and not options.all:
-        raise CliError("Need to specify at least one option out of --all, --topics")
-    known = system.topics()
-    for name in requested:
-        if name not in known:
-            system.print_line(
-                f"WARNING: topic [{name}] does not appear to be published yet{suggestion(name, known)}"
-            )
-    for _ in system.subscribe({}) if system.time_limit is None and not system.finished else ():
-        known = system.topics()
-        if known.keys() >= set(requested):
-            break
-    chosen = {
-        name: installed_type(types[0]) for name, types in known.items() if options.all or name in requested
-    }
+    options.all_topics |= options.all
+    options.all_services |= options.all
+    options.topics = [*options.topics, *options.topics_positional]
+    selection = TopicSelection.of(options)
+    if selection.is_empty:
+        raise CliError(
+            "Need to specify at least one option out of --all, --all-topics, --all-services, --services, "
+            "--topics, --topic-types or --regex"
+        )
+    chosen = _chosen(system, selection, wait=not options.no_discovery)
     if not chosen:
         raise CliError("There is nothing to record.")
     qos = {end.name: end.qos for end in system.endpoints if end.kind == "publisher"}
@@ -62,67 +53,120 @@ def record(system: System, options: Namespace) -> None:
                 if message is not None:
                     writer.write(message, qos.get(message.topic, {}))
         finally:
-            system.print_line(f"Recording stopped: {writer.counts.total()} messages in {folder}")
+            system.print_line(f"Recording stopped: {writer.contents.counts.total()} messages in {folder}")
 
 
-@bag.verb("info", PATH, flag("-t", "--topic-name", help="Only display topic names."), without_system=True)
+def _chosen(system: System, selection: TopicSelection, *, wait: bool) -> dict[str, str]:
+    """The selected topics and their types. wait: until all that are named are there."""
+    known = system.topics(hidden=True)
+    for name in selection.names:
+        if name not in known:
+            system.print_line(
+                f"WARNING: topic [{name}] does not appear to be published yet{suggestion(name, known)}"
+            )
+    if wait and system.time_limit is None and not system.finished:
+        for _ in system.subscribe({}):
+            known = system.topics(hidden=True)
+            if known.keys() >= set(selection.names):
+                break
+    found = {name: types[0] for name, types in known.items() if selection.includes(name, types[0])}
+    return {name: installed_type(type_) for name, type_ in found.items()}
+
+
+@bag.verb(
+    "info",
+    PATH,
+    STORAGE,
+    flag("-t", "--topic-name", help="Only display topic names."),
+    without_system=True,
+)
 def info(output: Output, options: Namespace) -> None:
     """Print information about a bag to the screen."""
     bag_ = Bag(options.bag_path)
     if options.topic_name:
-        for name in sorted({channel.topic for _, channel, _ in bag_.messages()}):
+        for name in bag_.contents.topics:
             output.print_line(name)
     else:
         output.print_line(bag_.info())
 
 
 @bag.verb(
-    "play",
-    PATH,
-    argument("-r", "--rate", type=positive_float, default=1.0, help="Rate at which to play back messages"),
-    argument("--topics", nargs="+", default=[], metavar="TOPIC", help="Topics to play; all without"),
+    "list",
+    argument(
+        "plugin_type",
+        choices=["storage", "converter", "compressor", "decompressor"],
+        help="lists available plugins",
+    ),
+    flag("-v", "--verbose", help="output verbose information about the available plugin"),
+    without_system=True,
 )
-def play(system: System, options: Namespace) -> None:
-    """Play back ROS data from a bag."""
-    found = [
-        (installed_type(schema.name), channel, message)
-        for schema, channel, message in Bag(options.bag_path).messages()
-        if not options.topics or channel.topic in options.topics
-    ]
-    if not found:
-        raise CliError(f"{options.bag_path} has no such messages.")
-    length = (found[-1][2].log_time - found[0][2].log_time) / SECOND / options.rate
-    count = system.run_with_node(
-        lambda node, output: _play(node, output, found, options.rate), length + 2 * MARGIN
-    )
-    system.print_line(f"Played {count} messages from {options.bag_path}")
+def list_(output: Output, options: Namespace) -> None:
+    """Print information about available plugins to the screen."""
+    if options.verbose:
+        output.print_line(f"available {options.plugin_type} plugins are:")
+    if options.plugin_type == "storage":
+        output.print_line(f"{'name: ' if options.verbose else ''}mcap")
+        if options.verbose:
+            output.print_line("\tReads and writes MCAP files, with the libraries mcap and PyYAML")
 
 
-def _play(node: Node, output: Output, found: list[tuple[str, Channel, Any]], rate: float) -> int:
-    publishers = {}
-    for type_, channel, _ in found:
-        if channel.topic not in publishers:
-            profile = _profile(channel)
-            publishers[channel.topic] = node.create_publisher(message_class(type_), channel.topic, profile)
-    clock, first = node.get_clock(), found[0][2].log_time
-    clock.sleep_for(rclpy.duration.Duration(seconds=MARGIN / 2))  # until subscriptions have been discovered
-    begin = clock.now()
-    for count, (_, channel, message) in enumerate(found):
-        since = rclpy.duration.Duration(nanoseconds=round((message.log_time - first) / rate))
-        clock.sleep_until(begin + since)
-        if output.canceled:
-            return count
-        publishers[channel.topic].publish(message.data)
-    clock.sleep_for(rclpy.duration.Duration(seconds=0.1))  # until the last message is sent
-    return len(found)
+@bag.verb("reindex", PATH, STORAGE, without_system=True)
+def reindex(output: Output, options: Namespace) -> None:
+    """Reconstruct metadata file for a bag."""
+    if not options.bag_path.is_dir():
+        raise CliError("Must specify a bag directory")
+    output.print_line(f"Beginning reindexing bag in directory: {options.bag_path}")
+    bag_ = Bag(options.bag_path)
+    write_metadata(options.bag_path, bag_.contents, bag_.files)
+    output.print_line("Reindexing complete.")
 
 
-def _profile(channel: Channel) -> QoSProfile:
-    """The QoS that the topic was published with; the default if the bag has none."""
+EXAMPLE = "output_bags: [{uri: new_bag, all_topics: true}]"
+
+
+@bag.verb(
+    "convert",
+    argument(
+        "-i",
+        "--input",
+        required=True,
+        action="append",
+        nargs="+",
+        metavar=("uri", "storage_id"),
+        help="An input bag. May be provided more than once",
+    ),
+    argument("-o", "--output-options", type=Path, required=True, help="YAML file with the output bags"),
+    without_system=True,
+)
+def convert(output: Output, options: Namespace) -> None:
+    """Given an input bag, write out a new bag with different settings."""
+    for words in options.input:
+        if len(words) > 2 or words[1:] not in ([], ["mcap"]):
+            raise CliError(f"--input expects a bag and, at most, its format mcap; it has {' '.join(words)}.")
+    bags = [Bag(Path(words[0])) for words in options.input]
+    found = [item for each in bags for item in each.messages()]
+    found.sort(key=lambda item: item[2].log_time)
+    for uri, selection in _outputs(options.output_options):
+        with BagWriter(uri) as writer:
+            for schema, channel, message in found:
+                if selection.includes(channel.topic, schema.name):
+                    times = message.log_time, message.publish_time
+                    writer.add(channel.topic, schema.name, message.data, times, channel.metadata)
+
+
+def _outputs(file: Path) -> list[tuple[Path, TopicSelection]]:
+    """The folder of each output bag in a file, and what is copied there. Raises CliError."""
     try:
-        offered = yaml.safe_load(channel.metadata[QOS])[0]
-        reliability = ReliabilityPolicy[RELIABILITIES[offered["reliability"]].upper()]
-        durability = DurabilityPolicy[DURABILITIES[offered["durability"]].upper()]
-    except (KeyError, IndexError, TypeError, yaml.YAMLError):
-        return QoSProfile(depth=10)
-    return QoSProfile(depth=10, reliability=reliability, durability=durability)
+        content = yaml.safe_load(file.read_text())
+    except OSError as error:
+        raise CliError(f"{file} can't be read: {error.strerror}.") from None
+    except yaml.YAMLError as error:
+        raise CliError(f"{file} is not YAML: {error}") from None
+    outputs = content.get("output_bags") if isinstance(content, dict) else None
+    valid = isinstance(outputs, list) and all(isinstance(each, dict) and each.get("uri") for each in outputs)
+    if not valid:
+        raise CliError(f"{file} has no list of output_bags, each with a uri, such as {EXAMPLE}.")
+    compressed = [each["uri"] for each in outputs if each.get("compression_mode") not in (None, "", "none")]
+    if compressed:
+        raise CliError(f"{file}: {compressed[0]} can't be compressed here: leave out compression_mode.")
+    return [(Path(each["uri"]), TopicSelection.of(each)) for each in outputs]

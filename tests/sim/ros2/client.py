@@ -30,7 +30,7 @@ def main():
         for line in sys.stdin:
             arguments = json.loads(line)
             status = parser.execute(
-                command_parser, arguments, lambda: SharedSystem(system), output.append, errors.append
+                command_parser, arguments, lambda _: SharedSystem(system), output.append, errors.append
             )
             print(json.dumps({"output": output, "errors": errors, "status": status}), flush=True)
             output.clear()

@@ -121,7 +121,19 @@ def test_endless_publishing_ends_after_five_simulated_seconds(playing):
         ),
         ("param load /talker none.yaml", "none.yaml can't be read: No such file or directory\n"),
         ("bag play none", "Bag path 'none' is not there.\n"),
-        ("bag record", "Need to specify at least one option out of --all, --topics\n"),
+        (
+            "bag record",
+            "Need to specify at least one option out of --all, --all-topics, --all-services, --services, "
+            "--topics, --topic-types or --regex\n",
+        ),
+        (
+            "bag play none --clock",
+            "`--clock` is for a terminal: here all clocks show the simulated time of the play.\n",
+        ),
+        (
+            "doctor hello",
+            "`ros2 doctor hello` speaks with other machines: type it in a terminal of each.\n",
+        ),
     ],
 )
 def test_a_failure_is_explained(playing, command, words):
