@@ -65,7 +65,7 @@ class SimExecutor(Waiter):
         self.running: list[Fiber] = []  # parallel callbacks of a multi-threaded executor
         self._workers: list[threading.Thread] = []  # their thread objects; none is ever started
         self._pass: Iterator[Work] | None = None
-        self._asked: tuple[Any, Any] = (None, never)  # of the last spin_once: its timeout and its condition
+        self._last_spin: tuple[Any, Any] = (None, never)  # of the last spin_once: its timeout and its condition
         self._depth = 0  # callbacks of this executor that are on the stack
         self.spinning = 0  # calls of `spin_once` under way
         self.lost: list[Any] = []  # nodes that another executor took over while this one did not spin
@@ -97,8 +97,8 @@ class SimExecutor(Waiter):
         if until is not None and until > engine.now and not shared_context(self.executor.context).alive:
             raise RCLError(f"failed to create timer: {NOT_VALID}")  # rclpy's, for the timeout
         self.spinning += 1
-        if self._asked != (timeout, done):  # as in rclpy, the pass under way goes on for equal ones only
-            self._pass, self._asked = None, (timeout, done)
+        if self._last_spin != (timeout, done):  # as in rclpy, the pass under way goes on for equal ones only
+            self._pass, self._last_spin = None, (timeout, done)
         self._report_lost_nodes()
         try:
             while not self._over(done, parallel):
