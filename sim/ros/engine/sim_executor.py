@@ -65,7 +65,7 @@ class SimExecutor(Waiter):
         self.running: list[Fiber] = []  # parallel callbacks of a multi-threaded executor
         self._workers: list[threading.Thread] = []  # their thread objects; none is ever started
         self._pass: Iterator[Work] | None = None
-        self._last_spin: tuple[Any, Any] = (None, never)  # of the last spin_once: its timeout and its condition
+        self._last_spin: tuple[Any, Any] = (None, never)  # timeout and condition of the last spin_once
         self._depth = 0  # callbacks of this executor that are on the stack
         self.spinning = 0  # calls of `spin_once` under way
         self.lost: list[Any] = []  # nodes that another executor took over while this one did not spin

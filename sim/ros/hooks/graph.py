@@ -100,15 +100,6 @@ def _require_context(publisher: Publisher, failed: str) -> None:
         raise _rclpy.RCLError(f"{failed}: publisher's context is invalid")
 
 
-@hook(Publisher, "get_subscription_count", "after rclpy.shutdown() it does not work")
-def get_subscription_count(original: Callable) -> Callable:
-    def get_subscription_count(self: Publisher) -> int:
-        _require_context(self, "failed to get subscription count")
-        return original(self)
-
-    return get_subscription_count
-
-
 @hook(Publisher, "publish", "every message is recorded as the bytes that are sent")
 def publish(original: Callable) -> Callable:
     def publish(self: Publisher, msg: Any) -> None:
@@ -142,6 +133,7 @@ def publish(original: Callable) -> Callable:
 @hook(Publisher, "get_subscription_count", "a subscription counts as soon as messages reach it")
 def get_subscription_count(original: Callable) -> Callable:
     def get_subscription_count(self: Publisher) -> int:
+        _require_context(self, "failed to get subscription count")
         count = original(self)
         writer = self.__dict__.get("_sim")
         return count if engine() is None or writer is None else max(count - writer.undiscovered(), 0)
