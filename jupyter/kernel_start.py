@@ -1,4 +1,4 @@
-"""Runs at the start of every kernel of `make lab`: explains undefined names, even before any import.
+"""Runs at the start of every kernel of `make lab`: explains undefined names and missing modules.
 
 A cell that uses rclpy finds `sim` imported, so that a spin outside a run can't block the kernel.
 """
@@ -13,7 +13,7 @@ def _explain_missing_names() -> None:
         show_error(shell, kind, error, trace, tb_offset)
 
     if hasattr(builtins, "get_ipython"):
-        builtins.get_ipython().set_custom_exc((NameError,), explain)
+        builtins.get_ipython().set_custom_exc((NameError, ModuleNotFoundError), explain)
 
 
 def _import_sim_before_rclpy() -> None:

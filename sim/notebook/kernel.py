@@ -13,6 +13,7 @@ from typing import Any
 
 from sim.notebook.cell_history import CellHistory, OutdatedName
 from sim.notebook.page_comm import PageComm
+from sim.ros.absent_names import explain_absent_name
 
 COURSE_FOLDERS = tuple(str(Path(__file__).parents[2] / name) for name in ("sim", "grader"))
 _history: CellHistory | None = None
@@ -66,7 +67,7 @@ def watch_cells() -> None:
 
     ipython.events.register("pre_run_cell", begin)
     ipython.events.register("post_run_cell", end)
-    ipython.set_custom_exc((NameError, KeyboardInterrupt), show_error)
+    ipython.set_custom_exc((NameError, KeyboardInterrupt, ModuleNotFoundError), show_error)
     _page.open(history.update)
 
 
@@ -95,8 +96,14 @@ def explain_missing_name(name: str) -> str:
 def show_error(
     ipython: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
 ) -> None:
-    """Show an error of a cell: in one sentence if that is sufficient, otherwise as a traceback."""
+    """Show an error of a cell: in one sentence if that is sufficient, otherwise as a traceback.
+
+    The traceback of an import ends with what the missing module is, and how to get it.
+    """
     watch_cells()
+    hint = explain_absent_name(kind.__name__, str(error))
+    if hint and hint not in getattr(error, "__notes__", ()):
+        error.add_note(hint)
     is_name_error = isinstance(error, NameError)
     sentence = explain_missing_name(error.name) if is_name_error else _interruption(error, trace)
     if sentence:

@@ -116,7 +116,7 @@ def prefix_of(package: str) -> Path:
     for prefix in install_prefixes():
         if package and (prefix / INDEX / "packages" / package).is_file():
             return prefix
-    raise PackageNotFound(f"Package '{package}' not found: {_why_no_package(package)}")
+    raise PackageNotFound(f"Package '{package}' not found: {why_no_package(package)}")
 
 
 def packages() -> list[str]:
@@ -177,7 +177,8 @@ def _first_line(file: Path) -> bytes:
         return opened.readline(256) if opened.read(2) == b"#!" else b""
 
 
-def _why_no_package(package: str) -> str:
+def why_no_package(package: str) -> str:
+    """Why a package is not found: not sourced, known and not here, misspelt, or nowhere."""
     reason = workspaces.why_unavailable(package) or explain(package)
     if reason:
         return reason

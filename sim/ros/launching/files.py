@@ -9,6 +9,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+from sim.ros.packages import why_no_package
 from sim.suggestions import closest_match
 
 BUNDLED_FILES = Path(__file__).parent / "bundled"  # launch files of ROS packages, unless installed
@@ -16,7 +17,7 @@ SUFFIXES = (".py", ".yaml", ".yml", ".xml", ".launch")
 
 
 class NoLaunchFile(Exception):
-    """There is no such launch file. Its message is upstream's."""
+    """There is no such launch file. Its message is upstream's, and what to do."""
 
 
 def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
@@ -29,7 +30,8 @@ def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
         return first, rest
     if not rest or ":=" in rest[0]:
         if os.sep in first or Path(first).suffix in SUFFIXES:
-            near = _suggestion(Path(first).name, Path(first).absolute().parent)
+            folder = Path(first).absolute().parent
+            near = _suggestion(Path(first).name, [*folder.glob("*"), *folder.glob("launch/*")])
             raise NoLaunchFile(f"There is no launch file {first!r} in {os.getcwd()}.{near.removeprefix('.')}")
         raise NoLaunchFile(f"Package '{first}' has launch files: say which, as in {first} bringup.launch.py.")
     return _in_package(first, rest[0]), rest[1:]
@@ -38,13 +40,15 @@ def find_launch_file(arguments: Sequence[str]) -> tuple[str, list[str]]:
 def _in_package(package: str, file: str) -> str:
     try:
         share = get_package_share_directory(package)
-    except (PackageNotFoundError, ValueError) as error:
+    except PackageNotFoundError:
+        raise NoLaunchFile(f"Package '{package}' not found: {why_no_package(package)}") from None
+    except ValueError as error:
         raise NoLaunchFile(f"Package '{package}' not found: {error}") from None
     paths = _matches(Path(share), file) or _matches(BUNDLED_FILES / package, file)
     if not paths:
         raise NoLaunchFile(
             f"file '{file}' was not found in the share directory of package '{package}' which is at '{share}'"
-            f"{_suggestion(file, Path(share), BUNDLED_FILES / package)}"
+            f"{_suggestion(file, [*Path(share).rglob('*'), *(BUNDLED_FILES / package).rglob('*')])}"
         )
     if len(paths) > 1:
         shown = ", ".join(f"'{path}'" for path in paths)
@@ -58,10 +62,14 @@ def _matches(folder: Path, name: str) -> list[str]:
     return sorted(str(path) for path in folder.rglob(name) if path.is_file())
 
 
-def _suggestion(name: str, *folders: Path) -> str:
-    """The launch file in these folders whose name is nearly this one, as a sentence; "" if there is none."""
-    names = {path.name for folder in folders for path in folder.rglob("*") if path.suffix in SUFFIXES}
-    near = closest_match(name, sorted(names))
+def _suggestion(name: str, files: Iterable[Path]) -> str:
+    """The launch file among these whose name is nearly this one, as a sentence; "" if there is none.
+
+    Suffixes alone make no two names alike.
+    """
+    names = sorted({path.name for path in files if path.suffix in SUFFIXES})
+    stem = closest_match(name.split(".")[0], {each.split(".")[0] for each in names})
+    near = closest_match(name, [each for each in names if stem and each.split(".")[0] == stem], 0.0)
     return f". Did you mean '{near}'?" if near else ""
 
 

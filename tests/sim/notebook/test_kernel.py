@@ -61,6 +61,18 @@ def test_a_name_from_a_cell_above_is_explained_before_anything_is_imported(kerne
     assert "name 'nowhere' is not defined" in kernel.run("nowhere", "use")
 
 
+def test_an_import_of_what_is_not_here_is_explained_before_anything_is_imported(kernel):
+    lines = kernel.run("import cv_bridge", "use").strip().splitlines()
+    assert lines[-1].startswith(
+        "`cv_bridge` (converts between ROS images and OpenCV's arrays) is a ROS package that the course does "
+        "not include. np.frombuffer("
+    )
+    assert kernel.run("import rospy", "use").strip().splitlines()[-1] == (
+        "`rospy` is a package of ROS 1. ROS 2 has rclpy."
+    )
+    assert "No module named 'zzz'" in kernel.run("import zzz", "use").strip().splitlines()[-1]
+
+
 def test_a_cell_that_failed_is_not_run_in_its_older_version(kernel):
     for cell, code in {"setup": SETUP, "answer": ROBOT}.items():
         kernel.run(code, cell)

@@ -5,6 +5,7 @@ import sys
 import pytest
 
 from sim import Network, Process, play, run
+from sim.ros.launching.files import NoLaunchFile, find_launch_file
 from tests.sim.ros.installed import NAME, install, sourced
 
 DRIVES = {
@@ -252,6 +253,29 @@ def test_a_missing_launch_file_is_named(package, words, text):
     (error,) = run(words, seconds=1, quiet=True).errors
     assert error.type == "NoLaunchFile"
     assert error.text.startswith(text)
+
+
+def test_a_misspelt_launch_file_or_package_gets_a_suggestion(package, monkeypatch):
+    monkeypatch.chdir(package / "share" / NAME)
+    share = f"the share directory of package '{NAME}' which is at '{package / 'share' / NAME}'"
+    here = (
+        f"There is no launch file {{!r}} in {package / 'share' / NAME}. Did you mean 'bringup.launch.{{}}'?"
+    )
+    sentences = {
+        f"{NAME} bringp.launch.py": f"file 'bringp.launch.py' was not found in {share}. "
+        "Did you mean 'bringup.launch.py'?",
+        f"{NAME} zzz.launch.py": f"file 'zzz.launch.py' was not found in {share}",
+        "two_robot bringup.launch.py": "Package 'two_robot' not found: did you mean two_robots?",
+        "nav2_bringup bringup.launch.py": "Package 'nav2_bringup' not found: `nav2_bringup` (starts Nav2) is "
+        "a ROS package that the course does not include.",
+        "bringp.launch.py": here.format("bringp.launch.py", "py"),
+        "launch/brinup.launch.yaml": here.format("launch/brinup.launch.yaml", "yaml"),
+        "zzz.launch.py": f"There is no launch file 'zzz.launch.py' in {package / 'share' / NAME}.",
+    }
+    for arguments, sentence in sentences.items():
+        with pytest.raises(NoLaunchFile) as refused:
+            find_launch_file(arguments.split())
+        assert str(refused.value) == sentence
 
 
 def test_two_files_with_one_name_are_both_named(package, tmp_path, monkeypatch):
