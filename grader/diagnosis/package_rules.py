@@ -70,3 +70,15 @@ def own_module(error: CallbackError, recording: Recording) -> str:
                 f"point: {whole}, and not {name}."
             )
     return ""
+
+
+def absent_launch_file(error: CallbackError) -> str:
+    """What to do where a launch file or its package is not found, and the error says why."""
+    if error.type != "NoLaunchFile":
+        return ""
+    near = re.search(r"[Dd]id you mean '?([\w.]+)'?\?$", error.text)
+    if near:
+        return f"Is the name misspelt? Write {near[1]}."
+    if error.text.startswith("There is no launch file"):
+        return "A path begins in the folder that is named; `ls` shows what is there."
+    return ""

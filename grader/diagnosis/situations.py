@@ -6,7 +6,8 @@ import itertools
 import re
 
 from grader.diagnosis.other_types import other_type
-from grader.diagnosis.package_rules import own_module
+from grader.diagnosis.package_rules import absent_launch_file, own_module
+from grader.diagnosis.parameter_files import mixed_list, yaml_boolean
 from grader.diagnosis.rays import rays_without_distance
 from grader.diagnosis.ros_situations import asyncio_pause, empty_list, invalid_transition
 from sim.evidence import CallbackError, Recording
@@ -33,6 +34,9 @@ def advice_here(error: CallbackError, recording: Recording) -> str:
         or invalid_transition(error, recording)
         or asyncio_pause(error)
         or empty_list(error)
+        or yaml_boolean(error)
+        or mixed_list(error)
+        or absent_launch_file(error)
     )
 
 

@@ -4,8 +4,10 @@ import re
 
 import pytest
 
+from grader.diagnosis import find_fault
 from grader.diagnosis.error_advice import advice
 from grader.diagnosis.package_rules import PACKAGE_RULES, own_module
+from sim import run
 from sim.evidence import CallbackError, Recording
 from tests.exercises.score_tables import graded_exercises, page
 
@@ -35,3 +37,18 @@ def test_elsewhere_a_module_that_is_not_there_has_its_usual_advice():
     error = CallbackError(0.0, "/n", "main", "ModuleNotFoundError", "No module named 'speeds'", "")
     assert own_module(error, Recording()) == ""
     assert advice(error).startswith("Python finds no module `speeds`")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hint"),
+    {
+        "turtlesim multism.launch.py": "Is the name misspelt? Write multisim.launch.py.",
+        "turtlesmi multisim.launch.py": "Is the name misspelt? Write turtlesim.",
+        "zzz.launch.py": "A path begins in the folder that is named; `ls` shows what is there.",
+        "turtlesim zzz.launch.py": "zzz.launch.py was not installed. In setup.py, data_files needs "
+        "('share/' + package_name + '/launch', glob('launch/*')).",
+    }.items(),
+)
+def test_a_launch_file_that_is_not_found_gets_advice(arguments, hint, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert find_fault(run(arguments, seconds=1, quiet=True)).hint == hint
