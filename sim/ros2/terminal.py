@@ -31,9 +31,9 @@ MARK = b"sim.ros2"  # in the installed script that starts this module
 
 def main() -> int:
     """Execute `ros2` on the command line; returns the exit status."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends it quietly while it has nothing to clean up
     exec_real_ros2()
     import_without_generators()
-    signal.signal(signal.SIGINT, _interrupted)
     command_parser = parser.make_parser(_make_completer, parser.typed_words())
     # Complete options only after a dash; if nothing is known, bash completes file names.
     argcomplete.autocomplete(
@@ -42,15 +42,16 @@ def main() -> int:
         exclude=["-h", "--help"],
         default_completer=argcomplete.SuppressCompleter(),
     )
+    signal.signal(signal.SIGINT, _interrupted)
     try:
-        return parser.execute(
-            command_parser, None, _open_system, _print_line, _print_error
-        )
+        return parser.execute(command_parser, None, _open_system, _print_line, _print_error)
     except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
     except BrokenPipeError:  # such as of `ros2 topic echo /scan | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _open_system(options: Namespace) -> LiveSystem:

@@ -269,3 +269,80 @@ parser.execute = lambda *_: HalfMade()
 sys.exit(terminal.main())
 """
     assert ended([sys.executable, "-c", program], system) == (2, "", "")
+
+
+# Ctrl-C at the import of a module, in the middle of discovery, while it echoes, and as Python ends.
+MOMENTS = {
+    "import": """
+class Interrupts:
+    def find_spec(self, name, path=None, target=None):
+        if name == {where!r}:
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupts())
+""",
+    "call": """
+import importlib
+module, _, name = {where!r}.rpartition(":")
+owner = importlib.import_module(module)
+*path, name = name.split(".")
+for part in path:
+    owner = getattr(owner, part)
+original = getattr(owner, name)
+
+def interrupted(*arguments, **keywords):
+    signal.raise_signal(signal.SIGINT)
+    return original(*arguments, **keywords)
+
+setattr(owner, name, interrupted)
+""",
+}
+COMMAND = """
+import signal, sys
+sys.argv = ["ros2", *{words!r}]
+{moment}
+from sim.ros2.terminal import main
+status = main()
+{end}
+sys.exit(status)
+"""
+
+
+def interrupted_at(moment, where, words, domain, end=""):
+    code = COMMAND.format(words=words.split(), moment=MOMENTS[moment].format(where=where), end=end)
+    return ended([sys.executable, "-c", code], domain)
+
+
+IMPORTED = ["rclpy", "sim.ros2.verbs.echo", "numpy"]
+CALLED = [
+    "sim.ros2.live:rclpy.create_node",
+    "sim.ros2.live:LiveSystem._wait_for_graph",
+    "sim.ros2.verbs.echo:_format",
+    "sim.ros2.live:LiveSystem.__exit__",
+]
+
+
+@pytest.mark.parametrize("module", IMPORTED)
+def test_ctrl_c_is_quiet_while_a_command_imports(system, module):
+    status, _, err = interrupted_at("import", module, "topic echo /place --once", system)
+    assert (status in (2, -signal.SIGINT), err) == (True, "")
+
+
+@pytest.mark.parametrize("function", CALLED)
+def test_ctrl_c_is_quiet_at_any_moment_of_a_command(system, function):
+    status, _, err = interrupted_at("call", function, "topic echo /place --once", system)
+    assert (status, err) == (2, "")
+
+
+def test_ctrl_c_is_quiet_when_a_command_has_ended():
+    end = "signal.raise_signal(signal.SIGINT)"
+    assert interrupted_at("import", "nothing", "pkg prefix sim", free_domain(), end)[0::2] == (
+        -signal.SIGINT, "Package not found\n",
+    )  # fmt: skip
+
+
+def test_ctrl_c_is_quiet_while_a_command_echoes(system):
+    process = start([*ROS2, "topic", "echo", "/place"], system)
+    line = next(line for line in iter(process.stdout.readline, "") if not NOT_YET.match(line))
+    process.send_signal(signal.SIGINT)
+    assert (line, process.communicate(timeout=PATIENCE)[1], process.returncode) == ("header:\n", "", 2)
