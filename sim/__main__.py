@@ -13,10 +13,10 @@ from types import FrameType
 from typing import NoReturn
 
 from sim.ros.realtime import ArgumentsError, RealTimeRun, own_words
+from sim.ros2.domains import LAST_DOMAIN
 from sim.world import World, WorldError
 
 DOMAIN = 42  # not 0, the default of every other ROS process
-LAST_DOMAIN = 101  # higher ones would need ports from Linux's ephemeral range
 PORT, LAST_PORT = 8090, 65535
 PORTS = range(PORT, PORT + 10)  # without --port, the first free one
 USAGE_ERROR = 2  # exit status, as argparse's

@@ -10,7 +10,7 @@ from sim.ros2.system import CliError
 
 LAST_DOMAIN = 232  # greater ones would need ports that don't exist
 FIRST_PORT, PORTS, UNICAST = 7400, 250, 10  # DDSI-RTPS 9.6.1.1: the ports of a domain
-FIRST_ANY_PORT = 32768  # Linux assigns ports from here on automatically
+EPHEMERAL = range(32768, 61000)  # ports that Linux assigns to anything: domains 102 to 214 are there, too
 _SOCKETS = Path("/proc/net/udp")
 
 
@@ -41,8 +41,8 @@ def participant_ports(domain: int) -> set[int]:
 
 
 def active_domains() -> set[int]:
-    """The domains that have participants on this machine."""
-    used = {port for port in _used_ports() if FIRST_PORT <= port < FIRST_ANY_PORT}
+    """The domains that have participants on this machine, as far as their ports are theirs alone."""
+    used = {port for port in _used_ports() if port >= FIRST_PORT and port not in EPHEMERAL}
     return {(port - FIRST_PORT) // PORTS for port in used if (port - FIRST_PORT) % PORTS >= UNICAST}
 
 

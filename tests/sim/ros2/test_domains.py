@@ -21,6 +21,18 @@ def test_each_participant_has_two_ports_of_its_domain(sockets):
     assert domains.participant_ports(42) == {17912, 17913}
 
 
+def test_ports_that_linux_assigns_to_anything_say_nothing_of_a_domain(sockets):
+    sockets(7400 + 250 * 103 + 12, 7400 + 250 * 220 + 12, 60_999)
+    assert domains.active_domains() == {220}
+    assert (domains.participant_ports(103), domains.participant_ports(220)) == ({33162}, {62412})
+
+
+@pytest.mark.parametrize("text", ["0", "101", "102", "232", ""])
+def test_all_domains_of_ros_are_accepted(text, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", text)
+    assert domains.selected_domain() == int(text or 0)
+
+
 def test_the_hint_names_the_domains_that_have_nodes(sockets):
     sockets(17910, 17911, 7410, 7411)
     assert domains.no_nodes_hint(7) == (
