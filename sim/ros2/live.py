@@ -105,10 +105,10 @@ class LiveSystem(System):
         """As `System`: of the wall clock."""
         return time.time()
 
-    def look_up(self, name: str, find: Callable[[], Known]) -> Known:
+    def look_up(self, name: str, find: Callable[[], Known], seconds: float | None = None) -> Known:
         """As `System`."""
         found = find()
-        for _ in range(MAX_RETRIES):
+        for _ in range(MAX_RETRIES if seconds is None else round(seconds / POLL_GRAPH)):
             if name in found:
                 break
             rclpy.spin_once(self._node, timeout_sec=POLL_GRAPH)

@@ -100,8 +100,11 @@ class System(ABC):
         """The response of a service. Raises CliError if the service is not available."""
         return self.run_with_node(lambda node, _: call_service(node, kind, service, request))
 
-    def look_up(self, name: str, find: Callable[[], Known]) -> Known:
-        """What `find` returns; during discovery, `find` is retried until its result contains the name."""
+    def look_up(self, name: str, find: Callable[[], Known], seconds: float | None = None) -> Known:
+        """What `find` returns; during discovery, `find` is retried until its result contains the name.
+
+        seconds: so long at most; None for the usual time.
+        """
         return find()
 
     def names(self, *kinds: str, hidden: bool = False) -> dict[str, list[str]]:
@@ -116,10 +119,14 @@ class System(ABC):
         """Name to types of all topics, sorted."""
         return self.names("publisher", "subscription", hidden=hidden)
 
-    def node(self, name: str, *, hidden: bool = True) -> str:
-        """The full name of an existing node. Raises CliError if there is none."""
+    def node(self, name: str, *, hidden: bool = True, seconds: float | None = None) -> str:
+        """The full name of an existing node, after a wait for it as in `look_up`. Raises CliError."""
         full = name if name.startswith("/") else f"/{name}"
-        known = self.look_up(full, lambda: [node for node in self.nodes if hidden or not is_hidden(node)])
+
+        def shown() -> list[str]:
+            return [node for node in self.nodes if hidden or not is_hidden(node)]
+
+        known = self.look_up(full, shown, seconds)
         if full not in known:
             raise CliError(f"Node not found{suggestion(full, known)}")
         return full

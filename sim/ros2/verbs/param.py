@@ -21,6 +21,11 @@ param = Group("param", "Parameters of nodes: list, get, set, describe, dump, loa
 NODE = argument("node_name", help="Name of the ROS node", completer=lambda system, _: system.nodes)
 
 
+def _node(system: System, options: Namespace) -> str:
+    """The full name of the node in the options."""
+    return system.node(options.node_name, hidden=options.include_hidden_nodes, seconds=options.timeout)
+
+
 def _names(system: System, options: Namespace) -> list[str]:
     """The parameters of the node in the options."""
     return names_of(system, system.node(options.node_name))
@@ -28,6 +33,7 @@ def _names(system: System, options: Namespace) -> list[str]:
 
 NAME = argument("parameter_name", help="Name of the parameter", completer=_names)
 HIDDEN = flag("--include-hidden-nodes", help="Consider hidden nodes as well")
+TIMEOUT = argument("--timeout", type=int, metavar="N", help="Wait for N seconds until node becomes available")
 LABELS = {
     "bool": "Boolean value is:",
     "integer": "Integer value is:",
@@ -81,10 +87,10 @@ def _is_selected(name: str, options: Namespace) -> bool:
     return inside and (not options.filter or re.match(options.filter, name) is not None)
 
 
-@param.verb("get", NODE, NAME, HIDDEN, flag("--hide-type", help="Hide the type information"))
+@param.verb("get", NODE, NAME, HIDDEN, TIMEOUT, flag("--hide-type", help="Hide the type information"))
 def get(system: System, options: Namespace) -> None:
     """Get parameter."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     found = values_of(system, node, [options.parameter_name])
     if not found or TYPES[found[0].type] == "not_set":
         near = closest_match(options.parameter_name, names_of(system, node))
@@ -99,10 +105,10 @@ def _python(value: ParameterValue) -> Any:
     return plain.tolist() if hasattr(plain, "tolist") else plain
 
 
-@param.verb("set", NODE, NAME, argument("value", help="Value of the parameter"), HIDDEN)
+@param.verb("set", NODE, NAME, argument("value", help="Value of the parameter"), HIDDEN, TIMEOUT)
 def set_(system: System, options: Namespace) -> None:
     """Set parameter."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     parameter = Parameter(name=options.parameter_name, value=get_parameter_value(options.value))
     ((_, result),) = _set(system, node, [parameter])
     reason = f": {result.reason}" if result.reason else ""
@@ -111,14 +117,15 @@ def set_(system: System, options: Namespace) -> None:
     system.print_line(f"Set parameter successful{reason}")
 
 
-@param.verb("delete", NODE, NAME, HIDDEN)
+@param.verb("delete", NODE, NAME, HIDDEN, TIMEOUT)
 def delete(system: System, options: Namespace) -> None:
     """Delete parameter."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     ((_, result),) = _set(system, node, [Parameter(name=options.parameter_name)])
+    reason = f": {result.reason}" if result.reason else ""
     if not result.successful:
-        raise CliError(f"Deleting parameter failed{f': {result.reason}' if result.reason else ''}")
-    system.print_line("Deleted parameter successfully")
+        raise CliError(f"Deleting parameter failed{reason}")
+    system.print_line(f"Deleted parameter successfully{reason}")
 
 
 def _set(system: System, node: str, parameters: list[Parameter]) -> list[tuple[Parameter, Any]]:
@@ -132,10 +139,11 @@ def _set(system: System, node: str, parameters: list[Parameter]) -> list[tuple[P
     NODE,
     argument("parameter_names", nargs="+", help="Names of the parameters", completer=_names),
     HIDDEN,
+    TIMEOUT,
 )
 def describe(system: System, options: Namespace) -> None:
     """Show descriptive information about declared parameters."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     request = DescribeParameters.Request(names=options.parameter_names)
     for each in system.call(DescribeParameters, f"{node}/describe_parameters", request).descriptors:
         lines = [f"Parameter name: {each.name}", f"  Type: {_type_text(each.type)}"]
@@ -150,10 +158,10 @@ def describe(system: System, options: Namespace) -> None:
         system.print_line("\n".join(lines))
 
 
-@param.verb("dump", NODE, HIDDEN)
+@param.verb("dump", NODE, HIDDEN, TIMEOUT)
 def dump(system: System, options: Namespace) -> None:
     """Show all of the parameters of a node in a YAML file format."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     names = names_of(system, node)
     tree: dict[str, Any] = {}
     for name, value in zip(names, values_of(system, node, names), strict=True):
@@ -170,11 +178,12 @@ def dump(system: System, options: Namespace) -> None:
     NODE,
     argument("parameter_file", type=Path, help="Parameter file"),
     HIDDEN,
+    TIMEOUT,
     flag("--no-use-wildcard", help="Do not load parameters in the '/**' namespace into the node"),
 )
 def load(system: System, options: Namespace) -> None:
     """Load parameter file for a node."""
-    node = system.node(options.node_name, hidden=options.include_hidden_nodes)
+    node = _node(system, options)
     try:
         found = parameter_dict_from_yaml_file(
             str(options.parameter_file), not options.no_use_wildcard, target_nodes=[node]

@@ -1,6 +1,9 @@
 """Further verbs of ros2: param delete, lifecycle list, service echo, interface proto, doctor hello, wtf."""
 
+import time
+
 import pytest
+import rclpy
 from example_interfaces.srv import AddTwoInts
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.lifecycle import LifecycleNode
@@ -82,6 +85,24 @@ def test_a_declared_parameter_is_not_deleted(name):
 
 def test_a_parameter_whose_type_may_change_is_deleted():
     assert output_of("ros2 param delete /wheel note", Wheel) == "Deleted parameter successfully\n"
+
+
+def late_wheel():
+    time.sleep(2.0)
+    rclpy.init()
+    rclpy.spin(Wheel())
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ("", "Node not found\n"),
+        ("--timeout 1", "Node not found\n"),
+        ("--timeout 3", "Double value is: 0.1\n"),
+    ],
+)
+def test_commands_on_parameters_wait_for_the_node(words, text):
+    assert output_of(f"ros2 param get /wheel radius {words}", late_wheel) == text
 
 
 def test_hz_measures_the_messages_that_an_expression_selects():
