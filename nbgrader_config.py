@@ -25,6 +25,9 @@ Path("class").mkdir(exist_ok=True)  # sqlite makes the file but not the folder
 # Without a folder for its exchange, the formgrader opens with a warning. Nothing of this course goes there.
 c.Exchange.root = str(Path("class", "exchange").absolute())
 Path("class", "exchange").mkdir(exist_ok=True)
+# On a hub it is shared with the students.
+if Path("class", "hub_config.py").exists():
+    load_subconfig("hub_config.py", path=str(Path("class").absolute()))  # noqa: F821
 # nbgrader copies the files beside a notebook, out of solutions/ and out of submissions, except these. A
 # Python file may be an answer that a cell wrote, or stand in for a library: cells write what they need.
 course.ignore = ["*.py", "*.pyc", "__pycache__", "*answer*", "*solution*", ".*", "feedback"]

@@ -9,6 +9,7 @@ import sys
 COMMANDS = {  # module, function and arguments
     "mark": ("grader.marking.command.cli", "main", "ASSIGNMENT"),
     "due": ("grader.marking.command.due_cli", "main", "[ASSIGNMENT WHEN]"),
+    "hub": ("grader.marking.extras.hub.cli", "main", "[--check]"),
     "league": ("grader.marking.extras.league.cli", "main", "[NOTEBOOK ...]"),
     "collect": ("grader.marking.extras.learning_platform.cli", "collect", "ARCHIVE.zip"),
     "grades": ("grader.marking.extras.learning_platform.cli", "grades", "ASSIGNMENT"),

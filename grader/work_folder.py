@@ -1,11 +1,13 @@
 """The folder work/: a student's copies of lessons and exercises, not modified by git or `make exercises`.
 
 `make lab` opens this folder. Unmodified files are updated; modified ones are kept, and the new version is
-saved next to them.
+saved next to them. Where many users share one course that only its owner can change, as on a hub, the folder
+is in each user's home.
 """
 
 import hashlib
 import json
+import os
 import shutil
 from contextlib import suppress
 from pathlib import Path
@@ -13,18 +15,26 @@ from pathlib import Path
 from grader.notebook_format import InvalidNotebook, normalised
 
 FOLDER = "work"
+FOLDER_IN_HOME = "ros2-course"
 SOURCES = ("course", "exercises")
 ASSISTANT_FILES = ("AGENTS.md", "TUTOR.md")  # of course/
 RECORD = ".given.json"  # path -> digest of the last copied version
 GENERATED = ("__pycache__", ".ipynb_checkpoints", "my_*", "test_my_*", "ws")
 
 
+def find_work_folder(course: Path) -> Path:
+    """Where the student's copies are: in the course's folder, or in the home if that can't be changed."""
+    if os.access(course, os.W_OK):
+        return course / FOLDER
+    return Path.home() / FOLDER_IN_HOME
+
+
 def update_work_folder(course: Path) -> list[str]:
-    """Create or update course/work.
+    """Create or update the student's copies.
 
     Returns a sentence for each modified file whose new version was saved next to it.
     """
-    work = course / FOLDER
+    work = find_work_folder(course)
     work.mkdir(exist_ok=True)
     record = work / RECORD
     copied = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}

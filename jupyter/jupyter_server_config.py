@@ -11,7 +11,7 @@ HERE = Path(__file__).parent
 COURSE = HERE.parent
 for sentence in work_folder.update_work_folder(COURSE):
     print(sentence)
-c.ServerApp.root_dir = str(COURSE / work_folder.FOLDER)
+c.ServerApp.root_dir = str(work_folder.find_work_folder(COURSE))
 c.LabApp.default_url = "/lab/tree/course/start.ipynb"
 # In a container root is the default user; elsewhere Jupyter is not started as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import base64
 import json
+import os
+import socket
+import sys
 import threading
 from collections.abc import Callable
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from sim.view.javascript import script
@@ -88,10 +92,28 @@ class PageServer:
         self._thread.join()
 
 
+def user_of_connection(
+    client: tuple[str, int], server: tuple[str, int], table: Path = Path("/proc/net/tcp")
+) -> int | None:
+    """The number of the user whose program connected from this machine; None if Linux doesn't say."""
+    hosts = (int.from_bytes(socket.inet_aton(end[0]), sys.byteorder) for end in (client, server))
+    ends = [f"{host:08X}:{end[1]:04X}" for host, end in zip(hosts, (client, server), strict=True)]
+    try:
+        lines = table.read_text(encoding="ascii").splitlines()[1:]
+    except OSError:
+        return None
+    rows = (line.split() for line in lines)
+    return next((int(row[7]) for row in rows if row[1:3] == ends), None)
+
+
 class _Http(ThreadingHTTPServer):
     daemon_threads = True
     block_on_close = False
     owner: PageServer
+
+    def verify_request(self, request: Any, client_address: tuple[str, int]) -> bool:
+        """Answer this user's programs and those of root; on a shared machine, others connect in vain."""
+        return user_of_connection(client_address, self.server_address) in (None, 0, os.geteuid())
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Ignore aborted connections of browsers."""

@@ -4,6 +4,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from grader import work_folder
 from grader.work_folder import student_files, update_work_folder
 
 ROOT = Path(__file__).parents[2]
@@ -33,6 +34,14 @@ def course(tmp_path: Path) -> Path:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
     return tmp_path
+
+
+def test_a_user_who_cannot_change_the_course_has_the_copies_in_the_home(course, tmp_path_factory, monkeypatch):
+    home = tmp_path_factory.mktemp("home")
+    monkeypatch.setattr(work_folder.os, "access", lambda path, mode: False)
+    monkeypatch.setenv("HOME", str(home))
+    assert update_work_folder(course) == []
+    assert (home / "ros2-course" / LESSON).exists() and not (course / "work").exists()
 
 
 def files(course: Path) -> set[str]:

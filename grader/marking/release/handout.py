@@ -28,11 +28,11 @@ INCLUDED = (
 )
 MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "spreadsheet.py"),
-    *("extras/dask_cluster", "extras/learning_platform", "extras/receipts"),
+    *("extras/dask_cluster", "extras/hub", "extras/learning_platform", "extras/receipts"),
 )
 EXCLUDED = (
     *(f"grader/marking/{part}" for part in MARKING_EXCLUDED),
-    *("jupyter/teach", "course/README.md", "grader/README.md"),
+    *("jupyter/teach", "jupyter/hub", "course/README.md", "grader/README.md"),
 )
 TARGETS = ("help", "lab", "setup", "clean")  # of the Makefile that are included
 TOOL_FOLDERS = {"__pycache__", ".ipynb_checkpoints", "build"}

@@ -133,6 +133,7 @@ def test_the_command_says_how_it_is_used(tmp_path, monkeypatch, capsys):
     usage = (
         "usage: python -m grader mark ASSIGNMENT [--help]\n"
         "       python -m grader due [ASSIGNMENT WHEN] [--help]\n"
+        "       python -m grader hub [--check] [--help]\n"
         "       python -m grader league [NOTEBOOK ...] [--help]\n"
         "       python -m grader collect ARCHIVE.zip [--help]\n"
         "       python -m grader grades ASSIGNMENT [--help]\n"

@@ -4,6 +4,7 @@ import base64
 import contextlib
 import http.client
 import json
+import os
 import re
 import socket
 import struct
@@ -53,6 +54,25 @@ def patient_page(browser):
     page = browser.new_page()
     page.set_default_timeout(1000 * PATIENCE)
     return page
+
+
+@pytest.mark.parametrize(("user", "served"), [(0, True), (os.geteuid(), True), (None, True), (4242, False)])
+def test_a_page_is_for_the_programs_of_its_own_user(page, monkeypatch, user, served):
+    monkeypatch.setattr(server, "user_of_connection", lambda client, address: user)
+    if served:
+        assert request(page, "GET", "/")[0] == 200
+    else:
+        with pytest.raises((http.client.RemoteDisconnected, ConnectionResetError)):
+            request(page, "GET", "/")
+
+
+def test_linux_says_whose_program_has_connected(tmp_path):
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        with socket.create_connection(listener.getsockname()) as client:
+            ends = client.getsockname(), listener.getsockname()
+            assert server.user_of_connection(*ends) == os.geteuid()
+            assert server.user_of_connection(*ends, table=tmp_path / "missing") is None
+        assert server.user_of_connection(("127.0.0.1", 1), listener.getsockname()) is None
 
 
 def own(page):
