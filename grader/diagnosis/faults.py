@@ -35,6 +35,10 @@ _MAIN_HANGS = (
     "subscriptions work, end main() with rclpy.spin(node): it returns only at shutdown."
 )
 _FLOOD = "A loop sends and sends, and no time passes in it: let a timer set the pace, or pause in each round."
+_WAITS_OUTSIDE = (
+    "Simulated time stands still during such a wait, so a run has a limit for it. Let the other program take "
+    "part in the run, as in run(A, B), or start this one in a terminal."
+)
 
 
 def find_fault(recording: Recording) -> Fault | None:
@@ -69,6 +73,8 @@ def _from_end(ended: Ended) -> Fault:
     hint = _HINTS[ended.reason]
     if " messages at " in ended.detail:
         hint = _FLOOD
+    elif " of real time for " in ended.detail:
+        hint = _WAITS_OUTSIDE
     elif ended.reason == "hang" and re.match(r"[a-z_]\w*\(\) at t = \S+ s computed", ended.detail):
         hint = _MAIN_HANGS
     return Fault(

@@ -7,8 +7,9 @@ from grader.diagnosis import find_fault
 from grader.diagnosis.fault import Fault
 from sim import run
 from sim.evidence import CallbackError, Ended, Recording, place_of
+from sim.ros.engine import guard
 from tests.students import misfits, mistakes
-from tests.students.engine import own_clocks, waitables
+from tests.students.engine import own_clocks, timing, waitables
 
 
 class Flooding(misfits.Talker):
@@ -129,3 +130,13 @@ def test_an_error_in_a_package_that_was_installed_names_the_line_there():
     assert place_of(
         CallbackError(0.5, "/talker", "Talker.tick", "ZeroDivisionError", "division by zero", trace)
     ) == ("in Talker.tick, line 12, at 0.5 s")
+
+
+def test_a_wait_for_another_process_is_explained(monkeypatch):
+    monkeypatch.setattr(guard, "WAITING_LIMIT", 0.3)
+    fault = fault_of(timing.waits_for_a_slow_child)
+    assert fault.saw.startswith("waits_for_a_slow_child() at t = 0 s waited for 0.3 s of real time")
+    assert fault.hint == (
+        "Simulated time stands still during such a wait, so a run has a limit for it. Let the other program take "
+        "part in the run, as in run(A, B), or start this one in a terminal."
+    )
