@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -85,8 +86,8 @@ def write(workspace: Path, name: str, rules: str, depends: str = "") -> None:
     (folder / "CMakeLists.txt").write_text(f"{head}{rules}")
 
 
-def colcon(folder: Path, *arguments: str) -> subprocess.CompletedProcess:
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+def colcon(folder: Path, *arguments: str, **variables: str) -> subprocess.CompletedProcess:
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | variables
     return subprocess.run(
         [COLCON, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False
     )
@@ -118,6 +119,37 @@ def test_a_package_that_is_not_here_is_explained_in_a_sentence(package, sentence
     done = colcon(tmp_path, "build")
     assert done.returncode == 1
     assert sentence in re.sub(r"\s+", " ", done.stderr)
+
+
+@pytest.fixture
+def explaining(configured, tmp_path, monkeypatch):
+    """colcon with the extension that pyproject.toml names, also where set-up did not register it yet."""
+    group = "colcon_core.event_handler"
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    lines = [f"{name} = {value}" for name, value in project["entry-points"][group].items()]
+    folder = tmp_path / "registered" / "course_test-0.dist-info"
+    folder.mkdir(parents=True)
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: course-test\nVersion: 0\n")
+    (folder / "entry_points.txt").write_text("\n".join([f"[{group}]", *lines]))
+    return {"PYTHONPATH": str(folder.parent)}
+
+
+def test_a_package_that_nobody_has_is_explained_in_a_sentence(explaining, tmp_path):
+    requires = {"near": "std_msg", "far": "zzz_interfaces", "first": "second"}
+    for name, other in requires.items():
+        write(tmp_path, name, f"find_package(ament_cmake REQUIRED)\nfind_package({other} REQUIRED)\n")
+    write(tmp_path, "second", "find_package(ament_cmake REQUIRED)\nament_package()\n")
+    done = colcon(tmp_path, "build", "--continue-on-error", **explaining)
+    said = [
+        line for line in done.stderr.splitlines() if line.startswith((*(f"{name}: " for name in requires),))
+    ]
+    begin = "its CMakeLists.txt requires {}, which is neither installed nor in this workspace."
+    assert sorted({*said}) == [
+        f"far: {begin.format('zzz_interfaces')} Put its source into src, or remove the line.",
+        "first: second is a package of this workspace, but first does not depend on it, so it is not built "
+        "first. Write <depend>second</depend> into the package.xml of first.",
+        f"near: {begin.format('std_msg')} Did you mean std_msgs?",
+    ]
 
 
 @pytest.mark.soak  # rosidl and its C++ take half a minute
