@@ -141,9 +141,9 @@ def equal_timers(recording: Recording) -> str:
                 if period:
                     return (
                         f"{setter} sets self.{name}, and {user} uses it. Both are timers of {node.name} "
-                        f"with a period of {period:g} s, and nothing fixes which fires first: {user} gets "
-                        "the value of this period or of the one before. Do both in one callback, in the "
-                        "order that they need."
+                        f"with a period of {period:g} s. Today's rclpy runs the one first that was created "
+                        f"first, and nothing guarantees it: {user} gets the value of this period or of the "
+                        "one before. Do both in one callback, in the order that they need."
                     )
     return ""
 

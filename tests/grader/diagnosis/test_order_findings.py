@@ -32,8 +32,8 @@ SENTENCES = {
     (
         orders.TwoTimers,
     ): "TwoTimers.step sets self.steps, and TwoTimers.send uses it. Both are timers of /two_timers with a period of "
-    "0.1 s, and nothing fixes which fires first: TwoTimers.send gets the value of this period or of the one before. Do "
-    "both in one callback, in the order that they need.",
+    "0.1 s. Today's rclpy runs the one first that was created first, and nothing guarantees it: TwoTimers.send gets the "
+    "value of this period or of the one before. Do both in one callback, in the order that they need.",
     (
         orders.Stock,
         orders.Shop,
