@@ -193,8 +193,7 @@ class Exercise:
             in_order = functools.partial(self._judged, scenario, run)
             try:
                 if order is None:
-                    usual = scenario.one_order or not all(map(is_full, judged))
-                    chosen = USUAL if usual else order_of_run(index, seed)
+                    chosen = order_of_run(index, seed) if all(map(is_full, judged)) else USUAL
                     public = not secret
                     (recording, verdicts), difference = judge_in_orders(chosen, in_order, index, public)
                     differences += filter(None, [difference])

@@ -32,7 +32,6 @@ class Scenario:
     name: by which checks that hold in some scenarios only name this one.
     network: what lies between the robot and the student's nodes, as in sim.run.
     fair: the seeds of which students get one each when they are marked, where luck decides in others.
-    one_order: it is graded in the usual order alone, for what its programs do to each other is not judged.
     waits: the world waits for the student's nodes, so that in another order they may start later.
     """
 
@@ -46,7 +45,6 @@ class Scenario:
     network: Network | None = None
     fair: Sequence[int] = ()
     waits: bool = True
-    one_order: bool = False
 
     def run(
         self, source: ProgramSource, seed: int, package: Package | None = None, order: str = ""

@@ -1,88 +1,104 @@
 """Seeds in which good robots do their work: python -m tests.exercises.fair 13_delivery deliver --first 10
 
 A warehouse drawn by chance may lie so that nobody can do what a scenario asks for. For each seed the
-solution's notebook and all right nodes are run in all scenarios of an exercise; where none of them misses
-anything it is fair.
+solution's notebook and all right nodes are run in the scenarios of an exercise, in several orders of what
+happens at the same time; where none of them misses anything it is fair.
 """
 
 from __future__ import annotations
 
 import argparse
-import copy
+import ast
 import importlib
 import sys
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 import nbformat
 
 from grader import Exercise
-from grader.checks import Missed
+from grader.checks.verdicts import judge
 from grader.programs import LocalPrograms
-from tests.exercises.score_tables import GRADES, ROOT, students
+from grader.scenario import Scenario
+from tests.exercises.score_tables import ROOT, students
 from tests.exercises.seeds import right_nodes
 from tests.students.teams import programs_of
 
 
-def solution(folder: str, name: str) -> tuple[Any, ...]:
+def solution(topic: str, name: str) -> tuple[Any, ...]:
     """What the notebook in solutions/ gives to an exercise, as `grade` takes it."""
-    (path,) = (ROOT / "solutions" / folder).glob("*.ipynb")
-    space: dict[str, Any] = {"given": lambda *nodes: nodes}
+    (path,) = ROOT.glob(f"solutions/*_{topic}/*.ipynb")
+    space: dict[str, Any] = {}
     for cell in nbformat.read(path, 4).cells:
-        graded = GRADES.fullmatch(cell.source)
-        if graded and graded[1] == name:
-            return tuple(eval(f"given({graded[2]})", space))
-        if not graded and (cell.source.startswith(("import ", "from ")) or "BEGIN SOLUTION" in cell.source):
-            exec(cell.source, space)
+        for statement in _statements(cell):
+            if graded := _graded(statement, name):
+                return tuple(eval(f"({', '.join([*map(ast.unparse, graded.args), ''])})", space))
+            if not isinstance(statement, ast.Expr):
+                with suppress(NameError):  # of a recording: nothing is run here
+                    exec(ast.unparse(statement), space)
     raise ValueError(f"{path} grades no {name}")
 
 
-def unfair(exercise: Exercise, programs: tuple[Any, ...], seed: int) -> set[str]:
-    """The names of the scenarios in which these programs miss something with this seed."""
-    tried = copy.copy(exercise)
-    tried.scenarios = [replace(scenario, seed=seed) for scenario in exercise.scenarios]
-    score = tried.judge(LocalPrograms(programs))
-    missed = {verdict.run for verdict in score.verdicts if verdict.status != "passed"}
-    everywhere = [check for check in exercise.checks if not check.only]  # a verdict names the first run alone
-    for run, recording in enumerate(score.recordings):
-        missed |= {run for check in everywhere if _is_missed(check, recording)}
-    return {exercise.scenarios[run].name for run in missed}
+def _statements(cell: Any) -> list[ast.stmt]:
+    """What a cell executes, without its runs; nothing of a cell with commands of IPython."""
+    with suppress(SyntaxError):
+        statements = ast.parse(cell.source if cell.cell_type == "code" else "").body
+        return [statement for statement in statements if not _runs(statement)]
+    return []
 
 
-def _is_missed(check: Any, recording: Any) -> bool:
-    try:
-        check(recording)
-    except Missed:
-        return True
-    return False
+def _graded(statement: ast.stmt, name: str) -> ast.Call | None:
+    """The call of `grade` of the exercise of this name, if the statement is one."""
+    call = getattr(statement, "value", None)
+    words = ast.unparse(call.func).split(".")[-2:] if isinstance(call, ast.Call) else []
+    return call if words == [name, "grade"] else None
 
 
-def fair(folder: str, name: str, numbers: range) -> Iterator[tuple[int, set[str]]]:
-    """Each seed with the scenarios in which somebody missed something."""
+def _runs(statement: ast.stmt) -> bool:
+    called = (part.func for part in ast.walk(statement) if isinstance(part, ast.Call))
+    return any(getattr(function, "id", "") in ("run", "play") for function in called)
+
+
+def is_fair(
+    exercise: Exercise, scenario: Scenario, programs: tuple[Any, ...], seed: int, orders: int
+) -> bool:
+    """Whether these programs miss nothing in a scenario with this seed, in the usual order and in others."""
+    for order in range(orders):
+        recording = scenario.run(source=LocalPrograms(programs), seed=seed, order=str(order or ""))
+        verdicts = judge(exercise.checks, recording, scenario.name)
+        if any(verdict.status != "passed" for verdict in verdicts):
+            return False
+    return True
+
+
+def fair(
+    folder: str, name: str, kinds: Sequence[str], numbers: range, orders: int
+) -> Iterator[tuple[str, int, bool]]:
+    """Each scenario's name with each seed, and whether no good robot misses anything."""
     topic = folder.split("_", 1)[1]
     exercise = getattr(importlib.import_module(f"grader.exercises.{topic}"), name)
-    robots = [programs_of(students(topic, name)[node]) for node in right_nodes(topic, name)]
-    for number in numbers:
-        missed = [unfair(exercise, robot, number) for robot in (solution(folder, name), *robots)]
-        yield number, set().union(*missed)
+    nodes = students(topic, name)
+    robots = [solution(topic, name), *(programs_of(nodes[node]) for node in right_nodes(topic, name))]
+    for scenario in exercise.scenarios:
+        for seed in numbers if scenario.name in kinds or not kinds else ():
+            found = (is_fair(exercise, scenario, robot, seed, orders) for robot in robots)
+            yield scenario.name, seed, all(found)
 
 
 def main(words: list[str]) -> None:
-    """Print each seed as it is tried, and at the end the fair ones of each scenario."""
+    """Print the seeds of each scenario as they are tried: the unfair ones with a minus."""
     parser = argparse.ArgumentParser(prog="python -m tests.exercises.fair", description=__doc__)
     parser.add_argument("folder", help="an assignment's folder in solutions/, such as 13_delivery")
     parser.add_argument("exercise", help="the name of one with scenarios")
+    parser.add_argument("scenarios", nargs="*", help="their names; all of them where none is given")
     parser.add_argument("--count", type=int, default=20, help="how many seeds")
     parser.add_argument("--first", type=int, default=10, help="the first one")
-    asked = parser.parse_args(words)
-    tried = []
-    for number, missed in fair(asked.folder, asked.exercise, range(asked.first, asked.first + asked.count)):
-        tried.append((number, missed))
-        print(number, "unfair:", ", ".join(sorted(missed)) or "none", flush=True)
-    module = importlib.import_module(f"grader.exercises.{asked.folder.split('_', 1)[1]}")
-    for scenario in getattr(module, asked.exercise).scenarios:
-        print(scenario.name, *(number for number, missed in tried if scenario.name not in missed))
+    parser.add_argument("--orders", type=int, default=5, help="how many orders, with the usual one")
+    given = parser.parse_args(words)
+    numbers = range(given.first, given.first + given.count)
+    for name, seed, is_good in fair(given.folder, given.exercise, given.scenarios, numbers, given.orders):
+        print(name, seed if is_good else -seed, flush=True)
 
 
 if __name__ == "__main__":

@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from grader.programs import LocalPrograms
 from tests.exercises.builds import kept_builds
+from tests.exercises.fair import solution
 from tests.exercises.score_tables import graded_exercises, shown, students
 from tests.exercises.seeds import exercise_of, right_nodes
 from tests.students.teams import programs_of
@@ -16,12 +18,20 @@ from tests.students.teams import programs_of
 def fallen_short_in_orders(
     topic: str, name: str, numbers: Sequence[int], level: str = "", *, every: bool = False
 ) -> Iterator[str]:
-    """What a right node misses in these orders. They take turns, unless every one is tried in each order."""
-    exercise, nodes, right = exercise_of(topic, name), students(topic, name), right_nodes(topic, name)
+    """What the solution and the right nodes miss in these orders.
+
+    They take turns, unless every one is tried in each order.
+    """
+    exercise, nodes = exercise_of(topic, name), students(topic, name)
+    right = {node: programs_of(nodes[node]) for node in right_nodes(topic, name)}
+    if not exercise.package:
+        with suppress(ModuleNotFoundError):  # the answer is a file that the notebook writes
+            right["solution"] = solution(topic, name)
+    names = list(right)
     for number in numbers:
-        for node in right if every else [right[number % len(right)]]:
+        for node in names if every else [names[number % len(names)]]:
             order = f"{level}{number}"
-            score = exercise.judge(LocalPrograms(programs_of(nodes[node])), order=order)
+            score = exercise.judge(LocalPrograms(right[node]), order=order)
             if shown(node, score) != f"{node}: {exercise.points:g}":
                 yield f"order {order}: {shown(node, score)}"
 

@@ -64,5 +64,5 @@ def test_a_box_whose_side_comes_into_view_is_not_asked_for():
 @pytest.mark.soak
 def test_the_solutions_robot_earns_everything_when_a_class_is_marked():
     for number in range(4):
-        score = delivery.deliver.judge(LocalPrograms(solution("13_delivery", "deliver")), f"secret {number}")
+        score = delivery.deliver.judge(LocalPrograms(solution("delivery", "deliver")), f"secret {number}")
         assert float(score) == delivery.deliver.points

@@ -15,9 +15,9 @@ from grader.worlds.warehouses import FAIR, warehouse
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 
-SHIFT, LONGEST = 150.0, 140.0  # s of runs; the one order of the others takes 35 to 90
+SHIFT, LONGEST = 150.0, 300.0  # s of runs; the one order of the others takes 35 to 250
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
-GIVEN_UP = 30.0  # s for which a robot stands that has an order; a person who walks by stops it for 10 at most
+GIVEN_UP = 60.0  # s for which a robot stands that has an order; people stop it for 40 at most
 DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
 SETTLING, STANDING = 1.0, 0.02  # s from the last scan until the robot stands; m/s
 IDLE = {
@@ -51,7 +51,7 @@ def _scenario(kind: str, seed: int, prepare: Any = None) -> Scenario:
     until = _met if kind == "shift" else _over
     seconds = SHIFT if kind == "shift" else LONGEST
     world = functools.partial(warehouse, kind)
-    about = {"prepare": prepare, "name": kind, "fair": FAIR[kind], "one_order": True}
+    about = {"prepare": prepare, "name": kind, "fair": FAIR[kind]}
     return Scenario(world, seconds, seed, until=until, **about)
 
 
@@ -60,7 +60,7 @@ deliver = Exercise(
     "The delivery robot",
     scenarios=[
         _scenario("shift", 3),
-        _scenario("blind", 5),
+        _scenario("blind", 11),
         _scenario("blocked", 6),
         _scenario("canceled", 7),
         # Every program is killed between 5 and 12 s, each at another moment, and is back 2 s later.
@@ -138,7 +138,7 @@ def stands_blind(run: Recording) -> None:
             expected = f"the robot standing from {begin + SETTLING:.3g} to {end:.3g} s: no scan comes"
             hint = "How old is what control knows? Older than half a second: zeros. Compare header.stamp."
             raise Missed(expected, f"{top.linear:.2f} m/s at {top.stamp:.3g} s", hint, picture="topics")
-    if not drove:
+    if not drove and not _delivers(run):  # a robot that delivers may stand for people
         raise Missed("a robot that drives when the lidar falls silent", "it stood before")
 
 
@@ -174,10 +174,13 @@ def comes_back(run: Recording) -> None:
 
 
 def _require_delivery(run: Recording) -> None:
-    jobs = shift(run).jobs
-    if not any(job.status == "delivered" for job in jobs):
-        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_text, jobs)])
+    if not _delivers(run):
+        saw = "; ".join([f"after {run.stamp:.0f} s", *map(_text, shift(run).jobs)])
         raise Missed("a delivered order", saw, picture="path")
+
+
+def _delivers(run: Recording) -> bool:
+    return any(job.status == "delivered" for job in shift(run).jobs)
 
 
 def _text(job: Job) -> str:
