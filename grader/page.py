@@ -2,7 +2,8 @@
 
 The HTML is one table with inline styles: no scripts, no classes, no URLs except of embedded pictures. Text
 has the page's colour, and each status its own background, so all is legible in light and dark themes. Equal
-scores give equal bytes.
+scores give equal bytes. A moment of a run that has a replay is a link, which moves the replay there; see
+sim/view/web/cursor.js.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from __future__ import annotations
 import html as escaping
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 from grader.checks.verdicts import Verdict
 
@@ -23,7 +25,9 @@ STATUS_STYLES = {
     "skipped": ("○", "skipped", "#4a4a4a", "#eeeeee"),
     "broken": ("!", "our mistake", "#4b2a8f", "#eee7fb"),
 }
+NO_REPLAYS: Mapping[int, str] = MappingProxyType({})
 WIDTH = 88  # characters per line in a terminal
+MOMENT = re.compile(r"\b(?:at|from|until) (\d{1,6}(?:\.\d{1,6})?) s\b")
 
 
 def html(
@@ -34,14 +38,19 @@ def html(
     runs: Sequence[str] = (),
     note: str = "",
     below: tuple[int, str] = (0, ""),
+    replays: Mapping[int, str] = NO_REPLAYS,
 ) -> str:
     """The table for Jupyter.
 
     runs: the label of each run, if there are several. note: a sentence on the total points.
-    below: the index of a verdict, and HTML to insert below its text.
+    below: the index of a verdict, and HTML to insert below its text. replays: the keys of runs that have a
+    replay, by index.
     """
     more = {below[0]: below[1]}
-    rows = "".join(_row(verdict, runs, more.get(index, "")) for index, verdict in enumerate(verdicts))
+    rows = "".join(
+        _row(verdict, runs, more.get(index, ""), replays.get(verdict.run, ""))
+        for index, verdict in enumerate(verdicts)
+    )
     return (
         '<table style="border-collapse: collapse; text-align: left; width: 100%">'
         f'<caption style="text-align: left; white-space: nowrap; color: inherit">'
@@ -98,10 +107,19 @@ def _points(verdict: Verdict) -> str:
     return f"{format_points(verdict.earned)} / {format_points(verdict.points)}" if verdict.points else ""
 
 
-def _row(verdict: Verdict, runs: Sequence[str], below: str) -> str:
+def moments(verdict: Verdict) -> list[float]:
+    """The moments (s) that the text of a missed check names: what was seen, or else what was expected."""
+    if verdict.status != "failed":
+        return []
+    found = MOMENT.findall(verdict.saw) or MOMENT.findall(verdict.expected)
+    return [float(seconds) for seconds in found]
+
+
+def _row(verdict: Verdict, runs: Sequence[str], below: str, replay: str) -> str:
     symbol, word, colour, background = STATUS_STYLES[status_key(verdict)]
     more = "".join(
-        f"<div><b>{label}:</b> {_escape(content)}</div>" for label, content in details(verdict, runs)
+        f"<div><b>{label}:</b> {_linked(_escape(content), replay)}</div>"
+        for label, content in details(verdict, runs)
     )
     more += below
     cell = "text-align: left; vertical-align: top"
@@ -110,6 +128,18 @@ def _row(verdict: Verdict, runs: Sequence[str], below: str) -> str:
         f'<b style="color: {colour}; background-color: {background}; padding: 0 4px">{symbol} {word}</b></td>'
         f'<td style="{cell}; white-space: normal"><div><b>{_escape(verdict.sentence)}</b></div>{more}</td>'
         f'<td style="{cell}; white-space: nowrap">{_points(verdict)}</td></tr>'
+    )
+
+
+def _linked(content: str, replay: str) -> str:
+    """Escaped text in which each moment is a link to the replay of this key; "" for none."""
+    if not replay:
+        return content
+    return MOMENT.sub(
+        lambda found: found[0].replace(
+            f"{found[1]} s", f'<a href="#run-{replay}-{found[1]}">{found[1]} s</a>'
+        ),
+        content,
     )
 
 

@@ -9,9 +9,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.checks.verdicts import Verdict
+from grader.page import moments
 from sim.evidence import Recording
 from sim.evidence.connections import missing
 
+MOMENTS = 20  # marked in a replay
 CHARACTERS = 4_000  # of a graph's description
 
 
@@ -21,14 +23,36 @@ def score_pictures(verdicts: Sequence[Verdict], recordings: Sequence[Recording])
     for verdict in verdicts:
         if verdict.picture and verdict.run < len(recordings):
             wanted.setdefault(verdict.picture, verdict)
-    return [_picture(kind, recordings[verdict.run]) for kind, verdict in wanted.items()]
+    return [
+        _picture(kind, recordings[verdict.run], missed_moments(verdicts, verdict.run))
+        for kind, verdict in wanted.items()
+    ]
 
 
-def _picture(kind: str, recording: Recording) -> tuple[str, Any]:
+def missed_moments(verdicts: Sequence[Verdict], run: int) -> list[tuple[float, str]]:
+    """The moments (s) that the missed checks of a run name, with what they say, in order; each once."""
+    found = [
+        (stamp, f"{verdict.sentence} {verdict.saw}")
+        for verdict in verdicts
+        if verdict.run == run
+        for stamp in moments(verdict)
+    ]
+    return sorted({stamp: text for stamp, text in reversed(found)}.items())[:MOMENTS]
+
+
+def replay_keys(verdicts: Sequence[Verdict], recordings: Sequence[Recording]) -> dict[int, str]:
+    """The keys of the runs that `score_pictures` shows as replays, by index."""
+    from sim.view.replay_data import run_key
+
+    shown = next((verdict.run for verdict in verdicts if verdict.picture == "path"), len(recordings))
+    return {shown: run_key(recordings[shown])} if shown < len(recordings) else {}
+
+
+def _picture(kind: str, recording: Recording, missed: list[tuple[float, str]]) -> tuple[str, Any]:
     from sim.view import plot_topics
 
     if kind == "path":
-        return "The robot's path, seen from above", recording.replay()
+        return "The robot's path, seen from above", recording.replay(moments=missed)
     return "What was published, and when", plot_topics(recording)
 
 

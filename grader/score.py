@@ -91,6 +91,13 @@ class Score(float):
             except Exception:  # a picture is an extra: without it the points still have to be told
                 return 0, ""
 
+    @cached_property
+    def _replays(self) -> dict[int, str]:
+        """The keys of the runs that have a replay, by index."""
+        from grader.pictures import replay_keys
+
+        return replay_keys(self.verdicts, self.recordings)
+
     def as_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON; without the recordings."""
         verdicts = [{**asdict(verdict), "earned": verdict.earned} for verdict in self.verdicts]
@@ -124,7 +131,7 @@ class Score(float):
 
     def _repr_html_(self) -> str:
         told = self.title, float(self), self.max, self.verdicts, self._runs, self._note
-        return page.html(*told, below=self._graph)
+        return page.html(*told, below=self._graph, replays=self._replays)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # Each picture is an output of its own: a sanitiser that is strict about HTML lets the table pass.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from sim.evidence import Recording
@@ -53,8 +53,8 @@ def play(
     return player
 
 
-def replay(recording: Recording, *, speed: float) -> Any:
+def replay(recording: Recording, *, speed: float, moments: Sequence[tuple[float, str]] = ()) -> Any:
     """See `Recording.replay`."""
     from sim.view.replay import replay  # imported here because it is slow
 
-    return replay(recording, speed=speed)
+    return replay(recording, speed=speed, moments=moments)

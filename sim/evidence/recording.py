@@ -5,7 +5,7 @@ from __future__ import annotations
 import bisect
 import functools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -193,12 +193,13 @@ class Recording(RunData):
 
         return read(Path(path), Recording)
 
-    def replay(self, *, speed: float = 1.0) -> Any:
+    def replay(self, *, speed: float = 1.0, moments: Sequence[tuple[Seconds, str]] = ()) -> Any:
         """The run as a player with a scrub bar; it stays in the saved notebook and in pages made from it.
 
-        speed: simulated seconds per second, to begin with. Raises ValueError if it isn't above 0.
+        speed: simulated seconds per second, to begin with. Raises ValueError if it isn't above 0. moments:
+        stamps with a text, marked in red; it opens a second before the first of them.
         """
-        return type(self).player(self, speed=speed)
+        return type(self).player(self, speed=speed, moments=moments)
 
     def __repr__(self) -> str:
         return (

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from itertools import accumulate
 
 from sim.evidence import Recording
-from sim.view.replay_data import VERSION, contact_marks, deflated, inflated, mark_rows, motion, run_end
+from sim.view.packing import deflated, inflated
+from sim.view.replay_data import VERSION, contact_marks, mark_rows, motion, run_end
 from sim.view.world_data import world_data
 
 GHOST = "ghost"  # kind of a body that is only drawn

@@ -7,6 +7,7 @@ import statistics
 
 from sim.evidence import Recording, Seconds, rate, stamps
 from sim.view.plot import CAUTION, GRID, MUTED, PATH, WARNING, Plot, legend_beside, note_failure, plot
+from sim.view.plot_data import panel, plot_data, series
 
 
 def plot_jitter(
@@ -46,6 +47,12 @@ def plot_jitter(
     axes.set_ylim(bottom=0.0)
     axes.grid(color=GRID)
     legend_beside(axes)
+    curves = [series("time since the last", *zip(*gaps, strict=True), style="points")]
+    curves += [series("missed", *zip(*late, strict=True), style="points", colour="warning")] if late else []
+    levels = [(nominal, "mean" if period is None else "period", "muted")]
+    levels += [] if deadline is None else [(1000 * deadline, "deadline", "caution")]
+    title = _title(topic, moments, gaps, deadline, late)
+    figure.interactive = plot_data(recording, title, panels=[panel("ms", curves, levels)])
     return note_failure(figure, recording)
 
 

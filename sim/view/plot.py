@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import textwrap
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from sim.evidence import Recording
+from sim.view.interactive import plot_html
 
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and further ones
@@ -30,6 +31,7 @@ class Plot(Figure):
     """A figure that Jupyter displays without pyplot, with a description as alt text."""
 
     failure = ""  # of the run that it shows
+    interactive: dict[str, Any] | None = None  # the data of the interactive plot, from `plot_data`
 
     @property
     def description(self) -> str:
@@ -40,6 +42,17 @@ class Plot(Figure):
         named = named or [row for row in rows if row[-1:].isalpha() or " " in row]
         parts = (axes.get_title(), " over ".join(filter(None, (axes.get_ylabel(), axes.get_xlabel()))))
         return f"Plot: {'; '.join(filter(None, (*parts, ', '.join(named), self.failure)))}"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """The interactive plot, if there is one, with this figure for pages without scripts."""
+        if self.interactive is None:
+            return {}  # then Jupyter shows the PNG
+        return {"text/html": self.html, "text/plain": repr(self)}
+
+    @property
+    def html(self) -> str:
+        """The interactive plot as HTML, for use in other pages."""
+        return plot_html(self.interactive or {}, small_png(self), self.description)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:
         return png(self), {"alt": self.description}

@@ -9,16 +9,18 @@ from __future__ import annotations
 import base64
 import html
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from sim.evidence import Recording
-from sim.view.javascript import script
+from sim.view.javascript import packed, script
 from sim.view.path_plot import plot_path
 from sim.view.plot import Plot, small_png
-from sim.view.replay_data import pack, run_end
+from sim.view.replay_data import Moment, pack, run_end
 from sim.view.timeline_plots import plot_topics
 
-PLAYER_SCRIPT = f'(() => {{\n"use strict";\n{script("replay.js")}\n}})();'
+PLAYER_SOURCE = script("replay.js")
+PLAYER_SCRIPT = packed(PLAYER_SOURCE)
 """Turns every replay of the page into a player. It contains no data."""
 
 
@@ -27,8 +29,8 @@ class Replay:
 
     above = ""
 
-    def __init__(self, recording: Recording, speed: float) -> None:
-        self._data = pack(recording, speed)
+    def __init__(self, recording: Recording, speed: float, moments: Sequence[Moment] = ()) -> None:
+        self._data = pack(recording, speed, moments)
         self._picture = base64.b64encode(small_png(_still(recording))).decode()
         self._title = f"Replay of {run_end(recording):g} s"
 
@@ -51,15 +53,16 @@ class Replay:
         return f"<{self._title}: {len(self.html) / 1024:.0f} KiB>"
 
 
-def replay(recording: Recording, *, speed: float = 1.0) -> Replay:
+def replay(recording: Recording, *, speed: float = 1.0, moments: Sequence[Moment] = ()) -> Replay:
     """The run as a player with a scrub bar; it is stored in the notebook and in pages exported from it.
 
-    speed: initial simulated seconds per second of playback.
+    speed: initial simulated seconds per second of playback. moments: stamps (s) with a text, marked in red;
+    the replay opens a second before the first of them. It ends soon after the last thing that happens.
     Without a world it shows a timeline of the topics. Raises ValueError for a speed that isn't above 0.
     """
     if not (speed > 0 and math.isfinite(speed)):
         raise ValueError(f"speed must be a number above 0; it is {speed!r}")
-    return Replay(recording, float(speed))
+    return Replay(recording, float(speed), moments)
 
 
 def _still(recording: Recording) -> Plot:

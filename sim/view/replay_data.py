@@ -7,7 +7,6 @@ deflated. The size is bounded for runs of any length, by limits on the number of
 
 from __future__ import annotations
 
-import base64
 import json
 import math
 import zlib
@@ -18,6 +17,9 @@ from typing import Any
 from sim.evidence import Recording, rate, stamps
 from sim.view.body_tracks import body_tracks, pose_at, presence_intervals
 from sim.view.graph_data import graph_data
+from sim.view.last_event import last_event
+from sim.view.packing import deflated
+from sim.view.replay_values import inspected, strip_of
 from sim.view.strokes import all_strokes, thinned
 from sim.view.world_data import world_data
 
@@ -33,32 +35,47 @@ OUT_OF_RANGE, NOT_MEASURED = -1, -2  # instead of a range
 MARKS, LOGS, TOPICS, COLUMNS, CHARACTERS = 100, 200, 20, 240, 200
 Mark = tuple[float, str, str, tuple[float, float] | None]  # stamp, kind, text, position
 TEXT_BYTES = 9_000  # limit of the compressed texts of all marks, and of all log lines
+KEY = 12  # hexadecimal digits of a run's key
+LEAD = 1.0  # s; a replay opens so long before its first moment
+QUIET = 2.0  # s; if less than this happens nothing at the end, it is shown, too
+Moment = tuple[float, str]  # stamp (s), text
 
 
-def pack(recording: Recording, speed: float) -> str:
-    """The run as base64 of deflated JSON; equal recordings give equal strings. speed: the initial speed."""
-    data = {"version": VERSION, "speed": speed, "end": run_end(recording), "world": None}
+def pack(recording: Recording, speed: float, moments: Sequence[Moment] = ()) -> str:
+    """The run as base64 of deflated JSON; equal recordings give equal strings.
+
+    speed: the initial speed. moments: marked in red; the replay opens before the first of them.
+    """
+    data = {"version": VERSION, "run": run_key(recording), "speed": speed, "world": None}
     data |= {"stamps": [], "tracks": [], "scans": []}
+    marks = _marks(recording, moments)
+    end = replay_end(recording, moments)
+    if end < run_end(recording):
+        recording = recording.during(recording.begin, end + 1e-6)
+    if moments:
+        data["open"] = max(min(stamp for stamp, _ in moments) - LEAD, 0.0)
+    data["end"] = end
     if recording.world is not None:
         world = world_data(recording.world, recording.bodies)
         data |= {"world": world, **motion(recording), "scans": list(_scans(recording))}
     if recording.drawing is not None:
         data |= {"drawing": all_strokes(recording.drawing)}
-    data |= {"marks": _marks(recording), "logs": _logs(recording), "topics": _topics(recording)}
-    data["graph"] = graph_data(recording)
+    topics = _topics(recording)
+    data |= {"marks": marks, "logs": _logs(recording), "topics": topics, "graph": graph_data(recording)}
+    data |= {"strip": strip_of(recording), "messages": inspected(recording, [name for name, *_ in topics])}
     return deflated(data)
 
 
-def deflated(data: dict[str, Any]) -> str:
-    """Data as base64 of deflated JSON."""
-    deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False).encode()
-    return base64.b64encode(deflate.compress(text) + deflate.flush()).decode()
+def run_key(recording: Recording) -> str:
+    """The key of a run: all its pictures on a page have one time cursor."""
+    return recording.digest[:KEY]
 
 
-def inflated(text: str) -> dict[str, Any]:
-    """The inverse of `deflated`."""
-    return dict(json.loads(zlib.decompress(base64.b64decode(text), -15)))
+def replay_end(recording: Recording, moments: Sequence[Moment] = ()) -> float:
+    """When the replay ends (s): soon after the last thing that happens, or with the run."""
+    last = max([last_event(recording), *(stamp for stamp, _ in moments)])
+    end = run_end(recording)
+    return min(last + LEAD, end) if end - last > QUIET else end
 
 
 def run_end(recording: Recording) -> float:
@@ -114,13 +131,24 @@ def _range(value: float) -> int:
     return OUT_OF_RANGE if value == math.inf else NOT_MEASURED
 
 
-def _marks(recording: Recording) -> list[list[Any]]:
-    """The marks of the scrub bar: contacts, errors and the end."""
+def _marks(recording: Recording, moments: Sequence[Moment]) -> list[list[Any]]:
+    """The marks of the scrub bar: contacts, errors, what was missed, and the end."""
+    marks = event_marks(recording)
+    end = (run_end(recording), "end", f"the run ended. {recording.ended.detail}", None)
+    return mark_rows(marks, end, [(stamp, "missed", text, None) for stamp, text in moments])
+
+
+def event_marks(recording: Recording) -> list[Mark]:
+    """The robot's contacts, errors in callbacks, and pushes of a cart."""
     marks = contact_marks(recording)
     for error in recording.errors:
         marks.append((error.stamp, "error", f"{error.type} in {error.callback}{error.says}", None))
-    end = (run_end(recording), "end", f"the run ended. {recording.ended.detail}", None)
-    return mark_rows(marks, end)
+    machine = recording.world.machine if recording.world is not None else None
+    for push in getattr(machine, "pushes", ()):
+        if push.begin <= recording.stamp:
+            text = f"the cart is pushed with {push.force:g} N for {push.seconds:g} s"
+            marks.append((push.begin, "push", text, None))
+    return marks
 
 
 def contact_marks(recording: Recording) -> list[Mark]:
@@ -131,15 +159,20 @@ def contact_marks(recording: Recording) -> list[Mark]:
     ]
 
 
-def mark_rows(marks: Iterable[Mark], end: Mark) -> list[list[Any]]:
-    """The marks in order, limited in number, and the end."""
-    kept = [*thinned(sorted(marks, key=lambda mark: mark[0]), MARKS), end]
+def mark_rows(marks: Iterable[Mark], end: Mark, always: Iterable[Mark] = ()) -> list[list[Any]]:
+    """The marks in order, limited in number, and those that are always there, such as the end."""
+    kept = sorted([*thinned(sorted(marks, key=_stamp_of), MARKS), *always], key=_stamp_of)
+    kept.append(end)
     return _limited(
         [
             [round(stamp * 1000), kind, f"t = {stamp:.3g} s: {_short(text)}", _rounded(position)]
             for stamp, kind, text, position in kept
         ]
     )
+
+
+def _stamp_of(mark: Mark) -> float:
+    return mark[0]
 
 
 def _rounded(position: tuple[float, float] | None) -> list[float] | None:

@@ -13,6 +13,7 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from sim.evidence import Recording, rate, stamps
+from sim.view.field_labels import field_label, is_command, panel_unit
 from sim.view.plot import (
     CAUTION,
     GRID,
@@ -27,6 +28,7 @@ from sim.view.plot import (
     note_failure,
     plot,
 )
+from sim.view.plot_data import FEW, panel, plot_data, row, series
 from sim.view.units import unit_of
 
 LEVELS = {
@@ -36,6 +38,7 @@ LEVELS = {
     "ERROR": (WARNING, "x"),
     "FATAL": ("black", "*"),
 }
+_PALETTE = {SOLID: "muted", MUTED: "muted", CAUTION: "caution", WARNING: "warning", "black": "warning"}
 SILENCE = 5  # a gap of this many median intervals breaks a line
 
 
@@ -56,6 +59,8 @@ def plot_topics(recording: Recording, topics: Sequence[str] | None = None) -> Pl
     for height, (_, moments, colour) in enumerate(rows):
         axes.plot(moments, [height] * len(moments), "|", color=colour, markersize=16, markeredgewidth=1.5)
     _along_time(recording, axes, [label for label, _, _ in rows])
+    ticks = [row(label, moments, _PALETTE.get(colour, 0)) for label, moments, colour in rows]
+    figure.interactive = plot_data(recording, "Messages over time", rows=ticks)
     return note_failure(figure, recording)
 
 
@@ -89,9 +94,20 @@ def plot_logs(recording: Recording) -> Plot:
             look = {"color": colour, "markersize": size, "markeredgewidth": 2, "label": level}
             axes.plot(moments, rows, marker, **look)
     _along_time(recording, axes, names)
+    figure.interactive = plot_data(recording, "Log lines over time", rows=_log_rows(recording, names))
     if names:
         legend_beside(axes)
     return note_failure(figure, recording)
+
+
+def _log_rows(recording: Recording, names: Sequence[str]) -> list[dict[str, Any]]:
+    """A row of ticks for each logger and each of its levels."""
+    rows = []
+    for name, level in itertools.product(names, LEVELS):
+        moments = [line.stamp for line in recording.logs if (line.node, line.level) == (name, level)]
+        if moments:
+            rows.append(row(f"{name}, {level}", moments, _PALETTE.get(LEVELS[level][0], 0)))
+    return rows
 
 
 def _along_time(recording: Recording, axes: Axes, rows: Sequence[str]) -> None:
@@ -122,15 +138,24 @@ def plot_signal(recording: Recording, topic: str, *fields: str, unit: str | None
     messages = [item.message for item in received]
     figure, axes = plot(7.2, 3.2)
     fields = fields or ("data",)
+    command = is_command(topic, received[0].type)
+    panels: dict[str, list[dict[str, Any]]] = {}
     for field, style, marker in zip(fields, itertools.cycle(STYLES), itertools.cycle(MARKERS), strict=False):
         values = [_number(message, field, topic) for message in messages]
-        look = {"linestyle": style, "marker": marker, "linewidth": 1.2, "markersize": 4}
-        axes.plot(*_broken(stamps(received), values), **look, label=field)
+        look = {"linestyle": style, "marker": marker if len(values) <= FEW else "", "linewidth": 1.2}
+        look |= {"markersize": 4, "drawstyle": "steps-post" if command else "default"}
+        times, drawn = _broken(stamps(received), values)
+        label = field_label(messages[0], field)
+        axes.plot(times, drawn, **look, label=label)
+        curve = series(label, times, drawn, style="step" if command else "line")
+        panels.setdefault(panel_unit(messages[0], field) if unit is None else unit, []).append(curve)
     if unit is None:
         unit = ", ".join(dict.fromkeys(filter(None, (unit_of(messages[0], field) for field in fields))))
     axes.set(xlabel="time (s)", ylabel=unit, title=topic, xlim=(0.0, _end(recording)))
     axes.grid(color=GRID)
     axes.legend(framealpha=0.9, edgecolor="none")  # legible even on top of a line
+    shown = [panel(name, curves) for name, curves in panels.items()]
+    figure.interactive = plot_data(recording, topic, panels=shown)
     return note_failure(figure, recording)
 
 

@@ -57,6 +57,14 @@ def watch(page: Page) -> list[str]:
     return requests
 
 
+def point_at(plot: Locator, share: float) -> None:
+    """Move the pointer over this share of the time that a plot shows, in its first panel."""
+    over = plot.locator(".u-over").first
+    over.scroll_into_view_if_needed()
+    size = over.bounding_box()
+    over.hover(position={"x": share * size["width"], "y": size["height"] / 2})
+
+
 class Picture:
     """A live picture or a replay. The locator finds its root, a `.ros2-view`."""
 
@@ -68,6 +76,11 @@ class Picture:
     def time(self) -> float:
         """Return the simulated time that shows, in seconds."""
         return float(self.root.locator(".time b").inner_text())
+
+    def value(self, label: str) -> str:
+        """Return the value of this label in the strip."""
+        term = self.page.locator(f"dt:text-is('{label}')")
+        return self.root.locator(".numbers div", has=term).locator("dd").inner_text()
 
     def click(self, label: str) -> None:
         """Click the button of this label."""

@@ -8,9 +8,10 @@ import pytest
 
 from grader.__main__ import main
 from grader.marking.release.demo import mark_samples
+from sim.view.interactive import plot_script
 from sim.view.replay import PLAYER_SCRIPT
 from tests.browser.lab import ROOT, server
-from tests.browser.pictures import Picture, watch
+from tests.browser.pictures import Picture, point_at, watch
 from tests.marking.hostile import corpus
 from tests.marking.tiny import answer, course, grade
 
@@ -37,15 +38,20 @@ class TooShort(Node):
         self.publisher.publish(twist)
 """
 TEST = """
-from grader import Exercise, check
+from grader import Exercise, Missed, check
 from grader.checks import arrives
 
-@check(points=2)
+@check(points=1)
 def comes(recording):
     "The robot comes to its goal."
     arrives(recording, (1.5, 1.0))
 
-Exercise("drive", "Drive", checks=[comes], world="room", seconds=4).grade(TooShort)
+@check(points=1)
+def stands(recording):
+    "It stands still."
+    raise Missed("0 m/s", "it moved at 1.75 s", picture="topics")
+
+Exercise("drive", "Drive", checks=[comes, stands], world="room", seconds=4).grade(TooShort)
 """
 
 
@@ -78,9 +84,23 @@ def check_page(page, address: str, name: str) -> None:
     assert [url for url in requests if "collector" in url] == []
     shown = page.locator("#notebook-container")
     assert shown.locator("[onclick], [onerror], [onload], iframe:not(.isolated-iframe)").count() == 0
-    assert set(shown.locator("script").all_text_contents()) == {PLAYER_SCRIPT}
+    assert PLAYER_SCRIPT in shown.locator("script").all_text_contents()
+    assert set(shown.locator("script").all_text_contents()) <= {PLAYER_SCRIPT, plot_script()}
     assert shown.locator(".navbar-fixed-top, .modal-backdrop").count() == 0
     assert shown.get_by_text("forged").count() >= 2  # what can't be played shows what was there before
+
+
+def check_time_link(page) -> None:
+    """The replay opens a second before the moment that a check names; the link moves it there."""
+    replay = Picture(page.locator(".ros2-view:has(canvas)").first)
+    replay.root.wait_for()
+    assert replay.time() == 0.75
+    mark = replay.root.locator(".marks .missed")
+    assert mark.get_attribute("aria-label") == "t = 1.75 s: It stands still. it moved at 1.75 s"
+    page.get_by_role("link", name="1.75 s").click()
+    assert (replay.time(), replay.value("v")) == (1.75, "0.30 m/s")
+    point_at(page.locator(".ros2-time-plot"), 0.5)
+    assert replay.time() == pytest.approx(2.0, abs=0.02)
 
 
 def test_a_feedback_page_plays_the_replay_and_nothing_of_the_submission(browser, submission):
@@ -88,6 +108,8 @@ def test_a_feedback_page_plays_the_replay_and_nothing_of_the_submission(browser,
     assert marked.points["test_drive"] == (0, 2)
     page = browser.new_page(viewport={"width": 1100, "height": 900})
     check_page(page, marked.feedback.as_uri(), "feedback")
+    page.reload()
+    check_time_link(page)
     page.close()
 
 

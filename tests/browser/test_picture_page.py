@@ -2,6 +2,7 @@
 
 import base64
 import copy
+import dataclasses
 import json
 import re
 import zlib
@@ -12,12 +13,15 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 
 from sim import run
-from sim.view import replay, replay_data
+from sim.evidence import Pose
+from sim.view import plot_signal, replay, replay_data
+from sim.view.interactive import plot_script
 from tests.browser.pictures import COLOURS, Picture, watch
 from tests.sim.graphs import node
 from tests.students import misfits
 from tests.students.engine.pond import script
 
+TRAIL = "2274c4"  # the colour of a robot's path on a light page
 pytestmark = pytest.mark.browser
 PAGE = '<!doctype html><meta charset="utf-8"><meta name="color-scheme" content="light dark"><body>'
 
@@ -169,12 +173,68 @@ def test_the_picture_is_as_wide_as_its_place_and_sharp(browser, rammed, tmp_path
 
 
 def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_path):
+    load(page, replay(rammed).html + replay(rammed.during(0, 9.0)).html, tmp_path)
+    page.wait_for_function("document.querySelectorAll('.ros2-view').length === 2")
+    first, second = (Picture(page.locator(".ros2-view").nth(index)) for index in (0, 1))
+    end = second.time()
+    first.scrub(0.5)
+    assert first.time() < end == second.time()
+
+
+def test_two_replays_of_one_run_have_one_cursor(page, rammed, tmp_path):
     html = replay(rammed).html
     load(page, html + html, tmp_path)
     page.wait_for_function("document.querySelectorAll('.ros2-view').length === 2")
     first, second = (Picture(page.locator(".ros2-view").nth(index)) for index in (0, 1))
     first.scrub(0.5)
-    assert first.time() < second.time()
+    assert first.time() == second.time() == pytest.approx(rammed.stamp / 2, abs=0.1)
+    second.click("Play")
+    first.wait_for_time(second.time())
+
+
+def test_a_plot_zooms_in_all_its_panels_and_moves_its_cursor_by_keys(page, rammed, tmp_path):
+    load(page, plot_signal(rammed, "/odom", "pose.pose.position.x", "twist.twist.linear.x").html, tmp_path)
+    plot = page.locator(".ros2-time-plot")
+    over = plot.locator(".u-over").first
+    over.wait_for()
+    assert plot.locator(".uplot").count() == 2
+    size = over.bounding_box()
+    middle = size["y"] + size["height"] / 2
+    page.mouse.move(size["x"] + 0.2 * size["width"], middle)
+    page.mouse.down()
+    page.mouse.move(size["x"] + 0.4 * size["width"], middle, steps=3)
+    page.mouse.up()
+    moments = []
+    for panel in plot.locator(".u-over").all():
+        width = panel.bounding_box()["width"]
+        panel.hover(position={"x": 0.5 * width, "y": 20})
+        moments.append(said(Picture(plot)))
+    assert moments == ["t = 3.03 s"] * 2
+    plot.press("ArrowRight")
+    assert said(Picture(plot)) == "t = 3.05 s"
+    over.dblclick(position={"x": 0.5 * size["width"], "y": 20})
+    over.hover(position={"x": 0.9 * size["width"], "y": 20})
+    assert said(Picture(plot)).startswith("t = 9.09 s. t = 9.1 s: RuntimeError in Rammer.drive")
+    assert page.faults == []
+
+
+@pytest.mark.parametrize("data", ["", "AAAA", "no base64!"])
+def test_a_plot_with_wrong_data_stays_a_picture(page, tmp_path, data):
+    html = f'<div class="ros2-plot" data-plot="{data}"><img src="data:," alt="still"></div>'
+    load(page, f"{html}<script>{plot_script()}</script>", tmp_path)
+    page.wait_for_selector("[data-wired]")
+    page.wait_for_function("document.querySelector('.ros2-plot img') !== null")
+    assert page.locator(".ros2-time-plot").count() == 0
+
+
+def test_the_arm_s_tip_draws_its_path(page, tmp_path):
+    arm = run(world="arm", seconds=1, quiet=True)
+    turning = [Pose(n / 20, 0.0, 0.0, n / 20) for n in range(21)]
+    moved = dataclasses.replace(arm, tracks={"upper_arm": turning, "forearm": turning})
+    picture = opened(page, moved, tmp_path)
+    assert TRAIL in picture.canvas.evaluate(COLOURS)
+    picture.scrub(0.0)
+    assert TRAIL not in picture.canvas.evaluate(COLOURS)
 
 
 def test_the_graph_is_folded_and_opens_by_the_keyboard(page, tmp_path):

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tests.browser.lab import write_notebook
-from tests.browser.pictures import Picture, watch
+from tests.browser.pictures import Picture, point_at, watch
 
 pytestmark = pytest.mark.browser
 CELLS = (
@@ -28,7 +28,16 @@ class Circle(Node):
 """,
     """
 from sim import run
-run(Circle, world="room", seconds=20, quiet=True).replay()
+recording = run(Circle, world="room", seconds=20, quiet=True)
+recording.replay()
+""",
+    """
+from sim.view import plot_signal
+plot_signal(recording, "/cmd_vel", "linear.x", "angular.z")
+""",
+    """
+from IPython.display import HTML
+HTML(f'It turned at <a href="#run-{recording.digest[:12]}-3.5">3.5 s</a>.')
 """,
 )
 
@@ -44,11 +53,29 @@ def saved(browser, students_folder, address, open_lab):
     return path
 
 
+def check_time_link(picture: Picture) -> None:
+    """A time in the text of the page moves the replay there, with the values and messages of that moment."""
+    picture.page.get_by_role("link", name="3.5 s").click()
+    assert picture.time() == 3.5
+    picture.root.get_by_role("button", name="/odom").click()
+    assert picture.root.locator(".looked pre").inner_text().startswith("# at 3.")
+    assert picture.value("v") == "0.40 m/s"
+    assert picture.page.locator("a[aria-current='time']").count() == 1
+    plot = picture.page.locator(".ros2-time-plot")
+    assert plot.locator(".say").inner_text() == "t = 3.50 s"
+    point_at(plot, 0.25)
+    assert picture.time() == pytest.approx(5.0, abs=0.05)
+    picture.scrub(0.5)
+    assert plot.locator(".say").inner_text() == f"t = {picture.time():.2f} s"
+    assert plot.locator(".u-value").last.inner_text() == "0.5 rad/s"
+
+
 def test_a_saved_replay_plays_in_lab_without_running_anything(saved, open_lab):
     with open_lab("pictures/replay.ipynb") as lab:
         lab.page.wait_for_selector(".ros2-view canvas")
-        picture = Picture(lab.page.locator(".ros2-view"))
+        picture = Picture(lab.page.locator(".ros2-view:has(.scrub)"))
         picture.plays()
+        check_time_link(picture)
         picture.screenshot("replay-lab")
 
 
@@ -71,8 +98,9 @@ def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
     page = context.new_page()
     requests = watch(page)
     page.goto((tmp_path / "replay.html").as_uri())
-    picture = Picture(page.locator(".ros2-view"))
+    picture = Picture(page.locator(".ros2-view:has(.scrub)"))
     picture.plays()
+    check_time_link(picture)
     picture.screenshot("replay-exported")
     assert all(url.startswith(("file:", "data:", "https://cdnjs.cloudflare.com/")) for url in requests)
     context.close()
@@ -80,7 +108,7 @@ def test_an_exported_page_plays_without_internet(saved, browser, tmp_path):
 
 def test_a_replay_fits_a_narrow_dark_window(saved, open_lab):
     with open_lab("pictures/replay.ipynb") as lab, lab.narrow_and_dark():
-        picture = Picture(lab.page.locator(".ros2-view"))
+        picture = Picture(lab.page.locator(".ros2-view:has(.scrub)"))
         picture.plays()
         box = picture.root.bounding_box()
         assert box["x"] + box["width"] <= 480

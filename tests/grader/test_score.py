@@ -14,6 +14,7 @@ from grader import Score
 from grader.checks import Verdict
 from grader.marking.gradebook.safe_html import clean
 from grader.page import STATUS_STYLES, format_points
+from grader.pictures import missed_moments
 from sim import Recording, World, run
 from sim.evidence import Endpoint
 from sim.view import plot_topics
@@ -336,3 +337,26 @@ def test_a_graph_that_cannot_be_drawn_costs_nothing():
     recording.graph.nodes.append(None)
     score = Score("talk", [verdict(2.0, "failed", **NEWS)], [recording])
     assert "<details>" not in score._repr_html_() and "messages on /newz" in score._repr_html_()
+
+
+def test_a_moment_of_a_missed_check_is_a_link_where_its_run_has_a_replay():
+    recording = driven([(0, 0), (1, 0), (2, 0), (3, 0)])
+    verdicts = [
+        Verdict("a", "It stands.", 1.0, "failed", 0.0, "0 m/s from 1 s", "it moved at 2.5 s", "Look.", "path"),
+        Verdict("b", "It is quiet.", 1.0, "failed", 0.0, "nothing at 1.5 s", "a message"),
+        Verdict("c", "It turns.", 1.0, "failed", 0.0, "", "it turned at 2.5 s"),
+        Verdict("d", "It comes.", 1.0, "passed", 1.0),
+    ]
+    score = Score("drive", verdicts, [recording])
+    html = score._repr_html_()
+    key = recording.digest[:12]
+    assert f'it moved at <a href="#run-{key}-2.5">2.5 s</a>' in html
+    assert f'0 m/s from <a href="#run-{key}-1">1 s</a>' in html
+    assert missed_moments(verdicts, 0) == [(1.5, "It is quiet. a message"), (2.5, "It stands. it moved at 2.5 s")]
+    ((_, picture),) = score.pictures
+    assert picture.html == recording.replay(moments=missed_moments(verdicts, 0)).html
+
+
+def test_a_moment_of_a_run_without_a_replay_is_plain_text():
+    verdict = Verdict("a", "It stands.", 1.0, "failed", 0.0, "", "it moved at 2.5 s")
+    assert "<a " not in Score("drive", [verdict], [driven([(0, 0), (1, 0)])])._repr_html_()

@@ -3,8 +3,8 @@
 nbconvert's own filter drops the tables, pictures and folded hints that scores and tasks consist of, and
 nbgrader's pages show Markdown unfiltered: a submission's script would run with the instructor's rights.
 
-A replay is data in a `div` and a script that plays it. The data is allowed from any source, because the
-player only draws its numbers; every script is dropped, and the course's own player is added.
+A replay or a plot is data in a `div` and a script that draws it. The data is allowed from any source, because
+the script only draws its numbers; every script is dropped, and the course's own one is added.
 """
 
 import re
@@ -26,7 +26,7 @@ TAGS = {*WORDS.split(), *TEXT.split(), *TABLE.split(), *FIGURE.split()}
 ATTRIBUTES = {
     "*": {"class", "style", "title"},
     "a": {"href"},
-    "div": {"data-replay"},
+    "div": {"data-replay", "data-plot"},
     "img": {"alt", "width", "height", "src"},
     "td": {"colspan", "rowspan", "align"},
     "th": {"colspan", "rowspan", "align", "scope"},
@@ -50,7 +50,7 @@ LENGTH = r"(\d*\.?\d+(px|em|ex|rem|ch|pt|%)?|auto)"  # with a minus, it would co
 MARGIN = re.compile(rf"\s*{LENGTH}(\s+{LENGTH}){{0,3}}\s*")
 
 # Of replays, tables and highlighted code. The pages' own style sheet has others that cover the page.
-CLASSES = re.compile(r"ros2-replay|dataframe|highlight|anchor-link|[a-z]{1,2}\d?|hll|err|esc")
+CLASSES = re.compile(r"ros2-replay|ros2-plot|dataframe|highlight|anchor-link|[a-z]{1,2}\d?|hll|err|esc")
 REPLAY = re.compile(r"[A-Za-z0-9+/]{1,400000}={0,2}")  # its data: base64, so many characters at most
 PICTURE = {"width": int, "height": int, "alt": str}  # pixels, words
 RUNS = {"application/javascript", "application/vnd.jupyter.widget-view+json", "text/vnd.mermaid"}
@@ -66,13 +66,17 @@ def clean(html: object) -> str:
 
 
 def clean_output(html: object) -> str:
-    """The same for a cell's output; the course's own player is added if it has a replay."""
+    """The same for a cell's output; the course's own scripts are added if it has a replay or a plot."""
     safe = clean(html)
-    if "data-replay=" not in safe:
-        return safe
-    from sim.view.replay import PLAYER_SCRIPT
+    if "data-replay=" in safe:
+        from sim.view.replay import PLAYER_SCRIPT
 
-    return f"{safe}<script>{PLAYER_SCRIPT}</script>"
+        safe += f"<script>{PLAYER_SCRIPT}</script>"
+    if "data-plot=" in safe:
+        from sim.view.interactive import plot_script
+
+        safe += f"<script>{plot_script()}</script>"
+    return safe
 
 
 class Attachments(dict[str, Any]):
@@ -115,6 +119,7 @@ def _kept(tag: str, name: str, value: str) -> str | None:
     holds = {
         "class": lambda: all(CLASSES.fullmatch(word) for word in value.split()),
         "data-replay": lambda: REPLAY.fullmatch(value),
+        "data-plot": lambda: REPLAY.fullmatch(value),
         "href": lambda: LINK.fullmatch(value),
         "src": lambda: INSIDE.fullmatch(value),
     }

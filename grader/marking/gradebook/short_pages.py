@@ -42,7 +42,7 @@ def _cost(output: Any) -> int:
     data = output.get("data", {})
     markup = [data[kind] for kind in ("text/html", "text/markdown") if kind in data]
     texts = [data.get("text/plain", ""), output.get("text", ""), *output.get("traceback", ())]
-    replays = sum("data-replay" in text for text in markup)
+    replays = sum("data-replay" in text or "data-plot" in text for text in markup)
     return OUTPUT + REPLAY * replays + MARKUP * sum(map(_length, markup)) + sum(map(len, texts))
 
 

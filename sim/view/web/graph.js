@@ -21,6 +21,7 @@ class Graph {
     this.root.addEventListener("toggle", () => { if (this.root.open) { this.tint(); onOpen(); } });
     this.root.addEventListener("toggle", () => onTheme(this.root, () => this.tint()), { once: true });
     this.rates = new Map(); // topic name -> text element of its rate
+    this.topics = new Map(); // topic name -> its box
     this.head();
   }
 
@@ -46,6 +47,7 @@ class Graph {
     const { width, height, boxes, arrows, reasons, more, words } = checkGraph(data);
     this.root.hidden = false;
     this.rates.clear();
+    this.topics.clear();
     const look = `width:100%;min-width:${Math.round(Math.min(width, Math.max(300, 0.75 * width)))}px;max-width:${width}px`;
     this.place.replaceChildren(makeSvg("svg", {
       viewBox: `0 0 ${width} ${height}`, style: look, role: "img", "aria-label": words,
@@ -76,7 +78,14 @@ class Graph {
     const middle = x + width / 2, first = y + height / 2 - LINE * (lines.length - 1) / 2 + 4;
     const rows = lines.map((line, index) => makeSvg("text", { x: middle, y: first + index * LINE, class: index ? "much" : "" }, line));
     if (kind === "topic" && !lines[1]) this.rates.set(name, rows[1]);
-    return makeSvg("g", { class: kind }, makeSvg("rect", { x, y, width, height, rx: round }), ...rows);
+    const element = makeSvg("g", { class: kind }, makeSvg("rect", { x, y, width, height, rx: round }), ...rows);
+    if (kind === "topic") this.topics.set(name, element);
+    return element;
+  }
+
+  /** Mark the box of a topic that has messages at the cursor. */
+  setActive(name, active) {
+    this.topics.get(name)?.classList.toggle("now", active);
   }
 
   /** Write the rate of a topic into its box. */

@@ -199,7 +199,9 @@ class View {
       this.picture.include(body, poses[index]);
       if (body.kind === "robot") this.extend(this.trails[index] ||= [], poses[index]);
     });
-    this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails };
+    const tip = tipPath(this.world, poses.slice(-1));
+    if (tip) this.extend(this.tip ??= [], tip[0]);
+    this.picture.frame = { ...this.picture.frame, poses, scan, trails: this.trails, tip: this.tip };
     this.picture.requestPaint();
   }
 

@@ -1,80 +1,27 @@
 // Turns every inert div with a recording (../replay_data.py) into a player. The data is untrusted: it is validated, text
 // is only inserted as text nodes, and on any error the div keeps its PNG.
 
-const MAX_CHARACTERS = 4e6, MAX_BYTES = 16e6; // of compressed and decompressed data
-const STRIP = 240; // columns of a topic's timeline
 const PERSISTENCE = 0.06; // s for which a body is shown after its last pose
 const LINES = 6; // visible log lines
-const KINDS = ["contact", "error", "end", "DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
-
-async function unpack(packed) {
-  if (packed.length > MAX_CHARACTERS) refuse("less data");
-  const bytes = Uint8Array.from(atob(packed), (character) => character.charCodeAt(0));
-  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
-  const decoder = new TextDecoder();
-  let json = "";
-  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
-    json += decoder.decode(piece.value, { stream: true });
-    if (json.length > MAX_BYTES) { await reader.cancel(); refuse("less data"); }
-  }
-  return JSON.parse(json);
-}
-
-/** Decodes whole numbers stored as differences, the first one from 0; `unit` is the value of 1. */
-function cumulated(differences, unit) {
-  let sum = 0;
-  return list(differences, 1e5, (step) => number(sum += number(step, 1e9), 1e9) * unit);
-}
-
-function checkRun(run) {
-  if (run.version !== 1) refuse("version 1");
-  const world = run.world === null ? null : checkWorld(run.world);
-  const stamps = cumulated(run.stamps, 1e-3);
-  const ordered = (all) => all.every((stamp, i) => stamp >= (i ? all[i - 1] : 0)) ? all : refuse("rising stamps");
-  const track = (columns) => {
-    const [x, y, yaw] = columns.map((column) => cumulated(column, 1e-3));
-    if ([x, y, yaw].some((column) => column.length !== stamps.length)) refuse("a pose for each stamp");
-    return stamps.map((_, i) => [x[i], y[i], yaw[i]]);
-  };
-  const tracks = list(run.tracks, 500, track);
-  if (tracks.length !== (world ? world.bodies.length : 0)) refuse("a track for each body");
-  const times = (pair) => numbers(2)(pair.map((stamp) => number(stamp, 1e9) * 1e-3));
-  const presence = run.there && list(run.there, 500, (intervals) => list(intervals, 10000, times));
-  if (presence && presence.length !== tracks.length) refuse("when each body was there");
-  const event = ([stamp, kind, words, place]) => ({
-    stamp: number(stamp, 1e9) * 1e-3, kind: KINDS.includes(kind) ? kind : refuse("a kind of event"), words: text(words),
-    place: place === null ? null : numbers(2)(place),
-  });
-  return {
-    graph: run.graph ? checkGraph(run.graph) : null, // older pages have none
-    world, stamps: ordered(stamps), tracks, presence, drawing: run.drawing && checkDrawing(run.drawing), end: size(run.end) || 0.001, speed: size(run.speed),
-    scans: list(run.scans, 20000, (scan) => ({
-      stamp: number(scan.stamp, 1e9) * 1e-3, pose: numbers(3)(scan.pose), start: number(scan.start),
-      step: number(scan.step), far: number(scan.far),
-      // -1: out of range, -2: no measurement
-      ranges: cumulated(scan.ranges, 1).map((range) => (range >= 0 ? range * 0.02 : range === -1 ? Infinity : NaN)),
-    })),
-    marks: list(run.marks, 1000, event),
-    logs: list(run.logs, 1000, event),
-    topics: list(run.topics, 100, ([name, traffic, strip]) => ({
-      name: text(name), traffic: text(traffic), strip: text(strip, STRIP),
-    })),
-  };
-}
 
 class Player {
   constructor(run) {
     this.run = run;
     this.speed = run.speed;
-    this.time = run.end;
+    this.time = run.open;
     this.playing = false;
+    this.topic = new Topic();
+    this.selected = null; // the topic that is looked into
     this.root = make("div", { className: "ros2-view" });
     this.root.dataset.lmSuppressShortcuts = "true";
     this.stage = make("div", { className: "stage" });
     this.side = make("div", { className: "side" });
     const row = make("div", { className: "row" }, ...(run.world ? [this.stage] : []), this.side);
     this.graph = new Graph();
-    this.root.append(make("style", {}, STYLE), row, this.controls(), this.graph.root);
+    this.numbers = make("dl", { className: "numbers", hidden: !run.strip?.labels.length });
+    this.values = (run.strip?.labels ?? []).map((label) => make("dd"));
+    this.values.forEach((value, index) => this.numbers.append(make("div", {}, make("dt", {}, run.strip.labels[index]), value)));
+    this.root.append(make("style", {}, STYLE), row, this.controls(), this.numbers, this.graph.root);
     this.strips = this.timeline();
     this.lines = make("div", { className: "logs" });
     if (run.logs.length) this.side.append(make("div", {}, make("div", { className: "head" }, "LOG"), this.lines));
@@ -86,12 +33,18 @@ class Player {
     const { world, tracks } = this.run;
     if (world) {
       this.picture = new WorldCanvas(this.stage, world);
+      this.tip = tipPath(world, tracks.at(-1) ?? []);
       tracks.forEach((track, index) => track.forEach((pose) => this.picture.include(world.bodies[index], pose)));
     }
     if (this.run.graph) this.graph.show(this.run.graph);
     this.paintStrips();
     onTheme(this.root, () => this.paintStrips());
     this.show();
+    followCursor(this.root, this.run.key, (time, show) => {
+      this.goTo(time);
+      if (show) this.root.scrollIntoView({ block: "nearest" });
+    });
+    followTimeLinks();
   }
 
   controls() {
@@ -122,14 +75,30 @@ class Player {
 
   timeline() {
     if (!this.run.topics.length) return [];
-    const rows = this.run.topics.map(({ name, traffic, strip }) => {
+    const rows = this.run.topics.map((topic) => {
+      const { name, traffic, strip } = topic;
       const canvas = make("canvas", { width: STRIP, height: 1 }), cursor = make("i");
-      const row = make("div", { className: "topic", title: name }, make("span", {}, name),
-        make("span", { className: "rate" }, traffic), make("div", { className: "strip" }, canvas, cursor));
-      return { row, canvas, cursor, strip };
+      const parts = [make("span", {}, name), make("span", { className: "rate" }, traffic), make("div", { className: "strip" }, canvas, cursor)];
+      const row = topic.messages
+        ? make("button", { type: "button", className: "topic", title: topic.messages.type, "aria-expanded": "false" }, ...parts)
+        : make("div", { className: "topic", title: name }, ...parts);
+      if (topic.messages) row.addEventListener("click", () => this.select(topic, row));
+      return { row, canvas, cursor, strip, name };
     });
-    this.side.append(make("div", {}, make("div", { className: "head" }, "TOPICS"), ...rows.map(({ row }) => row)));
+    this.side.append(make("div", {}, make("div", { className: "head" }, this.run.topics.some(({ messages }) => messages) ? "TOPICS: CLICK ONE TO LOOK INTO IT" : "TOPICS"), ...rows.map(({ row }) => row)));
     return rows;
+  }
+
+  /** Show the messages of this topic next to its row, or hide them again. */
+  select(topic, row) {
+    this.selected = this.selected === topic ? null : topic;
+    for (const strip of this.strips) strip.row.setAttribute("aria-expanded", String(Boolean(this.selected) && strip.row === row));
+    if (this.selected) row.after(this.topic.root);
+    this.showTopic();
+  }
+
+  showTopic() {
+    this.topic.show(this.selected && topicAt(this.selected, this.time));
   }
 
   paintStrips() {
@@ -153,16 +122,22 @@ class Player {
       this.time = Math.min(this.time + Math.max(now - last, 0) / 1000 * this.speed, this.run.end);
       last = now;
       this.show();
+      this.announce();
       if (this.time >= this.run.end) this.play(false);
       else this.frame = requestAnimationFrame(tick);
     };
     this.frame = requestAnimationFrame(tick);
   }
 
-  seek(time) {
+  goTo(time) {
     this.play(false);
     this.time = Math.min(Math.max(time, 0), this.run.end);
     this.show();
+  }
+
+  seek(time) {
+    this.goTo(time);
+    this.announce();
   }
 
   /** Seek to the next or previous pose, or by 0.05 s if nothing moves. */
@@ -181,17 +156,39 @@ class Player {
     const mark = run.marks[before(run.marks, time, stampOf)];
     const words = mark ? mark.words : "";
     if (this.statusLine.textContent !== words) this.statusLine.textContent = words;
-    for (const { cursor } of this.strips) cursor.style.left = `${100 * time / run.end}%`;
+    const column = Math.min(Math.floor(time / run.end * STRIP), STRIP - 1);
+    for (const { cursor, strip, name } of this.strips) {
+      cursor.style.left = `${100 * time / run.end}%`;
+      this.graph.setActive(name, strip[column] === "1");
+    }
     this.showLogs(before(run.logs, time, stampOf));
+    this.showNumbers();
+    if (this.selected) this.showTopic();
     if (this.picture) this.showWorld();
+  }
+
+  /** Let all pictures of the run show this moment. */
+  announce() {
+    moveCursor(this.run.key, this.time, this.root);
+  }
+
+  /** The values at the cursor; before the first ones, the first. */
+  showNumbers() {
+    const { strip } = this.run;
+    if (!strip?.labels.length) return;
+    const at = Math.max(before(strip.stamps, this.time), 0);
+    this.values.forEach((value, index) => { value.textContent = strip.columns[index][at] || "-"; });
   }
 
   showLogs(last) {
     if (last === this.lastLog) return;
     this.lastLog = last;
     const lines = this.run.logs.slice(Math.max(last + 1 - LINES, 0), last + 1);
-    this.lines.replaceChildren(...lines.map(({ stamp, kind, words }) =>
-      make("div", { className: kind }, `${stamp.toFixed(2)} ${words}`)));
+    this.lines.replaceChildren(...lines.map(({ stamp, kind, words }) => {
+      const at = make("button", { type: "button", className: "at", title: "Move the replay here" }, stamp.toFixed(2));
+      at.addEventListener("click", () => this.seek(stamp));
+      return make("div", { className: kind }, at, ` ${words}`);
+    }));
   }
 
   showWorld() {
@@ -204,6 +201,7 @@ class Player {
     this.picture.frame = {
       poses, scan: scan || null,
       trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
+      tip: this.tip && [...this.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: this.tip,
       drawn: run.drawing && visibleAt(run.drawing, time),
       contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
     };

@@ -1,4 +1,4 @@
-// The details of the selected topic: its type, its newest message, and a small plot of its numbers.
+// The details of the selected topic: its type, its message at the cursor or the newest one, and a small plot of its numbers.
 
 const DASHES = [[], [5, 3]]; // curves differ in more than colour
 
@@ -25,10 +25,11 @@ class Topic {
       name: text(curve.name), along: text(curve.along), points: list(curve.points, 1000, numbers(2)),
     })).filter(({ points }) => points.length > 1);
     this.canvas.hidden = this.caption.hidden = !curves.length;
-    if (curves.length) this.plot(curves);
+    if (curves.length) this.plot(curves, topic.cursor);
   }
 
-  plot(curves) {
+  /** Plot curves; `cursor`, if given, is the time (s) to mark. */
+  plot(curves, cursor) {
     const points = curves.flatMap((curve) => curve.points);
     const ends = (axis) => [Math.min(...points.map((p) => p[axis])), Math.max(...points.map((p) => p[axis]))];
     const [left, right] = ends(0), [low, high] = ends(1);
@@ -44,6 +45,11 @@ class Topic {
     const c = this.canvas.getContext("2d");
     const look = colours(this.canvas);
     c.scale(sharp, sharp);
+    if (cursor !== undefined) {
+      const at = edge + (width - 2 * edge) * Math.min(Math.max((cursor - left) / (right - left || 1), 0), 1);
+      c.fillStyle = look.hit;
+      c.fillRect(at - 1, 0, 2, height);
+    }
     curves.forEach((curve, i) => {
       c.beginPath();
       for (const [x, y] of curve.points) {

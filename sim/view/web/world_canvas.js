@@ -6,12 +6,25 @@ const LEAST_HEIGHT = 140, TOPICS = 40; // px; in a panel, at least of the pictur
 const LEAST_SHARE = 0.45; // of a panel's height, at least for the picture
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
 
+/** The distance of a machine's far end from the pose of its last link; null unless it is made of links. */
+function tipReach(world) {
+  if (!world?.bodies.length || world.bodies.some(({ kind }) => kind !== "link")) return null;
+  const along = world.bodies.at(-1).outline.map(([u]) => u);
+  return Math.min(...along) + Math.max(...along); // a link reaches as far behind its joint as beyond the tip
+}
+
+/** Where the far end of a machine's last link is at these poses of that link; null unless it is made of links. */
+function tipPath(world, poses) {
+  const reach = tipReach(world);
+  return reach === null ? null : poses.map(([x, y, yaw]) => [x + reach * Math.cos(yaw), y + reach * Math.sin(yaw)]);
+}
+
 /**
  * A canvas that shows the world and adapts to the size of its stage.
  *
  * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
  * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
- * from ./drawing.js. There may be more turtles than at the start.
+ * from ./drawing.js; of an arm tip and tipAhead, the paths of its far end. There may be more turtles than at the start.
  */
 class WorldCanvas {
   constructor(stage, world) {
@@ -265,6 +278,8 @@ class WorldCanvas {
   }
 
   paths() {
+    if (this.frame.tipAhead) this.line(this.frame.tipAhead, this.look.ahead, 2);
+    if (this.frame.tip) this.line(this.frame.tip, this.look.robots[0], 2.25);
     this.world.bodies.forEach((body, index) => {
       if (body.kind === "ghost" && this.frame.trails[index]) this.line(this.frame.trails[index], this.look.ghost, 2);
       if (body.kind !== "robot") return;

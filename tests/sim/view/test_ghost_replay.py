@@ -6,7 +6,7 @@ import pytest
 
 from sim import Recording, run
 from sim.view.ghost_replay import pack_motion, player, with_ghost
-from sim.view.replay_data import inflated
+from sim.view.packing import inflated
 from tests.students.engine.drivers import Circler, Driver
 
 

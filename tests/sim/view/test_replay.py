@@ -15,7 +15,7 @@ from sim import Recording, World, run
 from sim.evidence import CallbackError, Ended, LogLine, Message, Pose
 from sim.ros.messages.codec import encode
 from sim.view import plot_graph, replay, replay_data
-from sim.view.replay import PLAYER_SCRIPT
+from sim.view.replay import PLAYER_SCRIPT, PLAYER_SOURCE
 from sim.world import Contact
 from tests.bench.avoider import Avoider
 from tests.grader.recordings import driven, recording
@@ -69,9 +69,11 @@ def test_a_replay_is_inert_data_with_a_picture_and_a_constant_script(drive):
 
 
 def test_a_page_needs_nothing_from_elsewhere():
-    assert re.findall(r"https?://[^\s\"']*|import\s|fetch\(|innerHTML|eval\(", PLAYER_SCRIPT) == [
+    assert re.findall(r"https?://[^\s\"']*|import\s|fetch\(|innerHTML|eval\(", PLAYER_SOURCE) == [
         "http://www.w3.org/2000/svg"  # a name, no address: nothing is loaded
-    ] * PLAYER_SCRIPT.count("http://www.w3.org/2000/svg")
+    ] * PLAYER_SOURCE.count("http://www.w3.org/2000/svg")
+    (data,) = re.findall(r'atob\("([^"]*)"\)', PLAYER_SCRIPT)
+    assert PLAYER_SOURCE in zlib.decompress(base64.b64decode(data), -15).decode()
 
 
 def test_twenty_seconds_with_a_lidar_are_less_than_100_kib(drive):

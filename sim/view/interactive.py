@@ -1,0 +1,41 @@
+"""The HTML of plots over time, which are interactive where scripts run, and a still picture elsewhere."""
+
+from __future__ import annotations
+
+import base64
+import functools
+import html
+import json
+from importlib.metadata import distribution
+from typing import Any
+
+from sim.view.javascript import packed, script
+from sim.view.packing import deflated
+
+_UPLOT = "youplot"  # the package that brings uPlot; its Python code is not used
+
+
+@functools.cache
+def plot_script() -> str:
+    """Turns every plot of the page into an interactive one. It contains no data."""
+    return packed(plot_source())
+
+
+def plot_source() -> str:
+    """The script before it is packed: uPlot, and what draws plots with it."""
+    style = f"const UPLOT_STYLE = {json.dumps(_vendored('uplot.min.css'))};"
+    return "\n".join((_vendored("uplot.iife.min.js"), style, script("plots.js")))
+
+
+def _vendored(name: str) -> str:
+    path = distribution(_UPLOT).locate_file(f"youplot/vendor/{name}")
+    return path.read_text(encoding="utf-8")
+
+
+def plot_html(data: dict[str, Any], picture: bytes, description: str) -> str:
+    """A plot as HTML. data: from `plot_data`. picture: a PNG, which remains where no script runs."""
+    source = base64.b64encode(picture).decode()
+    image = f'<img src="data:image/png;base64,{source}" alt="{html.escape(description)}">'
+    return (
+        f'<div class="ros2-plot" data-plot="{deflated(data)}">{image}</div><script>{plot_script()}</script>'
+    )
