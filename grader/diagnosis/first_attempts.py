@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import ast
-import builtins
 
 from grader.diagnosis.student_nodes import StudentNode, assignments, student_nodes
 from sim.evidence import INFRASTRUCTURE_TOPICS, CallbackRun, Endpoint, Recording
 from sim.notebook.attribute_analysis import own_attribute
+from sim.notebook.class_source import Function
 
 KINDS = ("timer", "subscription")  # of callbacks that may publish, the likelier first
 MAX_FIRES = 2  # a timer that fired no more often in a whole run may have the wrong period
-MIN_PERIOD = 2.0  # s
+MIN_PERIOD = 5.0  # s
 INPUTS = ("subscription", "service")  # kinds of callbacks that others cause
+# Methods that ask whether somebody else is there, has sent something, or wants it.
+QUESTIONS = {"get_parameter", "can_transform", "service_is_ready", "server_is_ready", "services_are_ready"}
+QUESTIONS |= {
+    "count_publishers",
+    "count_subscribers",
+    "lookup_transform",
+    "wait_for_service",
+    "wait_for_server",
+}
 ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
@@ -38,11 +47,11 @@ def _may_wait(recording: Recording, end: Endpoint, ran: CallbackRun) -> bool:
     """Whether the code publishes only for subscribers, and there are none; or only after certain input."""
     node = next((node for node in student_nodes(recording) if node.name == end.node), None)
     if node is None or ran.callback not in node.uses:
-        return False
+        return True
+    if any(callback not in node.runs and _publishes(node.parts(callback)) for callback in node.uses):
+        return True
     methods = node.parts(ran.callback)
-    tests = [
-        part.test for method in methods for part in ast.walk(method) if isinstance(part, ast.If | ast.IfExp)
-    ]
+    tests = [test for method in methods for part in ast.walk(method) for test in _decisive(part)]
     parts = [part for test in tests for part in ast.walk(test)]
     local = {part.id for part in parts if isinstance(part, ast.Name)}
     parts += [
@@ -55,7 +64,20 @@ def _may_wait(recording: Recording, end: Endpoint, ran: CallbackRun) -> bool:
     calls = {getattr(part, "attr", "") for part in parts}
     if "get_subscription_count" in calls:
         return not recording.graph.subscriptions(end.name)
-    return "get_parameter" in calls or any(_is_input(node, ran, part) for part in parts)
+    return bool(calls & QUESTIONS) or any(_is_input(node, ran, part) for part in parts)
+
+
+def _publishes(methods: list[Function]) -> bool:
+    return any(getattr(part, "attr", "") == "publish" for method in methods for part in ast.walk(method))
+
+
+def _decisive(part: ast.AST) -> list[ast.expr]:
+    """The expressions that decide whether the code inside a statement is executed."""
+    if isinstance(part, ast.If | ast.IfExp | ast.While):
+        return [part.test]
+    if isinstance(part, ast.Try):
+        return [inner.value for inner in part.body if isinstance(inner, ast.Assign | ast.Expr)]
+    return [part.iter] if isinstance(part, ast.For) else []
 
 
 def _is_input(node: StudentNode, ran: CallbackRun, part: ast.AST) -> bool:
@@ -66,10 +88,8 @@ def _is_input(node: StudentNode, ran: CallbackRun, part: ast.AST) -> bool:
             node.registered.get(callback) for callback in node.writers(name) if callback != ran.callback
         ]
         return any(row is not None and row.kind in INPUTS for row in writers)
-    if ran.kind != "subscription" or not isinstance(part, ast.Compare):
-        return False
-    names = {inner.id for inner in ast.walk(part) if isinstance(inner, ast.Name)}
-    return bool(names - {"self", *dir(builtins)}) and any(isinstance(each, ORDERS) for each in part.ops)
+    limit = isinstance(part, ast.Compare) and any(isinstance(each, ORDERS) for each in part.ops)
+    return limit and ran.kind == "subscription"
 
 
 def long_period(recording: Recording) -> str:
@@ -77,7 +97,8 @@ def long_period(recording: Recording) -> str:
     for timer in recording.graph.timers:
         if timer.node in recording.course_nodes or timer.period < MIN_PERIOD or timer.period % 1.0:
             continue
-        if sum(other.node == timer.node for other in recording.graph.timers) > 1:
+        others = [row for row in recording.callbacks if row.node == timer.node and row.kind != "timer"]
+        if others or sum(other.node == timer.node for other in recording.graph.timers) > 1:
             continue
         fired = [run for run in recording.callbacks if run.node == timer.node and run.kind == "timer"]
         due = int(recording.ended.stamp / timer.period + 1e-6)

@@ -3,6 +3,7 @@
 from tests.students.foreign import (
     driving,
     executors,
+    later,
     legacy,
     services,
     shapes,
@@ -22,4 +23,5 @@ CORPUS = [
     *services.CORPUS,
     *driving.CORPUS,
     *waiting.CORPUS,
+    *later.CORPUS,
 ]
