@@ -7,7 +7,7 @@ SECOND: Nanoseconds = 1_000_000_000
 EPOCH: Nanoseconds = 1_735_689_600 * SECOND
 """The clock time at the start of every run: 2025-01-01 00:00 UTC. Stamps in messages include it; the engine
 and recordings count from the start of the run."""
-UPTIME: Nanoseconds = 3600 * SECOND
+UPTIME: Nanoseconds = 10_800 * SECOND  # such that (UPTIME + 0.1) - UPTIME >= 0.1 in floating point, too
 """What clocks that count from the start of the machine, such as the steady one, show as a run starts."""
 
 

@@ -238,13 +238,13 @@ def all_clocks():
         "time": time.time() - 1_735_689_600,
         "time_ns": time.time_ns() / 1e9 - 1_735_689_600,
         "gettime": time.clock_gettime(time.CLOCK_REALTIME) - 1_735_689_600,
-        "gettime_ns": time.clock_gettime_ns(time.CLOCK_MONOTONIC) / 1e9 - 3600,
-        "monotonic": time.monotonic() - 3600,
-        "perf_counter": time.perf_counter() - 3600,
+        "gettime_ns": time.clock_gettime_ns(time.CLOCK_MONOTONIC) / 1e9 - 10_800,
+        "monotonic": time.monotonic() - 10_800,
+        "perf_counter": time.perf_counter() - 10_800,
         "computing": time.clock_gettime(time.CLOCK_PROCESS_CPUTIME_ID),
         "process_time": time.process_time(),
         "node": node.get_clock().now().nanoseconds / 1e9 - 1_735_689_600,
-        "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9 - 3600,
+        "steady": Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds / 1e9 - 10_800,
         "system": Clock().now().nanoseconds / 1e9 - 1_735_689_600,
     }
     for name, value in seconds.items():
