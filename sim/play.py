@@ -53,8 +53,10 @@ def play(
     return player
 
 
-def replay(recording: Recording, *, speed: float, moments: Sequence[tuple[float, str]] = ()) -> Any:
+def replay(
+    recording: Recording, *, speed: float, moments: Sequence[tuple[float, str]] = (), plays: bool = False
+) -> Any:
     """See `Recording.replay`."""
     from sim.view.replay import replay  # imported here because it is slow
 
-    return replay(recording, speed=speed, moments=moments)
+    return replay(recording, speed=speed, moments=moments, plays=plays)

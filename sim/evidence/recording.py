@@ -193,13 +193,16 @@ class Recording(RunData):
 
         return read(Path(path), Recording)
 
-    def replay(self, *, speed: float = 1.0, moments: Sequence[tuple[Seconds, str]] = ()) -> Any:
+    def replay(
+        self, *, speed: float = 1.0, moments: Sequence[tuple[Seconds, str]] = (), plays: bool = False
+    ) -> Any:
         """The run as a player with a scrub bar; it stays in the saved notebook and in pages made from it.
 
         speed: simulated seconds per second, to begin with. Raises ValueError if it isn't above 0. moments:
-        stamps with a text, marked in red; it opens a second before the first of them.
+        stamps with a text, marked in red; it opens a second before the first of them. plays: it starts at
+        once, unless the reader's system asks for reduced motion.
         """
-        return type(self).player(self, speed=speed, moments=moments)
+        return type(self).player(self, speed=speed, moments=moments, plays=plays)
 
     def __repr__(self) -> str:
         return (

@@ -29,8 +29,10 @@ class Replay:
 
     above = ""
 
-    def __init__(self, recording: Recording, speed: float, moments: Sequence[Moment] = ()) -> None:
-        self._data = pack(recording, speed, moments)
+    def __init__(
+        self, recording: Recording, speed: float, moments: Sequence[Moment] = (), plays: bool = False
+    ) -> None:
+        self._data = pack(recording, speed, moments, plays)
         self._picture = base64.b64encode(small_png(_still(recording))).decode()
         self._title = f"Replay of {run_end(recording):g} s"
 
@@ -53,16 +55,19 @@ class Replay:
         return f"<{self._title}: {len(self.html) / 1024:.0f} KiB>"
 
 
-def replay(recording: Recording, *, speed: float = 1.0, moments: Sequence[Moment] = ()) -> Replay:
+def replay(
+    recording: Recording, *, speed: float = 1.0, moments: Sequence[Moment] = (), plays: bool = False
+) -> Replay:
     """The run as a player with a scrub bar; it is stored in the notebook and in pages exported from it.
 
     speed: initial simulated seconds per second of playback. moments: stamps (s) with a text, marked in red;
     the replay opens a second before the first of them. It ends soon after the last thing that happens.
+    plays: it starts at once, unless the reader's system asks for reduced motion.
     Without a world it shows a timeline of the topics. Raises ValueError for a speed that isn't above 0.
     """
     if not (speed > 0 and math.isfinite(speed)):
         raise ValueError(f"speed must be a number above 0; it is {speed!r}")
-    return Replay(recording, float(speed), moments)
+    return Replay(recording, float(speed), moments, plays)
 
 
 def _still(recording: Recording) -> Plot:

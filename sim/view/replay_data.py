@@ -41,10 +41,11 @@ QUIET = 2.0  # s; if less than this happens nothing at the end, it is shown, too
 Moment = tuple[float, str]  # stamp (s), text
 
 
-def pack(recording: Recording, speed: float, moments: Sequence[Moment] = ()) -> str:
+def pack(recording: Recording, speed: float, moments: Sequence[Moment] = (), plays: bool = False) -> str:
     """The run as base64 of deflated JSON; equal recordings give equal strings.
 
     speed: the initial speed. moments: marked in red; the replay opens before the first of them.
+    plays: it starts to play at once.
     """
     data = {"version": VERSION, "run": run_key(recording), "speed": speed, "world": None}
     data |= {"stamps": [], "tracks": [], "scans": []}
@@ -54,7 +55,7 @@ def pack(recording: Recording, speed: float, moments: Sequence[Moment] = ()) -> 
         recording = recording.during(recording.begin, end + 1e-6)
     if moments:
         data["open"] = max(min(stamp for stamp, _ in moments) - LEAD, 0.0)
-    data["end"] = end
+    data |= {"end": end} | ({"plays": True} if plays else {})
     if recording.world is not None:
         world = world_data(recording.world, recording.bodies)
         data |= {"world": world, **motion(recording), "scans": list(_scans(recording))}

@@ -181,6 +181,17 @@ def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_pa
     assert first.time() < end == second.time()
 
 
+def test_a_replay_that_plays_at_once_does_so_unless_motion_shall_be_reduced(page, rammed, tmp_path):
+    load(page, replay(rammed, speed=4.0, plays=True).html, tmp_path)
+    Picture(page.locator(".ros2-view")).wait_until("root => root.querySelector('[aria-label=Pause]')")
+    page.emulate_media(reduced_motion="reduce")
+    page.reload()
+    picture = Picture(page.locator(".ros2-view"))
+    assert picture.time() == rammed.stamp
+    assert picture.root.get_by_role("button", name="Play", exact=True).is_visible()
+    page.emulate_media(reduced_motion="null")
+
+
 def test_two_replays_of_one_run_have_one_cursor(page, rammed, tmp_path):
     html = replay(rammed).html
     load(page, html + html, tmp_path)

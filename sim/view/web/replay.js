@@ -45,6 +45,7 @@ class Player {
       if (show) this.root.scrollIntoView({ block: "nearest" });
     });
     followTimeLinks();
+    if (this.run.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.play(true);
   }
 
   controls() {

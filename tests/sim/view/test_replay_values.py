@@ -130,6 +130,12 @@ def test_a_replay_with_a_moment_opens_a_second_before_it_and_marks_it(drive, sta
     assert [mark[0] for mark in data["marks"]] == sorted(mark[0] for mark in data["marks"])
 
 
+def test_a_replay_can_play_at_once(drive):
+    assert "plays" not in inflated(pack(drive, 1.0))
+    assert drive.replay(speed=2.0, plays=True).html != drive.replay(speed=2.0).html
+    assert inflated(pack(drive, 1.0, plays=True))["plays"] is True
+
+
 def test_a_replay_has_the_key_of_its_run(drive):
     assert inflated(pack(drive, 1.0))["run"] == drive.digest[:12]
 
