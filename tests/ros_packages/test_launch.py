@@ -525,7 +525,7 @@ def test_yaml_says_the_same(tmp_path):
         ("- log: {message: a}\n  arg: {name: b}", "Subentities must be a dictionary with only one key"),
         ("- log: {message: $(var)}", "var substitution expects 1 or 2 argument(s), not 0"),
         ("- log: {message: $(dirname x)}", "dirname substitution expects 0 argument(s), not 1"),
-        ("- log: {message: $(find-pkg x)}", "Unknown substitution: find-pkg. There are command, dirname,"),
+        ("- log: {message: $(find-pkg x)}", "Unknown substitution: find-pkg. There are all, and, any, "),
         ("- log: {message: $(var x}", "'$(var x' can't be read: there is no ) at the end of $(var ..."),
         ("- log: {message: $(3)}", "'$(3)' can't be read from '$(3)' on."),
         (

@@ -15,13 +15,10 @@ LEFT_OUT = {
         "FrontendLaunchDescriptionSource InvalidFrontendLaunchFileError "
         "get_launch_description_from_frontend_launch_file"
     ),
-    "launch.substitutions": (
-        "AllSubstitution AndSubstitution AnonName AnySubstitution FileContent IfElseSubstitution "
-        "LaunchLogDir NotSubstitution OrSubstitution ThisLaunchFile"
-    ),
+    "launch.substitutions": ("AnonName FileContent IfElseSubstitution LaunchLogDir ThisLaunchFile"),
     "launch_ros.actions": (
         "ComposableNodeContainer LoadComposableNodes ROSTimer RosTimer SetParametersFromFile "
-        "SetROSLogDir SetRemap SetUseSimTime"
+        "SetROSLogDir SetUseSimTime"
     ),
     "launch_ros.descriptions": "ComposableNode Parameter",
     "launch_ros.substitutions": "Parameter",

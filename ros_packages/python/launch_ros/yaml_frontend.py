@@ -10,7 +10,7 @@ from launch.yaml_frontend.actions import parse_command, process_options
 from launch.yaml_frontend.entity import Entity, expose_action
 from launch.yaml_frontend.xml_file import XmlText
 
-from launch_ros.actions import LifecycleNode, Node, PushRosNamespace, SetParameter
+from launch_ros.actions import LifecycleNode, Node, PushRosNamespace, SetParameter, SetRemap
 from launch_ros.parameters import ParameterFile, ParameterValue
 
 TYPES = {"str": str, "int": int, "float": float, "bool": bool}
@@ -99,6 +99,12 @@ def _typed(text: str) -> Any:
 @expose_action("push_ros_namespace", "push-ros-namespace")
 def _push(entity: Entity) -> Action:
     return PushRosNamespace(entity.get_text("namespace", optional=False), **entity.condition())
+
+
+@expose_action("set_remap")
+def _set_remap(entity: Entity) -> Action:
+    source, target = entity.get_text("from", optional=False), entity.get_text("to", optional=False)
+    return SetRemap(source, target, **entity.condition())
 
 
 @expose_action("set_parameter")

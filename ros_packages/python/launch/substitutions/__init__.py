@@ -3,6 +3,13 @@
 from typing import NoReturn
 
 from launch.substitution import SubstitutionFailure, TextSubstitution
+from launch.substitutions.boolean_substitution import (
+    AllSubstitution,
+    AndSubstitution,
+    AnySubstitution,
+    NotSubstitution,
+    OrSubstitution,
+)
 from launch.substitutions.command import Command
 from launch.substitutions.environment_variable import EnvironmentVariable
 from launch.substitutions.equals_substitution import EqualsSubstitution, NotEqualsSubstitution
@@ -15,6 +22,9 @@ from launch.substitutions.this_launch_file_dir import ThisLaunchFileDir
 from launch.unsupported import refuse
 
 __all__ = [
+    "AllSubstitution",
+    "AndSubstitution",
+    "AnySubstitution",
     "Command",
     "EnvironmentVariable",
     "EqualsSubstitution",
@@ -22,6 +32,8 @@ __all__ = [
     "LaunchConfiguration",
     "LocalSubstitution",
     "NotEqualsSubstitution",
+    "NotSubstitution",
+    "OrSubstitution",
     "PathJoinSubstitution",
     "PythonExpression",
     "SubstitutionFailure",

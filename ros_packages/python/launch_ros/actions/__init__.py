@@ -9,6 +9,7 @@ from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node import Node
 from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
 from launch_ros.actions.set_parameter import SetParameter
+from launch_ros.actions.set_remap import SetRemap
 
 __all__ = [
     "LifecycleNode",
@@ -17,6 +18,7 @@ __all__ = [
     "PushROSNamespace",
     "PushRosNamespace",
     "SetParameter",
+    "SetRemap",
 ]
 
 

@@ -13,6 +13,7 @@ from launch.logging import get_logger
 from launch.substitution import SomeSubstitutionsType
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, text_of
 
+from launch_ros.actions.set_remap import REMAPPINGS
 from launch_ros.namespaces import NAMESPACE, join_namespaces, validate_name, validate_namespace
 from launch_ros.parameters import (
     GLOBAL_PARAMETERS,
@@ -94,7 +95,7 @@ class Node(ExecuteProcess):
         self._expand_name(context)
         if first_time:
             arguments = [*self.__name_rules, *self.__parameter_arguments(context)]
-            for source, target in self.__remappings:
+            for source, target in [*context.launch_configurations.get(REMAPPINGS, ()), *self.__remappings]:
                 arguments += ["-r", f"{text_of(context, source)}:={text_of(context, target)}"]
             self.cmd.extend(normalize_to_list_of_substitutions(argument) for argument in arguments)
         super().execute(context)
