@@ -275,3 +275,9 @@ def test_types_are_found_by_their_names():
 def test_another_kind_of_name_is_refused(function, name, text):
     with pytest.raises(ValueError, match=f"^{text}$"):
         function(name)
+
+
+def test_names_are_also_in_the_module_that_the_tutorials_use():
+    assert rosbag2_py._storage.StorageOptions is rosbag2_py.StorageOptions
+    assert rosbag2_py._storage.ConverterOptions("", "").input_serialization_format == ""
+    assert rosbag2_py._storage.TopicMetadata is rosbag2_py.TopicMetadata

@@ -3,22 +3,22 @@
 It lacks what plays, records, converts, compresses and reindexes bags: `ros2 bag` plays and records them.
 """
 
-from rosbag2_py.metadata import (
+from rosbag2_py._storage import (
     BagMetadata,
+    ConverterOptions,
     FileInformation,
-    Info,
     MessageDefinition,
     MetadataIo,
-    TopicInformation,
-    TopicMetadata,
-)
-from rosbag2_py.options import (
-    ConverterOptions,
     ReadOrder,
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
+    TopicInformation,
+    TopicMetadata,
     get_default_storage_id,
+)
+from rosbag2_py.metadata import Info
+from rosbag2_py.options import (
     get_registered_readers,
     get_registered_serializers,
     get_registered_writers,
