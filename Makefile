@@ -15,7 +15,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Another environment's ROS libraries must not leak into this one.
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: help lab teach test solutions demo exercises league handout hub bench tidy lint setup tools wheels lock clean
+.PHONY: help lab teach test solutions demo exercises league handout site hub bench tidy lint setup tools wheels lock clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -45,6 +45,14 @@ league: setup  ## let a class's delivery robots compete (make league ARGS="--wor
 
 handout: setup  ## make what students get, a folder and a ZIP, in dist/
 	$(BIN)/python -m grader.marking.release.handout $(ARGS)
+
+site: setup $(VENV)-site/.site  ## the executed lessons as a web site, in dist/site/
+	$(BIN)/python -m grader.marking.release.make_site --sphinx $(abspath $(VENV))-site/bin/sphinx-build $(ARGS)
+
+# In an environment of its own: it needs other versions of some packages than the course.
+$(VENV)-site/.site: .ci/site.lock
+	@sh .ci/setup $(VENV)-site .ci/site.lock
+	@touch $@
 
 hub: setup  ## a JupyterHub for a class, as class/hub.toml says (make hub ARGS=--check)
 	$(BIN)/python -m grader hub $(ARGS)
@@ -89,6 +97,7 @@ lock: tools  ## take the newest versions into requirements.lock and its like
 	$(COMPILE) --group build pyproject.toml --output-file requirements.lock
 	$(COMPILE) --group tools --constraint requirements.lock --output-file .ci/tools.lock
 	$(COMPILE) --group hub --constraint requirements.lock --constraint .ci/tools.lock --output-file .ci/hub.lock
+	$(COMPILE) --group site --output-file .ci/site.lock
 	$(COMPILE) --group install --constraint .ci/tools.lock --output-file .ci/uv.txt
 
 clean:  ## remove the set-up and what tools left; class/, work/ and wheels/ stay

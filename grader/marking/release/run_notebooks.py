@@ -65,6 +65,14 @@ def run_notebooks(paths: Sequence[Path]) -> Iterator[ExecutedNotebook]:
 def run_notebook(path: Path) -> ExecutedNotebook:
     """Run a notebook to its end, even if cells raise. The file and its folder are not changed."""
     begin = time.monotonic()
+    notebook, stopped = execute(path)
+    problems = [problem for cell in notebook.cells for problem in _problems(cell)]
+    marks = tuple(_marks(cell) for cell in notebook.cells if is_grade(cell) and cell.cell_type == "code")
+    return ExecutedNotebook(path, time.monotonic() - begin, marks, (*problems, *stopped))
+
+
+def execute(path: Path) -> tuple[NotebookNode, tuple[str, ...]]:
+    """The notebook with its outputs, and why it stopped early, if it did. The file is not changed."""
     with tempfile.TemporaryDirectory() as place:
         # Lessons write files, and read others beside them.
         folder = Path(shutil.copytree(path.resolve().parent, Path(place, path.resolve().parent.name)))
@@ -79,9 +87,7 @@ def run_notebook(path: Path) -> ExecutedNotebook:
             stopped = ()
         except DeadKernelError:
             stopped = ("its kernel died.",)
-    problems = [problem for cell in notebook.cells for problem in _problems(cell)]
-    marks = tuple(_marks(cell) for cell in notebook.cells if is_grade(cell) and cell.cell_type == "code")
-    return ExecutedNotebook(path, time.monotonic() - begin, marks, (*problems, *stopped))
+    return notebook, stopped
 
 
 def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> NotebookClient:
