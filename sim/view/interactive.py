@@ -1,4 +1,4 @@
-"""The HTML of plots over time, which are interactive where scripts run, and a still picture elsewhere."""
+"""The HTML of replays and plots, which are interactive where scripts run, and a still picture elsewhere."""
 
 from __future__ import annotations
 
@@ -11,6 +11,10 @@ from typing import Any
 
 from sim.view.javascript import packed, script
 from sim.view.packing import deflated
+
+PLAYER_SOURCE = script("replay.js")
+PLAYER_SCRIPT = packed(PLAYER_SOURCE)
+"""Turns every replay and path of the page into an interactive one. It contains no data."""
 
 _UPLOT = "youplot"  # the package that brings uPlot; its Python code is not used
 
@@ -34,8 +38,18 @@ def _vendored(name: str) -> str:
 
 def plot_html(data: dict[str, Any], picture: bytes, description: str) -> str:
     """A plot as HTML. data: from `plot_data`. picture: a PNG, which remains where no script runs."""
-    source = base64.b64encode(picture).decode()
-    image = f'<img src="data:image/png;base64,{source}" alt="{html.escape(description)}">'
+    image = _image(picture, description)
     return (
         f'<div class="ros2-plot" data-plot="{deflated(data)}">{image}</div><script>{plot_script()}</script>'
     )
+
+
+def player_html(data: str, picture: bytes, description: str) -> str:
+    """A replay or a path as HTML. data: packed; the rest as in `plot_html`."""
+    image = _image(picture, description)
+    return f'<div class="ros2-replay" data-replay="{data}">{image}</div><script>{PLAYER_SCRIPT}</script>'
+
+
+def _image(picture: bytes, description: str) -> str:
+    source = base64.b64encode(picture).decode()
+    return f'<img src="data:image/png;base64,{source}" alt="{html.escape(description)}">'

@@ -11,6 +11,7 @@ from matplotlib.patches import Circle, Polygon
 
 from sim.evidence import Pose, Recording
 from sim.view.body_tracks import MAX_POSE_GAP, body_tracks, extent_radius
+from sim.view.path_data import pack_path
 from sim.view.plot import (
     CAUTION,
     GRID,
@@ -70,6 +71,7 @@ def plot_path(recording: Recording) -> Plot:
         points = np.array([(contact.x, contact.y) for contact in recording.contacts])
         axes.plot(*points.T, "x", color=WARNING, markersize=9, markeredgewidth=2.5, label="contact")
     legend_beside(axes)
+    figure.packed_path = pack_path(recording)
     return note_failure(figure, recording)
 
 

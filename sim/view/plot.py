@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from sim.evidence import Recording
-from sim.view.interactive import plot_html
+from sim.view.interactive import player_html, plot_html
 
 PATH, SOLID, WARNING, MUTED, CAUTION = "#1f6fb4", "#5b6470", "#d64541", "#9aa3ad", "#e8a33d"
 ROBOTS = (PATH, "#8a4fc0", "#158a6b", "#c2477f")  # the first robot, and further ones
@@ -32,6 +32,7 @@ class Plot(Figure):
 
     failure = ""  # of the run that it shows
     interactive: dict[str, Any] | None = None  # the data of the interactive plot, from `plot_data`
+    packed_path = ""  # the data of the interactive path, from `pack_path`
 
     @property
     def description(self) -> str:
@@ -45,13 +46,15 @@ class Plot(Figure):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """The interactive plot, if there is one, with this figure for pages without scripts."""
-        if self.interactive is None:
+        if self.interactive is None and not self.packed_path:
             return {}  # then Jupyter shows the PNG
         return {"text/html": self.html, "text/plain": repr(self)}
 
     @property
     def html(self) -> str:
         """The interactive plot as HTML, for use in other pages."""
+        if self.packed_path:
+            return player_html(self.packed_path, small_png(self), self.description)
         return plot_html(self.interactive or {}, small_png(self), self.description)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, str]]:

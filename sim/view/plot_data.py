@@ -16,6 +16,7 @@ from sim.view.strokes import thinned
 VERSION = 1
 POINTS = 2_000  # of a series
 TICKS = 1_000  # of a row
+FAILURE = 500  # characters
 FEW = 60  # of so many points each has a marker
 
 
@@ -72,6 +73,7 @@ def plot_data(
         "version": VERSION,
         "run": run_key(recording),
         "title": title,
+        "failure": recording.failure[:FAILURE],
         "begin": recording.begin,
         "end": end,
         "panels": list(panels),

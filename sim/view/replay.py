@@ -6,22 +6,18 @@ scripts the picture remains; `PLAYER_SCRIPT` can be added again to a page from w
 
 from __future__ import annotations
 
-import base64
-import html
 import math
 from collections.abc import Sequence
 from typing import Any
 
 from sim.evidence import Recording
-from sim.view.javascript import packed, script
+from sim.view.interactive import PLAYER_SCRIPT, player_html
 from sim.view.path_plot import plot_path
 from sim.view.plot import Plot, small_png
 from sim.view.replay_data import Moment, pack, run_end
 from sim.view.timeline_plots import plot_topics
 
-PLAYER_SOURCE = script("replay.js")
-PLAYER_SCRIPT = packed(PLAYER_SOURCE)
-"""Turns every replay of the page into a player. It contains no data."""
+__all__ = ["PLAYER_SCRIPT", "Replay", "replay"]
 
 
 class Replay:
@@ -33,17 +29,13 @@ class Replay:
         self, recording: Recording, speed: float, moments: Sequence[Moment] = (), plays: bool = False
     ) -> None:
         self._data = pack(recording, speed, moments, plays)
-        self._picture = base64.b64encode(small_png(_still(recording))).decode()
+        self._picture = small_png(_still(recording))
         self._title = f"Replay of {run_end(recording):g} s"
 
     @property
     def html(self) -> str:
         """The HTML, for use in other pages."""
-        image = f'<img src="data:image/png;base64,{self._picture}" alt="{html.escape(self._title)}">'
-        return (
-            f'{self.above}<div class="ros2-replay" data-replay="{self._data}">{image}</div>'
-            f"<script>{PLAYER_SCRIPT}</script>"
-        )
+        return self.above + player_html(self._data, self._picture, self._title)
 
     def _repr_html_(self) -> str:
         return self.html

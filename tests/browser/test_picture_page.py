@@ -14,7 +14,7 @@ from rclpy.node import Node
 
 from sim import run
 from sim.evidence import Pose
-from sim.view import plot_signal, replay, replay_data
+from sim.view import plot_path, plot_signal, replay, replay_data
 from sim.view.interactive import plot_script
 from tests.browser.pictures import COLOURS, Picture, watch
 from tests.sim.graphs import node
@@ -182,7 +182,7 @@ def test_two_replays_of_one_page_play_apart_from_each_other(page, rammed, tmp_pa
 
 
 def test_a_replay_that_plays_at_once_does_so_unless_motion_shall_be_reduced(page, rammed, tmp_path):
-    load(page, replay(rammed, speed=4.0, plays=True).html, tmp_path)
+    load(page, replay(rammed, speed=0.25, plays=True).html, tmp_path)
     Picture(page.locator(".ros2-view")).wait_until("root => root.querySelector('[aria-label=Pause]')")
     page.emulate_media(reduced_motion="reduce")
     page.reload()
@@ -226,6 +226,20 @@ def test_a_plot_zooms_in_all_its_panels_and_moves_its_cursor_by_keys(page, ramme
     over.dblclick(position={"x": 0.5 * size["width"], "y": 20})
     over.hover(position={"x": 0.9 * size["width"], "y": 20})
     assert said(Picture(plot)).startswith("t = 9.09 s. t = 9.1 s: RuntimeError in Rammer.drive")
+    assert page.faults == []
+
+
+def test_a_path_shows_the_robot_at_the_cursor_and_names_the_failure(page, rammed, tmp_path):
+    load(page, plot_path(rammed).html + replay(rammed).html, tmp_path)
+    drawn, played = (Picture(page.locator(name)) for name in (".ros2-path", ".ros2-view:has(.scrub)"))
+    played.canvas.wait_for()
+    assert drawn.root.locator(".failure").inner_text() == rammed.failure
+    entries = drawn.root.locator(".legend span:not(.time)").all_inner_texts()
+    assert entries == ["— path", "● start", "★ goal", "✕ contact"]
+    end = drawn.pixels()
+    played.scrub(0.25)
+    assert drawn.root.locator(".time").inner_text() == f"t = {played.time():.2f} s"
+    assert drawn.pixels() != end
     assert page.faults == []
 
 

@@ -20,7 +20,7 @@ function checkPlot(plot) {
     return { name: text(name), style: STYLES.includes(style) ? style : refuse("a style"), colour: colour(tint), markers: Boolean(markers), x: moments, y: values };
   };
   return {
-    key: /^[0-9a-f]{12}$/.test(plot.run) ? plot.run : "", title: text(plot.title), begin: size(plot.begin), end: size(plot.end),
+    key: /^[0-9a-f]{12}$/.test(plot.run) ? plot.run : "", title: text(plot.title), failure: text(plot.failure), begin: size(plot.begin), end: size(plot.end),
     panels: list(plot.panels, 20, (panel) => ({
       unit: text(panel.unit), series: list(panel.series, 20, series),
       levels: list(panel.levels, 5, ([value, name, tint]) => ({ value: number(value), name: text(name), colour: colour(tint) })),
@@ -52,6 +52,8 @@ class TimePlot {
     this.statusLine = make("div", { className: "say", role: "status" });
     const help = "Point at it to see values. Drag to zoom, double-click to zoom out; arrow keys move the cursor.";
     this.root.append(make("style", {}, `${UPLOT_STYLE}\n${STYLE}`), make("div", { className: "title", title: help }, plot.title), this.place, this.statusLine);
+    this.failure = make("div", { className: "failure" }, plot.failure);
+    if (plot.failure) this.root.append(this.failure);
     this.root.setAttribute("aria-label", `Plot ${plot.title}. ${help}`);
     this.root.addEventListener("keydown", (event) => this.onKey(event));
     this.range = { min: plot.begin, max: plot.end };
@@ -81,6 +83,7 @@ class TimePlot {
     const look = colours(this.root);
     if (look === this.look) return;
     this.look = look;
+    this.failure.style.color = look.failure;
     this.drawn = this.width;
     for (const chart of this.charts ?? []) chart.destroy();
     const panels = this.plot.rows.length ? [this.rowsChart()] : this.plot.panels.map((panel, index) => this.panelChart(panel, index === this.plot.panels.length - 1));

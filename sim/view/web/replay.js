@@ -30,12 +30,7 @@ class Player {
 
   /** Start drawing, after the root has been added to the page and has a size. */
   start() {
-    const { world, tracks } = this.run;
-    if (world) {
-      this.picture = new WorldCanvas(this.stage, world);
-      this.tip = tipPath(world, tracks.at(-1) ?? []);
-      tracks.forEach((track, index) => track.forEach((pose) => this.picture.include(world.bodies[index], pose)));
-    }
+    if (this.run.world) this.picture = runCanvas(this.stage, this.run);
     if (this.run.graph) this.graph.show(this.run.graph);
     this.paintStrips();
     onTheme(this.root, () => this.paintStrips());
@@ -193,20 +188,78 @@ class Player {
   }
 
   showWorld() {
-    const { run, time } = this;
-    const at = before(run.stamps, time), next = Math.min(at + 1, run.stamps.length - 1);
-    const isAbsent = (index) => run.presence && !run.presence[index].some(([from, to]) => from <= time + 1e-6 && time <= to + PERSISTENCE);
-    const poses = run.tracks.map((track, index) => isAbsent(index) ? null : at < 0 ? track[0] : between(track[at], track[next],
-      (time - run.stamps[at]) / (run.stamps[next] - run.stamps[at] || 1)));
-    const scan = run.scans[before(run.scans, time, stampOf)];
-    this.picture.frame = {
-      poses, scan: scan || null,
-      trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
-      tip: this.tip && [...this.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: this.tip,
-      drawn: run.drawing && visibleAt(run.drawing, time),
-      contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
-    };
+    this.picture.frame = frameAt(this.run, this.time);
     this.picture.requestPaint();
+  }
+}
+
+/** What a WorldCanvas shows of a run at a time (s). */
+function frameAt(run, time) {
+  const at = before(run.stamps, time), next = Math.min(at + 1, run.stamps.length - 1);
+  const isAbsent = (index) => run.presence && !run.presence[index].some(([from, to]) => from <= time + 1e-6 && time <= to + PERSISTENCE);
+  const poses = run.tracks.map((track, index) => isAbsent(index) ? null : at < 0 ? track[0] : between(track[at], track[next],
+    (time - run.stamps[at]) / (run.stamps[next] - run.stamps[at] || 1)));
+  return {
+    poses, scan: run.scans[before(run.scans, time, stampOf)] || null,
+    trails: run.tracks.map((track, body) => (run.presence ? null : [...track.slice(0, at + 1), poses[body]])), ahead: run.tracks,
+    tip: run.tip && [...run.tip.slice(0, at + 1), ...tipPath(run.world, poses.slice(-1))], tipAhead: run.tip,
+    drawn: run.drawing && visibleAt(run.drawing, time),
+    contacts: run.marks.filter(({ stamp, place }) => place && stamp <= time + 1e-6).map(({ place }) => place),
+  };
+}
+
+/** Adds the canvas of a run to a stage, with room for all poses. */
+function runCanvas(stage, { world, tracks }) {
+  const picture = new WorldCanvas(stage, world);
+  tracks.forEach((track, index) => track.forEach((pose) => picture.include(world.bodies[index], pose)));
+  return picture;
+}
+
+/** The whole path of a run in its world, and the bodies at the cursor: first at the end. */
+class PathPicture {
+  constructor(run) {
+    this.run = run;
+    this.stage = make("div", { className: "stage" });
+    this.legend = make("div", { className: "legend" });
+    this.root = make("div", { className: "ros2-view ros2-path" }, make("style", {}, STYLE), this.stage, this.legend);
+    this.failure = make("div", { className: "failure" }, run.failure);
+    if (run.failure) this.root.append(this.failure);
+    this.root.dataset.lmSuppressShortcuts = "true";
+  }
+
+  start() {
+    this.picture = runCanvas(this.stage, this.run);
+    this.picture.canvas.setAttribute("aria-label", `The path in the world ${this.run.world.name}`);
+    onTheme(this.root, () => this.show());
+    this.show(this.run.end);
+    followCursor(this.root, this.run.key, (time) => this.show(Math.min(time, this.run.end)));
+    followTimeLinks();
+  }
+
+  show(time = this.time) {
+    const { run } = this, whole = frameAt(run, run.end);
+    this.time = time;
+    const paths = run.presence ? [] : run.tracks; // turtles leave lines of their pens
+    const starts = run.tracks.map((track, index) => (run.world.bodies[index].kind === "robot" ? track[0] : null));
+    this.picture.frame = { ...frameAt(run, time), trails: paths, ahead: [], tip: run.tip, tipAhead: null, contacts: whole.contacts, starts };
+    this.picture.requestPaint();
+    this.showLegend(whole.contacts.length);
+  }
+
+  showLegend(contacts) {
+    const { world, tip } = this.run, look = colours(this.root);
+    const robots = world.bodies.filter(({ kind }) => kind === "robot");
+    const entries = [
+      ...robots.map(({ name }, index) => ["—", look.robots[index % look.robots.length], index ? name : "path"]),
+      ...(robots.length ? [["●", look.ghost, "start"]] : []), ...(tip ? [["—", look.robots[0], "tip's path"]] : []),
+      ...(world.goal ? [["★", look.goal, "goal"]] : []), ...(contacts ? [["✕", look.contact, "contact"]] : []),
+    ];
+    this.failure.style.color = look.failure;
+    this.legend.replaceChildren(make("span", { className: "time" }, `t = ${this.time.toFixed(2)} s`), ...entries.map(([sign, colour, name]) => {
+      const swatch = make("b", { ariaHidden: "true" }, sign);
+      swatch.style.color = colour;
+      return make("span", {}, swatch, ` ${name}`);
+    }));
   }
 }
 
@@ -221,7 +274,8 @@ async function install(div) {
   div.dataset.wired = "true";
   const picture = [...div.childNodes];
   try {
-    const player = new Player(checkRun(await unpack(div.dataset.replay || "")));
+    const run = checkRun(await unpack(div.dataset.replay || ""));
+    const player = run.path ? new PathPicture(run) : new Player(run);
     div.replaceChildren(player.root);
     player.start();
   } catch (error) {

@@ -58,7 +58,7 @@ function checkRun(run) {
   const messages = list(run.messages ?? [], 100, checkMessages); // older pages have none
   const end = size(run.end) || 0.001;
   return {
-    key: KEY.test(run.run ?? "") ? run.run : "", plays: run.plays === true, open: run.open === undefined ? end : Math.min(size(run.open), end),
+    key: KEY.test(run.run ?? "") ? run.run : "", plays: run.plays === true, path: world !== null && run.path === true, failure: text(run.failure ?? ""), tip: tipPath(world, tracks.at(-1) ?? []), open: run.open === undefined ? end : Math.min(size(run.open), end),
     graph: run.graph ? checkGraph(run.graph) : null, // older pages have none
     world, stamps: ordered(stamps), tracks, presence, drawing: run.drawing && checkDrawing(run.drawing), end, speed: size(run.speed),
     scans: list(run.scans, 20000, (scan) => ({

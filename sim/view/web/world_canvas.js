@@ -4,6 +4,7 @@ const MARGIN = 0.2; // m around the bounds
 const MAX_HEIGHT = 500; // CSS pixels
 const LEAST_HEIGHT = 140, TOPICS = 40; // px; in a panel, at least of the picture, and what is left for topics
 const LEAST_SHARE = 0.45; // of a panel's height, at least for the picture
+const FAINT = 0.35; // opacity of a body where it started
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 10000];
 
 /** The distance of a machine's far end from the pose of its last link; null unless it is made of links. */
@@ -24,7 +25,7 @@ function tipPath(world, poses) {
  *
  * `frame` is the state to show: poses of all bodies; scan {pose, ranges, start, step, far} or null; trails, a list
  * of points or null for each body; ahead, the same for their future paths; contacts, points; with pens also drawn,
- * from ./drawing.js; of an arm tip and tipAhead, the paths of its far end. There may be more turtles than at the start.
+ * from ./drawing.js; starts, poses to draw faintly; of an arm tip and tipAhead, the paths of its far end. There may be more turtles than at the start.
  */
 class WorldCanvas {
   constructor(stage, world) {
@@ -121,6 +122,9 @@ class WorldCanvas {
     this.context.fillStyle = this.look.hit;
     for (const [px, py] of hits) this.context.fillRect(px - 1.5, py - 1.5, 3, 3);
     this.paths();
+    this.context.globalAlpha = FAINT;
+    this.frame.starts?.forEach((pose, index) => this.body(this.bodyOf(index), pose, index));
+    this.context.globalAlpha = 1;
     this.frame.poses.forEach((pose, index) => this.body(this.bodyOf(index), pose, index));
     this.contacts();
     this.ruler();

@@ -13,7 +13,7 @@ from std_msgs.msg import Float64
 
 from sim import Recording, World, run
 from sim.evidence import CallbackError, LogLine
-from sim.view import plot_jitter, plot_logs, plot_signal, plot_topics
+from sim.view import plot_jitter, plot_logs, plot_path, plot_signal, plot_topics
 from sim.view.field_labels import field_label, is_command, panel_unit
 from sim.view.interactive import plot_script, plot_source
 from sim.view.packing import inflated
@@ -32,6 +32,11 @@ def commands(count=4):
 
 def data(figure):
     (packed,) = re.findall(r'data-plot="([^"]+)"', figure.html)
+    return inflated(packed)
+
+
+def path(figure):
+    (packed,) = re.findall(r'data-replay="([^"]+)"', figure.html)
     return inflated(packed)
 
 
@@ -118,6 +123,25 @@ def test_what_happened_is_marked():
         [4000, "error"],
         [5000, "end"],
     ]
+
+
+def test_a_failure_is_in_the_plot_and_in_the_path():
+    error = CallbackError(4.0, "/driver", "Driver.tick", "KeyError", "'x'", "")
+    crashed = driven([(0, 0)] * 6, errors=[error])
+    assert crashed.failure
+    assert data(plot_topics(crashed))["failure"] == crashed.failure
+    assert path(plot_path(crashed))["failure"] == crashed.failure
+
+
+def test_a_path_is_drawn_as_replays_draw_the_world():
+    drive = driven([(0, 0), (1, 0), (2, 0)], contacts=[(1.5, 1.6, 1.0, 2.0, "front", "wall")])
+    figure = plot_path(drive)
+    found = path(figure)
+    assert (found["path"], found["run"], found["end"]) == (True, drive.digest[:12], 2.0)
+    assert [mark[1] for mark in found["marks"]] == ["contact", "end"]
+    assert found["tracks"] == [[[0, 1000, 1000], [0, 0, 0], [0, 0, 0]]]
+    assert f' alt="{figure.description}">' in figure.html
+    assert len(figure.html.encode()) < 60_000
 
 
 def test_a_page_with_a_plot_is_small_and_complete():

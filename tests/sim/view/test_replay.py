@@ -15,7 +15,7 @@ from sim import Recording, World, run
 from sim.evidence import CallbackError, Ended, LogLine, Message, Pose
 from sim.ros.messages.codec import encode
 from sim.view import plot_graph, replay, replay_data
-from sim.view.replay import PLAYER_SCRIPT, PLAYER_SOURCE
+from sim.view.interactive import PLAYER_SCRIPT, PLAYER_SOURCE
 from sim.world import Contact
 from tests.bench.avoider import Avoider
 from tests.grader.recordings import driven, recording

@@ -1,0 +1,25 @@
+"""Packs the path of a run, for pages that draw it as replays draw the world."""
+
+from __future__ import annotations
+
+from sim.evidence import Recording
+from sim.view.packing import deflated
+from sim.view.replay_data import VERSION, event_marks, mark_rows, motion, run_end, run_key
+from sim.view.strokes import all_strokes
+from sim.view.world_data import world_data
+
+FAILURE = 500  # characters
+
+
+def pack_path(recording: Recording) -> str:
+    """The motion, contacts and pen strokes of a run with a world. Raises ValueError if nothing moved."""
+    end = run_end(recording)
+    data = {
+        **{"version": VERSION, "run": run_key(recording), "path": True, "speed": 1.0, "end": end},
+        **{"failure": recording.failure[:FAILURE], "scans": [], "logs": [], "topics": []},
+        **{"world": world_data(recording.world, recording.bodies), **motion(recording)},
+        "marks": mark_rows(event_marks(recording), (end, "end", "the run ended.", None)),
+    }
+    if recording.drawing is not None:
+        data["drawing"] = all_strokes(recording.drawing)
+    return deflated(data)
