@@ -14,6 +14,10 @@ from sim.nanoseconds import Nanoseconds, nanoseconds
 HOST, NETWORK, ANY = LEVELS = "host", "network", "any"
 SPREAD = 0.005  # s
 LATEST_START, STARTS_LATE = 0.5, 0.5  # s, and the share of programs that start later
+LATEST_KEPT, KEPT_LATE = (
+    0.1,
+    0.5,
+)  # s, and the share of subscriptions that get later what a latched topic keeps
 MOST_PROGRAMS = 10  # whose starts are looked at to know when all have started
 INTENSITIES = 0.05, 0.2, 0.5  # of the choices made, the share that departs from the usual one
 _FORM = re.compile(
@@ -117,6 +121,12 @@ class Order:
         draw = self.draw("message", now, sender, topic, receiver)
         late = self.departs(draw, self.intensity / 2)
         return draw, 1 + int(draw.value * nanoseconds(self.spread)) if late else 0
+
+    def kept_delay(self, sender: str, topic: str, receiver: str) -> tuple[Draw, Nanoseconds]:
+        """How late a new subscription gets what a latched topic has kept; and what is drawn for it."""
+        draw = self.draw("kept", sender, topic, receiver)
+        late = self.departs(draw, KEPT_LATE)
+        return draw, 1 + int(draw.value * nanoseconds(LATEST_KEPT)) if late else 0
 
     def departs(self, draw: Draw, probability: float) -> bool:
         """Whether the choice of this draw departs from the usual one, as it does with this probability."""

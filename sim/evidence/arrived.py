@@ -20,34 +20,46 @@ def arrived(run: RunData, topic: str, sent: Sequence[Message], order: Order, beg
     It is computed from the order, so that no program can claim that a message came late.
     """
     ends = [end for end in run.graph.subscriptions(topic) if not end.from_course]
+    kept = _kept_messages(run, topic, sent, begin)
     last: dict[tuple[str, str], Nanoseconds] = {}
-    found = _kept(run, topic, sent, ends, begin)
+    found = [message._replace(stamp=_kept_at(run, message, ends, order, begin) / SECOND) for message in kept]
     for message in sent:
-        if begin and message.stamp <= begin:  # at that very moment, two programs don't know each other yet
-            continue
+        if any(message is other for other in kept) or (begin and message.stamp <= begin):
+            continue  # what is not kept finds no subscription at that moment
         now = round(message.stamp * SECOND)
-        arrivals = [now]
-        for end in ends:
-            if run.hosts.get(message.sender) != run.hosts.get(end.node):
-                continue  # the network between the hosts delays it, and not the order
+        arrivals = [now, _kept_at(run, message, ends, order, begin) if kept else now]
+        for end in _same_host(run, message, ends):
             _, delay = order.delay(now, message.sender, topic, end.node)
             pair = message.sender, end.node
             last[pair] = max(now + delay, last.get(pair, now))
             arrivals.append(last[pair])
-        if max(arrivals) <= round(run.ended.stamp * SECOND):
-            found.append(message._replace(stamp=max(arrivals) / SECOND))
-    return found
+        found.append(message._replace(stamp=max(arrivals) / SECOND))
+    return [message for message in found if message.stamp <= run.ended.stamp]
 
 
-def _kept(
-    run: RunData, topic: str, sent: Sequence[Message], ends: Sequence[Endpoint], begin: Seconds
-) -> list[Message]:
+def _same_host(run: RunData, message: Message, ends: Sequence[Endpoint]) -> list[Endpoint]:
+    """The subscriptions on the sender's host: other messages are delayed by the network, not by the order."""
+    return [end for end in ends if run.hosts.get(message.sender) == run.hosts.get(end.node)]
+
+
+def _kept_at(
+    run: RunData, message: Message, ends: Sequence[Endpoint], order: Order, begin: Seconds
+) -> Nanoseconds:
+    """When the last of the nodes under test has what this message's sender kept on its topic."""
+    delays = [
+        order.kept_delay(message.sender, message.topic, end.node)[1] for end in _same_host(run, message, ends)
+    ]
+    return round(begin * SECOND) + max(delays, default=0)
+
+
+def _kept_messages(run: RunData, topic: str, sent: Sequence[Message], begin: Seconds) -> list[Message]:
     """Of the messages until the nodes' start, those that a latched publisher sent them then."""
-    if not any(end.qos.get("durability") == LATCHED for end in ends):
-        return []
+    latched = (
+        end.qos.get("durability") == LATCHED for end in run.graph.subscriptions(topic) if not end.from_course
+    )
     kept: list[Message] = []
-    for publisher in run.graph.publishers(topic):
+    for publisher in run.graph.publishers(topic) if any(latched) else ():
         if publisher.from_course and publisher.qos.get("durability") == LATCHED:
             own = [row for row in sent if row.sender == publisher.node and row.stamp <= begin]
             kept += own[-(publisher.qos.get("depth") or 1) :]
-    return [row._replace(stamp=begin) for row in sorted(kept, key=lambda row: row.stamp)] if begin else []
+    return sorted(kept, key=lambda row: row.stamp)

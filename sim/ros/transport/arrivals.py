@@ -36,6 +36,7 @@ class Arrivals:
     def __init__(self, choices: Choices) -> None:
         self._choices = choices
         self._last: dict[tuple[str, ...], Nanoseconds] = {}
+        self._kept: dict[tuple[str, ...], Nanoseconds] = {}
 
     def at(self, writer: PublisherEnd, reader: SubscriptionEnd, now: Nanoseconds) -> Nanoseconds:
         """When a message that is sent now arrives."""
@@ -48,6 +49,22 @@ class Arrivals:
             self._choices.list(draw, pair[1], "message", text)
         key = pair if self._choices.order.level == HOST else (*pair, writer.topic)
         arrival = self._last[key] = max(now + delay, self._last.get(key, now))
+        return max(arrival, self._kept.get((*pair, writer.topic), now))
+
+    def kept_at(self, writer: PublisherEnd, reader: SubscriptionEnd, now: Nanoseconds) -> Nanoseconds:
+        """When what a latched topic has kept arrives at a subscription that is found now.
+
+        It is sent apart from new messages, so that those of other topics may come first.
+        """
+        if self._is_fixed(writer, reader):
+            return now
+        pair = writer.sender, reader.subscriber
+        draw, delay = self._choices.order.kept_delay(pair[0], writer.topic, pair[1])
+        if delay:
+            late = f"{1000 * delay / SECOND:.1f} ms later"
+            text = f"{writer.topic}, which {pair[0]} has kept, reaches {pair[1]} {late}"
+            self._choices.list(draw, pair[1], "message", text)
+        arrival = self._kept[*pair, writer.topic] = now + delay
         return arrival
 
     @staticmethod

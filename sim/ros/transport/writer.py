@@ -11,6 +11,7 @@ from rclpy.event_handler import EventHandler
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
+from sim.nanoseconds import Nanoseconds
 from sim.ros.messages.cdr import canonical
 from sim.ros.messages.codec import type_name
 from sim.ros.transport.context import TransportContext
@@ -94,15 +95,24 @@ class DataWriter(PublisherEndpoint):
         self._latched.append(sample)
         for reader in self.readers:
             if now > self._all_known_after or self.has_discovered(reader):
-                arrival = now if self.run.arrivals is None else self.run.arrivals.at(self, reader, now)
-                if arrival == now:
-                    self._arrive(sample, reader)
-                else:
-                    self.run.events.schedule_arrival(arrival, partial(self._arrive, sample, reader))
+                self._arrive_at(self._arrival(reader, now), sample, reader)
             else:
                 self.run.recorder.undelivered(self.sender, self.topic)
         if self.outgoing is not None:
             self.outgoing.send(sample)
+
+    def _arrival(self, reader: DataReader, now: Nanoseconds) -> Nanoseconds:
+        """When a message that is sent now arrives; at the creation of the subscription, as a kept one."""
+        if self.run.arrivals is None:
+            return now
+        known = now > max(self.created_at, reader.created_at)
+        return (self.run.arrivals.at if known else self.run.arrivals.kept_at)(self, reader, now)
+
+    def _arrive_at(self, arrival: Nanoseconds, sample: Sample, reader: DataReader) -> None:
+        if arrival == self.scheduler.now:
+            self._arrive(sample, reader)
+        else:
+            self.run.events.schedule_arrival(arrival, partial(self._arrive, sample, reader))
 
     def _arrive(self, sample: Sample, reader: DataReader) -> None:
         if reader.closed:
@@ -123,8 +133,9 @@ class DataWriter(PublisherEndpoint):
         latched = [sample for sample in self._latched if latching and sample.expires > now]
         if self.outgoing is None or self.host == reader.host:
             self.readers.append(reader)
+            arrival = self._arrival(reader, now) if latched else now
             for sample in latched:
-                reader.receive(sample)
+                self._arrive_at(arrival, sample, reader)
         else:
             self.outgoing.connect(reader, latched)
 

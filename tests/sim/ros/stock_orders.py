@@ -15,12 +15,15 @@ import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Int64
 
 ROUNDS = int(os.environ.get("ORDERS_ROUNDS", "300"))
 PERIOD = 0.01  # s
 LEAD = 3.0  # s, until all have found each other
 DOMAIN = "77"
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+NEWCOMERS = 20
 
 
 def publish(topics: list[str], begin: float) -> None:
@@ -74,6 +77,46 @@ class Timers(Node):
         self.swapped += self.first < self.second
 
 
+def keep() -> None:
+    """Publish once on a latched topic, and then on another for ever."""
+    rclpy.init()
+    node = rclpy.create_node("keeper")
+    node.create_publisher(Int64, "kept", LATCHED).publish(Int64())
+    publisher = node.create_publisher(Int64, "new", 10)
+    node.create_timer(PERIOD, lambda: publisher.publish(Int64()))
+    rclpy.spin(node)
+
+
+class Newcomer(Node):
+    """Notes when it first receives on each of two topics, s."""
+
+    def __init__(self) -> None:
+        super().__init__("newcomer")
+        self.first: dict[str, float] = {}
+        self.create_subscription(Int64, "kept", lambda _: self.note("kept"), LATCHED)
+        self.create_subscription(Int64, "new", lambda _: self.note("new"), 10)
+
+    def note(self, topic: str) -> None:
+        self.first.setdefault(topic, time.monotonic())
+
+
+def kept() -> str:
+    """One row: when a new subscription gets what was kept, beside new messages of the same sender."""
+    process = subprocess.Popen([sys.executable, "-m", "tests.sim.ros.stock_orders", "keep"])
+    time.sleep(LEAD)
+    late = []
+    for _ in range(NEWCOMERS):
+        node = Newcomer()
+        while len(node.first) < 2:
+            rclpy.spin_once(node, timeout_sec=0.1)
+        late.append(node.first["kept"] - node.first["new"])
+        node.destroy_node()
+    process.kill()
+    second = [1000 * seconds for seconds in late if seconds > 0]
+    count = f"the new one first in {len(second)} of {len(late)}, by up to {max(second, default=0):.0f} ms"
+    return f"one sends a latched message, then new ones on another topic; subscriptions later: {count}"
+
+
 def spin(node: Node, parallel: bool, seconds: float) -> None:
     """Spin a node with rclpy's own executor."""
     executor = MultiThreadedExecutor(4) if parallel else SingleThreadedExecutor()
@@ -105,7 +148,11 @@ def main() -> None:
     if sys.argv[1:2] == ["publish"]:
         publish(list(sys.argv[2]), float(sys.argv[3]))
         return
+    if sys.argv[1:] == ["keep"]:
+        keep()
+        return
     rclpy.init()
+    print(kept(), flush=True)
     for work in (0.0, 0.002):
         for parallel in (False, True):
             for order, senders in (("ab", ["ab"]), ("ba", ["ab"]), ("ab", ["a", "b"])):
