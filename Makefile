@@ -48,7 +48,6 @@ handout: setup  ## make what students get, a folder and a ZIP, in dist/
 
 site: setup $(VENV)-site/.site  ## the executed lessons as a web site, in dist/site/
 	$(BIN)/python -m grader.marking.release.make_site --sphinx $(abspath $(VENV))-site/bin/sphinx-build $(ARGS)
-
 # In an environment of its own: it needs other versions of some packages than the course.
 $(VENV)-site/.site: .ci/site.lock
 	@sh .ci/setup $(VENV)-site .ci/site.lock
