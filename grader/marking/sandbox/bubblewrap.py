@@ -36,7 +36,8 @@ def visible_paths(extra: Sequence[Path]) -> list[str]:
     for path in extra:
         os.stat(path)
     python = (sys.base_prefix, os.path.realpath(sys.base_prefix), sys.prefix)
-    paths = {Path(path).absolute() for path in (*python, *_packages(), *extra)}
+    course = *_packages(), *ROS_PACKAGES.glob("*.py")
+    paths = {Path(path).absolute() for path in (*python, *course, *extra)}
     system = {Path(path) for path in SYSTEM}
     hidden = [path for path in paths if not ({path, *path.parents} & system or paths & {*path.parents})]
     return sorted(map(str, hidden))

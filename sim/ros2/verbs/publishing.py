@@ -55,6 +55,8 @@ def pub(system: System, options: Namespace) -> None:
     if not isinstance(values, dict):
         raise CliError("The passed value needs to be a dictionary in YAML format")
     times = 1 if options.once else options.times
+    if options.wait_matching_subscriptions is None:
+        options.wait_matching_subscriptions = int(times != 0)
     if not times and system.time_limit is not None:
         times = max(round(system.time_limit * options.rate), 1)
     options.times, seconds = times, None
@@ -97,9 +99,7 @@ def _publish(node: Node, output: Output, kind: type, values: Any, options: Names
 
 def _wait_for_subscriptions(node: Node, output: Output, publisher: Any, options: Namespace) -> None:
     """Wait for matching subscriptions. Raises CliError if there are too few in time."""
-    minimum = options.wait_matching_subscriptions
-    minimum = int(options.times != 0) if minimum is None else minimum
-    waited = 0
+    minimum, waited = options.wait_matching_subscriptions, 0
     while (count := publisher.get_subscription_count()) < minimum and not output.canceled:
         if waited % 10 == 0:
             near = "" if waited else _near_topic(node, publisher.topic_name)
