@@ -38,7 +38,7 @@ def load_group(name: str, verb: str = "") -> Group:
     first, *others = COMMANDS[name][0]
     group = getattr(importlib.import_module(f"sim.ros2.verbs.{first}"), name)
     for module in others:
-        if verb not in group.verbs:
+        if not verb or verb not in group.verbs:
             importlib.import_module(f"sim.ros2.verbs.{module}")
     return group
 
