@@ -159,7 +159,8 @@ def _require_at_most(run: Recording, speed: float, cause: Callable[[KnownState],
         hint = "Drive at 0.5 m/s where nothing speaks against it: the faults come while the robot drives."
         raise Missed("a robot that drives when the fault comes", "none that drives fast enough", hint)
     for whole, why in found:
-        window = Window(whole.begin + BRAKING, run.ended.stamp).before(whole.end)
+        # At the moment of new messages, the timer that drives may fire after them.
+        window = Window(whole.begin + BRAKING, run.ended.stamp).before(whole.end - STEP)
         top = top_speed(window.rows(run.path))
         if top.linear > speed:
             expected = f"at most {speed:.2g} m/s from {window.begin:.3g} s on, as {why}"

@@ -98,7 +98,8 @@ def finds_who_walks(run: Recording) -> None:
     rows = from_student(run, PEOPLE)[::EACH]
     seen = [row for row in rows if _is_seen(run, row, 1.0) and _speed_of_person(run, row, 1.0) > WALKS]
     comes = _time(seen[0]) if seen else math.inf
-    before = [row for row in rows if SETTLED < _time(row) <= comes]
+    begin = _time(rows[0]) + SETTLED if rows else math.inf  # what stands there is new to it at first
+    before = [row for row in rows if begin < _time(row) <= comes]
     for row, box in itertools.product(before, _plain_boxes(run, _time(before[-1])) if before else []):
         if any(math.dist(point, box) < BOX for point in _points(row)):
             hint = "What has stood there all the time doesn't walk: compare with half a second before."

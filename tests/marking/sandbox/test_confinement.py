@@ -24,7 +24,9 @@ def test_of_the_course_only_its_packages_are_there(commanded):
         allowed.add(Path(sys.prefix).name)
     assert set(commanded.ask(f"import os; answer = os.listdir({str(COURSE)!r})")) == allowed
     there = commanded.ask(f"import os; answer = os.listdir({str(COURSE / 'ros_packages/python')!r})")
-    assert set(there) == {file.parent.name for file in COURSE.glob("ros_packages/python/*/__init__.py")}
+    python = COURSE / "ros_packages/python"
+    packages = {file.parent.name for file in python.glob("*/__init__.py")}
+    assert set(there) == packages | {file.name for file in python.glob("*.py")}
     assert commanded.ask(f"answer = os.listdir({str(COURSE / 'tests')!r})") == ["marking"]
 
 

@@ -330,7 +330,9 @@ def test_ctrl_c_is_quiet_while_a_command_imports(system, module):
 
 @pytest.mark.parametrize("function", CALLED)
 def test_ctrl_c_is_quiet_at_any_moment_of_a_command(system, function):
-    status, _, err = interrupted_at("call", function, "topic echo /place --once", system)
+    # With the type, so that the command waits for the robot however late it finds it.
+    words = "topic echo /place geometry_msgs/msg/PointStamped --once"
+    status, _, err = interrupted_at("call", function, words, system)
     assert (status, err) == (2, "")
 
 

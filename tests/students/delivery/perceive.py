@@ -58,8 +58,8 @@ class Perception(Node):
 
     def moved(self, now, strange):
         before = [points for when, points in self.seen if now - when > 0.4]
-        self.seen = [*((when, points) for when, points in self.seen if now - when < 1.0), (now, strange)]
-        return far_from(strange, before[0] if before else [], 0.25)
+        self.seen = [*((when, points) for when, points in self.seen if now - when < 2.0), (now, strange)]
+        return far_from(strange, before[-1] if before else [], 0.25)
 
     def tell(self, stamp, robot, strange):
         now = seconds(stamp)
@@ -92,10 +92,9 @@ class KeepsLonger(Perception):
     keeps = 5.4
 
     def moved(self, now, strange):
-        self.seen = [(when, points) for when, points in self.seen if now - when < 0.75]
-        before = self.seen[0][1] if self.seen and now - self.seen[0][0] > 0.45 else []
-        self.seen.append((now, strange))
-        return far_from(strange, before, 0.3)
+        before = [points for when, points in self.seen if now - when > 0.55]
+        self.seen = [*((when, points) for when, points in self.seen if now - when < 2.0), (now, strange)]
+        return far_from(strange, before[-1] if before else [], 0.3)
 
 
 def main():

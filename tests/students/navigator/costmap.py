@@ -115,6 +115,8 @@ def costmap_main():
         publisher.publish(answer)
 
     def on_click(msg):
+        if not info:
+            return
         corner, size = info[0].origin.position, info[0].resolution
         msg.point.x -= (msg.point.x - corner.x) % size - size / 2
         msg.point.y -= (msg.point.y - corner.y) % size - size / 2
