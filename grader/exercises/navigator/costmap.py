@@ -102,8 +102,9 @@ def _all_are(formula: Callable[[Any, Point], Point]) -> Callable[..., bool]:
 def answers_clicks(run: Recording, given: Any) -> None:
     """Each /clicked_point is answered on /cell_centre with the middle of its cell."""
     publishes(run, "/cell_centre", "geometry_msgs/msg/PointStamped")
-    known = min(row.stamp for row in run.received("/map"))  # before that, nobody can say where a cell is
-    sent = [click for click in clicks(run) if click.stamp >= known]
+    sent = clicks(run)
+    known = min((row.stamp for row in run.received("/map")), default=0.0)  # earlier ones can have no answer
+    sent = [click for click in sent if click.stamp >= known] or sent
     wrong = [click for click in sent if not _is_answered(click, _centre(given.info, _point(click)))]
     if wrong:
         (x, y), right = _point(wrong[0]), _centre(given.info, _point(wrong[0]))
