@@ -7,6 +7,7 @@ import numpy as np
 
 from grader.checks import Missed, publishes
 from grader.checks.no_data import no_data
+from grader.checks.topics import longest_pause
 from grader.companions.blind_drivers import turner
 from grader.exercise import Exercise
 from grader.geometry import Point, Pose2D
@@ -26,6 +27,7 @@ EACH = 3  # every third message is judged: what is in view takes time to compute
 MAPPED = 0.1  # m; what is nearer to the map than this counts as mapped
 WALKS, STANDS = 0.4, 0.05  # m/s
 SETTLED = 6.0  # s until what stands is known to stand
+PAUSE = 2.0  # s without news on a topic
 
 perceive = Exercise("perceive", "Perceive: who walks?", world=crossing, seconds=20, companions=turner,
                     seeds=(1,))
@@ -71,6 +73,7 @@ def stamps_by_the_scan(run: Recording) -> None:
             saw = f"those of {count} scans in {run.ended.stamp:.3g} s"
             hint = "Tell with every other scan; whoever hears of people late drives on for too long."
             raise Missed(f"five scans or more each second on {topic}", saw, hint)
+        _require_no_pause(run, topic)
 
 
 @perceive.check(4, after=knows_its_place)
@@ -100,6 +103,9 @@ def finds_who_walks(run: Recording) -> None:
     comes = _time(seen[0]) if seen else math.inf
     begin = _time(rows[0]) + SETTLED if rows else math.inf  # what stands there is new to it at first
     before = [row for row in rows if begin < _time(row) <= comes]
+    if seen and not before:
+        hint = "Publish from the first scans on, so that it shows what your node takes for people."
+        raise Missed(f"messages on {PEOPLE} before the person comes", "none", hint)
     for row, box in itertools.product(before, _plain_boxes(run, _time(before[-1])) if before else []):
         if any(math.dist(point, box) < BOX for point in _points(row)):
             hint = "What has stood there all the time doesn't walk: compare with half a second before."
@@ -149,6 +155,16 @@ def _require_person(run: Recording, row: Message, who: str, hint: str) -> None:
         hint = "Publish the points that moved as they are, each of them once."
         saw = f"{len(points)} points at {row.stamp:.3g} s"
         raise Missed("at most 300 points of people", saw, hint)
+
+
+def _require_no_pause(run: Recording, topic: str) -> None:
+    """Raises Missed where a topic has no news for longer than `PAUSE`."""
+    stamps = sorted(map(_time, from_student(run, topic)))
+    pause, since = longest_pause([run.started_at, *stamps, run.ended.stamp])
+    if pause > PAUSE:
+        hint = "Publish with every other scan from the first one on: a list that is missing stops no robot."
+        saw = f"none from {since:.3g} to {since + pause:.3g} s"
+        raise Missed(f"messages on {topic} all the time", saw, hint)
 
 
 def _require_three(run: Recording, judged: list[Message], who: str) -> None:

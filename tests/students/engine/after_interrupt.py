@@ -32,13 +32,18 @@ class Counter(Node):
         self.publisher.publish(Int32())
 
 
+def line(*words):
+    """Print a line in one piece: another thread's line doesn't come into it."""
+    print(" ".join(map(str, words)) + "\n", end="")
+
+
 def attempt(name, function):
     """Print what a call returns or raises, without the place in rcl's sources."""
     try:
         result = function()
-        print(name, "gives", result if isinstance(result, bool | int | list) else type(result).__name__)
+        line(name, "gives", result if isinstance(result, bool | int | list) else type(result).__name__)
     except Exception as error:
-        print(name, "raises", type(error).__name__, str(error).split(", at ")[0])
+        line(name, "raises", type(error).__name__, str(error).split(", at ")[0])
 
 
 def attempts(node, context=None):
@@ -91,9 +96,9 @@ def interrupted(name, node, work, context=None, few=True):
     try:
         threading.Timer(0.3, print, ["ready"], {"flush": True}).start()
         work(node)
-        print(name, "ended")
+        line(name, "ended")
     except KeyboardInterrupt:
-        print(name, "was interrupted")
+        line(name, "was interrupted")
     finally:
         time.sleep(0.2)  # rclpy's own handler works in a thread of its own
         for each, function in tries.items():
@@ -183,7 +188,7 @@ def spins_in_a_thread():
             time.sleep(1e5)
         finally:
             thread.join()
-            print("the thread has ended")
+            line("the thread has ended")
 
     interrupted("a thread", Counter(), work)
 
@@ -192,17 +197,21 @@ def quiet_spin(node):
     try:
         rclpy.spin(node)
     except rclpy.executors.ExternalShutdownException:
-        print("shut down from outside")
+        line("shut down from outside")
 
 
 def sleeps_at_a_rate():
     rclpy.init()
 
     def work(node):
-        threading.Thread(target=quiet_spin, args=(node,), daemon=True).start()
+        thread = threading.Thread(target=quiet_spin, args=(node,), daemon=True)
+        thread.start()
         rate = node.create_rate(2)
-        while rclpy.ok():
-            rate.sleep()
+        try:
+            while rclpy.ok():
+                rate.sleep()
+        finally:
+            thread.join()
 
     interrupted("a rate", Counter(), work)
 
