@@ -24,8 +24,8 @@ PARTS = (
     "pace",
     "view",
 )
-# peers installs what it compares with; navigator and capstone take minutes
-ON_REQUEST = ("peers", "navigator", "capstone")
+# peers and hub install what they need; navigator and capstone take minutes
+ON_REQUEST = ("peers", "navigator", "capstone", "hub")
 
 
 def machine() -> str:
