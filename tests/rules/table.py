@@ -1,0 +1,204 @@
+"""The rules that the lessons state, and what looks for each of them: one file for each lesson, NN_TOPIC.toml.
+
+A row, [[rule]], has
+
+    rule        the rule, in one sentence
+    in.CELL     where the lesson states it: the id of a cell, and words of one sentence in it, or a list
+    check       the check that looks for it, as "TOPIC/EXERCISE: FUNCTION"; a program that fails with an error
+                loses its points at "TOPIC/EXERCISE: runs", and a package at "TOPIC/EXERCISE: is_built"
+    wrong       nodes on the exercise's score page that break the rule, and lose points at this check
+    right       nodes there that keep it, and earn everything
+    technique   where the rule recommends a way to write it: a pattern that the right nodes' sources have
+
+or, in place of the last four, `unchecked = "CATEGORY: reason"`. The table [no_rule] has, by cell, words of
+sentences that state no rule, though they have one of the words that rules mostly have.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader.diagnosis.fault import Fault
+from tests.exercises.score_tables import page, students
+from tests.exercises.seeds import exercise_of, right_nodes
+
+ROOT = Path(__file__).parents[2]
+TABLES = Path(__file__).parent
+LESSONS = tuple(sorted(path.parent.name for path in ROOT.glob("course/*/lesson.ipynb")))
+
+WRITTEN = tuple(lesson for lesson in LESSONS if (TABLES / f"{lesson}.toml").exists())
+
+# Why a rule has no check.
+CATEGORIES = {
+    "fact": "explains something: no program keeps or breaks it",
+    "notebook": "is about the course's own tools, such as `run` and its pictures",
+    "judgement": "is about designing, reading or looking for faults: it leaves no trace in a run",
+    "elsewhere": "is about hardware, terminals, networks or real time, which graded runs don't have",
+    "no exercise": "could be seen in a run, but no exercise asks for it",
+    "not yet": "will have a check soon",
+}
+SELF_EVIDENT = ("fact", "notebook")  # categories that need no further reason
+ERRORS = {"runs": Fault.sentence, "is_built": "Your package is built."}
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A row: a rule, where the lesson states it (cell, words), and what looks for it, or why nothing does."""
+
+    rule: str
+    quotes: tuple[tuple[str, str], ...]
+    check: str = ""
+    wrong: tuple[str, ...] = ()
+    right: tuple[str, ...] = ()
+    technique: str = ""
+    unchecked: str = ""
+
+    @property
+    def category(self) -> str:
+        """Why it has no check, in one of CATEGORIES; "" where it has one."""
+        return self.unchecked.partition(":")[0]
+
+    @property
+    def reason(self) -> str:
+        """Why it has no check, in a sentence; may be empty."""
+        return self.unchecked.partition(":")[2].strip()
+
+
+@dataclass(frozen=True)
+class Table:
+    """The rules of a lesson, and the quotes (cell, words) of sentences that state none."""
+
+    rules: tuple[Rule, ...]
+    no_rule: tuple[tuple[str, str], ...] = ()
+
+
+def read_table(text: str) -> Table:
+    """The table that a TOML file describes. Raises TypeError for a key that rows don't have."""
+    data = tomllib.loads(text)
+    rules = [
+        Rule(
+            quotes=_quotes(row.pop("in")),
+            **{key: _names(row.pop(key)) for key in ("wrong", "right") if key in row},
+            **row,
+        )
+        for row in data.pop("rule")
+    ]
+    return Table(tuple(rules), _quotes(data.pop("no_rule", {})), **data)
+
+
+def _names(value: str | list[str]) -> tuple[str, ...]:
+    return (value,) if isinstance(value, str) else tuple(value)
+
+
+def _quotes(cells: dict[str, str | list[str]]) -> tuple[tuple[str, str], ...]:
+    return tuple((cell, words) for cell, value in cells.items() for words in _names(value))
+
+
+@functools.cache
+def table_of(lesson: str) -> Table:
+    """The table of a lesson, such as "01_nodes"."""
+    return read_table((TABLES / f"{lesson}.toml").read_text(encoding="utf-8"))
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a lesson."""
+
+    kind: str  # "markdown" or "code"
+    source: str
+
+
+def cells_of(lesson: str) -> dict[str, Cell]:
+    """The cells of a lesson by their ids, in order."""
+    notebook = json.loads((ROOT / "course" / lesson / "lesson.ipynb").read_text(encoding="utf-8"))
+    return {cell["id"]: Cell(cell["cell_type"], "".join(cell["source"])) for cell in notebook["cells"]}
+
+
+def problems(table: Table, cells: dict[str, Cell]) -> Iterator[str]:
+    """What is wrong with a table, row by row, as sentences."""
+    for cell, words in [*(quote for rule in table.rules for quote in rule.quotes), *table.no_rule]:
+        if cell not in cells:
+            yield f"“{words}”: the lesson has no cell {cell}"
+        elif words not in one_line(cells[cell].source):
+            yield f"“{words}”: the cell {cell} doesn't say so"
+    for rule in table.rules:
+        found = _unchecked_problems(rule) if rule.unchecked else _checked_problems(rule)
+        yield from (f"{rule.rule} {problem}" for problem in found)
+
+
+def _unchecked_problems(rule: Rule) -> Iterator[str]:
+    if rule.category not in CATEGORIES:
+        yield f"“{rule.category}” is none of the reasons: {', '.join(CATEGORIES)}"
+    elif not rule.reason and rule.category not in SELF_EVIDENT:
+        yield f"Why is it “{rule.category}”? Write a reason behind a colon"
+    if rule.check or rule.wrong or rule.right or rule.technique:
+        yield "It has a check or nodes, and says that it is unchecked"
+
+
+def _checked_problems(rule: Rule) -> Iterator[str]:
+    found = re.fullmatch(r"(\w+)/(\w+): (\w+)", rule.check)
+    if found is None:
+        yield f"Expected a check such as “nodes/heart: beats”, or `unchecked`, saw “{rule.check}”"
+        return
+    topic, exercise, function = found.groups()
+    sentence = _sentence(topic, exercise, function)
+    if not sentence:
+        yield f"There is no check {rule.check}"
+        return
+    pages, right = page(topic, exercise), right_nodes(topic, exercise)
+    yield from (f"It has no {kind} node" for kind in ("wrong", "right") if not getattr(rule, kind))
+    yield from (f"The page {topic}/{exercise} has no {node}" for node in _missing(rule, pages))
+    for node in rule.wrong:
+        if node in pages and f"- {sentence}" not in pages[node].splitlines():
+            yield f"{node} loses nothing at “{sentence}”"
+    for node in (node for node in rule.right if node in pages):
+        if node not in right:
+            yield f"{node} doesn't earn everything"
+        if not re.search(rule.technique, source_of(topic, exercise, node)):
+            yield f"The source of {node} has nothing like “{rule.technique}”"
+
+
+def _missing(rule: Rule, pages: dict[str, str]) -> list[str]:
+    return [node for node in (*rule.wrong, *rule.right) if node not in pages]
+
+
+def _sentence(topic: str, exercise: str, function: str) -> str:
+    """The sentence of a check, as students and score pages have it; "" if there is no such check."""
+    try:
+        checks = exercise_of(topic, exercise).checks
+    except (ImportError, AttributeError):
+        return ""
+    return {check.name: check.sentence for check in checks}.get(function) or ERRORS.get(function, "")
+
+
+def source_of(topic: str, exercise: str, node: str) -> str:
+    """The source of a student's node, with everything of its module that it uses."""
+    item = students(topic, exercise)[node]
+    module = inspect.getmodule(item) if inspect.isclass(item) or inspect.isfunction(item) else None
+    if module is None:  # a Process, or a package
+        return repr(vars(item))
+    names, found = [node], {}
+    while names:
+        name = names.pop()
+        found[name] = text = _definition(vars(module).get(name), module.__name__)
+        names += [word for word in set(re.findall(r"\w+", text)) - set(found) if word in vars(module)]
+    return "\n".join(found.values())
+
+
+def _definition(item: Any, module: str) -> str:
+    if (inspect.isclass(item) or inspect.isfunction(item)) and item.__module__ == module:
+        return inspect.getsource(item)
+    return ""
+
+
+def one_line(text: str) -> str:
+    """The text with one space for each gap between words."""
+    return " ".join(text.split())
