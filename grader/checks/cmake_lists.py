@@ -1,12 +1,14 @@
 """Reads a CMakeLists.txt as data: its commands in order, with variables expanded. Nothing is run.
 
-Conditions, loops and functions are not followed: each command counts on its own.
+Commands in a condition count if it holds, as far as it is made of constants and variables of this file.
+Loops and functions are not followed: what is in them does not count.
 """
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from grader.checks.check import Missed
@@ -20,6 +22,10 @@ _TOKEN = re.compile(
     r'|(?P<plain>[^\s()#"]+)',
     re.S,
 )
+OPENING = ("if", "foreach", "while", "function", "macro", "block")
+CLOSING = tuple(f"end{name}" for name in OPENING)
+_TRUE = re.compile(r"1|on|yes|true|y|[1-9]\d*", re.I)
+_FALSE = re.compile(r"0|off|no|false|n|ignore|notfound|.*-notfound", re.I)
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 
 
@@ -37,8 +43,13 @@ def read_commands(data: bytes) -> list[CMakeCommand]:
         raise _unread(f"{len(data)} bytes", f"More than {MOST} bytes are not read: make it shorter.")
     known: dict[str, str] = {}
     read = []
+    blocks = Blocks()
     for name, words in _written(data.decode("utf-8-sig", errors="replace")):
         command = CMakeCommand(name, tuple(_put_in(words, known)))
+        if blocks.skips(command, known):
+            continue
+        if name == "return" or (name, *command.words[:1]) == ("message", "FATAL_ERROR"):
+            break
         read.append(command)
         match command:
             case CMakeCommand("project", (first, *_)):
@@ -48,6 +59,54 @@ def read_commands(data: bytes) -> list[CMakeCommand]:
             case CMakeCommand("list", ("APPEND", variable, *values)):
                 known[variable] = ";".join([*filter(None, [known.get(variable)]), *values])
     return read
+
+
+class Blocks:
+    """The blocks around a command, from the outermost: whether commands in each of them are executed."""
+
+    def __init__(self) -> None:
+        self._executed: list[bool] = []
+        self._done: list[bool] = []  # whether a branch of the condition was executed
+
+    def skips(self, command: CMakeCommand, known: Mapping[str, str]) -> bool:
+        """Return whether the command is not executed, or begins, divides or ends a block."""
+        name, words = command.name, command.words
+        if name in OPENING:
+            holds = name == "block" or (name == "if" and _holds(words, known))
+            self._executed.append(holds)
+            self._done.append(holds)
+        elif name in ("elseif", "else") and self._executed:
+            holds = not self._done[-1] and (name == "else" or _holds(words, known))
+            self._executed[-1] = holds
+            self._done[-1] |= holds
+        elif name in CLOSING and self._executed:
+            self._executed.pop()
+            self._done.pop()
+        else:
+            return not all(self._executed)
+        return True
+
+
+def _holds(words: Sequence[str], known: Mapping[str, str]) -> bool:
+    """Whether a condition of constants, variables, NOT, AND and OR holds; False for any other one."""
+    either = [list(part) for is_or, part in itertools.groupby(words, lambda word: word == "OR") if not is_or]
+    return any(_all_hold(part, known) for part in either)
+
+
+def _all_hold(words: Sequence[str], known: Mapping[str, str]) -> bool:
+    parts = [list(part) for is_and, part in itertools.groupby(words, lambda word: word == "AND") if not is_and]
+    return all(_is_simple(part) and _is_true(part[-1], known) != (len(part) == 2) for part in parts)
+
+
+def _is_simple(words: Sequence[str]) -> bool:
+    """Whether it is a word, or NOT and a word."""
+    return len(words) == 1 or (len(words) == 2 and words[0] == "NOT")
+
+
+def _is_true(word: str, known: Mapping[str, str]) -> bool:
+    """Whether a constant or a variable is true; a variable that this file does not set is not."""
+    value = known.get(word, "")
+    return bool(_TRUE.fullmatch(word) or (value and not _FALSE.fullmatch(value)))
 
 
 def _put_in(words: list[str], known: dict[str, str]) -> Iterator[str]:

@@ -4,12 +4,14 @@ import bisect
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, otherwise, publishes, subscribes
+from grader.checks.work import worked_until
 from grader.companions.radios import RADIO, RadioLidar
 from grader.exercise import Exercise
 from grader.responses import EDGE, from_course
 from sim.evidence import Recording, Seconds
 
 SCAN, COUNT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Int32"
+BEGUN, MOST = 1.0, 0.8  # s until a node has begun; of the scans after that, how many must be sent to it
 SOONEST, LATEST = RADIO.delay - RADIO.jitter, RADIO.delay + RADIO.jitter  # s, of a scan on its way
 
 lidar = Exercise("lidar", "What got lost", seconds=8, companions=[RadioLidar], network=RADIO, seeds=(1, 5))
@@ -36,8 +38,10 @@ def receives_every_scan(run: Recording) -> list[Counted]:
     counts = publishes(run, "/missed", COUNT)
     # Each subscribing node loses other messages; one of the nodes counts.
     crossings = [one for one in run.crossings if one.topic == "/scan"]
-    received = [one.sent - one.lost for one in crossings if one.listener not in run.course_nodes]
+    listeners = [one for one in crossings if one.listener not in run.course_nodes]
+    received = [one.sent - one.lost for one in listeners]
     arrived = min(received, key=lambda number: abs(number - len(counts)), default=0)
+    _requires_listening(run, max((one.sent for one in listeners), default=0))
     with hinting("Publish in the scan's callback, each time it is called."):
         if not arrived - 1 <= len(counts) <= arrived:  # one may be on its way at the end
             expected = "one message on /missed for each scan that came"
@@ -74,6 +78,16 @@ def is_right_all_the_time(run: Recording, counted: list[Counted], end: None) -> 
         if one.count != one.lost:
             hint = "Count at each scan what was lost since the one before, and add it to the sum."
             raise Missed(f"{one.lost} lost until {one.stamp:.3g} s", f"{one.count}", hint)
+
+
+def _requires_listening(run: Recording, sent: int) -> None:
+    """Raises Missed where no node of the student's subscribed for most of its time. sent: scans to one."""
+    begun = run.started_at + BEGUN
+    due = [row for row in run.messages("/scan") if begun < row.stamp < worked_until(run)]
+    if sent < MOST * len(due):
+        saw = f"{sent} of {len(due)} scans were sent to it: then nobody listened"
+        hint = "Create the subscription in __init__, keep it, and never destroy it."
+        raise Missed("a subscription to /scan from start to end", saw, hint)
 
 
 def _counted(run: Recording) -> list[Counted]:

@@ -8,6 +8,7 @@ from grader.checks import Missed, keeps_clear, lasts, publishes, series, travell
 from grader.checks.topics import longest_pause
 from grader.exercise import Exercise
 from sim.evidence import Recording, stamps
+from sim.ros2.system import OWN_NAME
 
 TWIST, COMMANDS = "geometry_msgs/msg/Twist", "/cmd_vel"
 RADIUS, SPEED = 0.5, 0.3  # m, m/s
@@ -33,6 +34,10 @@ def can_be_read(run: Recording) -> None:
             raise Missed(missed.expected, f"“{wrong}”", _how_to_read(wrong)) from None
         missed.guess = "`ros2 topic pub` publishes; `echo` and `hz` listen."
         raise
+    nodes = [end.node for end in run.graph.publishers(COMMANDS) if not end.from_course]
+    if f"/{OWN_NAME}" not in run.graph.nodes:
+        hint = 'The answer is a text: return "ros2 topic pub ...".'
+        raise Missed("a text that begins with ros2, and no node", f"the node {nodes[0]}", hint)
 
 
 @pub.check(3, after=can_be_read)

@@ -1,6 +1,7 @@
 """Three topics with one callback."""
 
 import itertools
+import re
 
 from grader.checks import Missed, subscribes
 from grader.companions.random_publishers import Chatterbox
@@ -14,6 +15,7 @@ CHATTERS = {
     "/chatter2": "std_msgs/msg/Bool",
 }
 WITHIN = 0.25  # s from a message to its log line; the next message comes later
+NAMED = re.compile(r"chatter\d: \S+", re.I)
 DETAILS = "details of the message's way where its topic should be"
 
 chatters = Exercise("chatters", "Three topics, one callback", seconds=10, companions=[Chatterbox],
@@ -55,6 +57,7 @@ def knows_the_topic(run: Recording) -> None:
         saw = DETAILS if _has_details(run, first) else lines or "no line"
         credit = right / len(CHATTERS) if right > 1 else 0.0  # a single one may be right by chance
         raise Missed(expected, saw, credit=credit, about=(first,))
+    _requires_no_others(run)
 
 
 @chatters.check(3, after=knows_the_topic)
@@ -66,6 +69,19 @@ def uses_one_callback(run: Recording) -> None:
         hint = ("Write one method with a second parameter, `def hear(self, msg, topic):`, and give it the "
                 "topic with a lambda or functools.partial.")
         raise Missed("one callback for the three topics", ", ".join(sorted(names)), hint)
+
+
+def _requires_no_others(run: Recording) -> None:
+    """Raises Missed for a line about a message that had not come: a guess is no answer."""
+    received = [row for topic in CHATTERS for row in run.received(topic)]
+    for line in [line for line in run.logs if not line.from_course]:
+        recent = Window(line.stamp - WITHIN, line.stamp).rows(received)
+        came = tuple(_line(row, row.topic).lower() for row in recent)
+        other = next((one[0] for one in NAMED.finditer(line.text) if not one[0].lower().startswith(came)), "")
+        if other:
+            hint = "Log in the callback, and there the message that it was called with."
+            saw = f"“{other}” at {line.stamp:.3g} s, when no such message had come"
+            raise Missed("log lines about messages that came, and no others", saw, hint)
 
 
 def _is_logged(run: Recording, row: Message, topic: str) -> bool:

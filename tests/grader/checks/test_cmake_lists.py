@@ -74,3 +74,39 @@ def test_no_more_than_the_beginning_of_a_long_word_is_shown():
     assert missed(b"a " + b"b" * 50) == f"{'b' * 40} in line 1"
     assert missed(b"a" * 50) == f"{'a' * 40} without (...)"
     assert missed(b'a("' + b"b" * 50) == f"'\"{'b' * 19}' in line 1"
+
+
+@pytest.mark.parametrize(
+    ("condition", "holds"),
+    [
+        *(("TRUE", True), ("1", True), ("on", True), ("FALSE", False), ("0", False), ("OFF", False)),
+        *(("NOT FALSE", True), ("NOT TRUE", False), ("yes", True), ("no", False), ("none", True)),
+        *(("TRUE AND FALSE", False), ("TRUE AND NOT FALSE", True), ("FALSE OR TRUE AND TRUE", True)),
+        *(("BUILD_TESTING", False), ("a STREQUAL a", False), ("NOT a STREQUAL b", False), ("", False)),
+        *(("${none}", False), ("${yes}", True), (" OR ".join(["FALSE"] * 500), False)),
+    ],
+)
+def test_commands_in_a_condition_count_if_it_holds(condition, holds):
+    text = f"set(yes ON)\nset(no OFF)\nset(none b)\nif({condition})\na()\nelse()\nb()\nendif()"
+    assert [command.name for command in read_commands(text.encode())][3:] == ["a" if holds else "b"]
+
+
+def test_the_first_branch_that_holds_counts_and_what_is_in_it():
+    text = b"if(0)\na()\nelseif(1)\nif(0)\nb()\nendif()\nc()\nelseif(1)\nd()\nelse()\ne()\nendif()\nf()"
+    assert [command.name for command in read_commands(text)] == ["c", "f"]
+
+
+@pytest.mark.parametrize("block", ["foreach", "while", "function", "macro"])
+def test_what_is_in_a_loop_or_a_function_does_not_count(block):
+    assert [command.name for command in read_commands(f"{block}(a)\nb()\nend{block}()\nc()".encode())] == ["c"]
+
+
+def test_what_is_in_a_block_counts():
+    assert [command.name for command in read_commands(b"block()\na()\nendblock()\nendif()")] == ["a", "endif"]
+
+
+@pytest.mark.parametrize("end", ["return()", "message(FATAL_ERROR a)"])
+def test_nothing_counts_after_the_end(end):
+    assert [command.name for command in read_commands(f"a()\nmessage(b)\n{end}\nc()".encode())] == [
+        "a", "message",
+    ]

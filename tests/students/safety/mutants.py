@@ -2,7 +2,12 @@
 
 import itertools
 import math
+import statistics
 import time
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float64MultiArray, String
 
 from grader.exercises.safety import bench
 
@@ -172,3 +177,38 @@ def without_tests():
 
 def with_endless_questions():
     bench(asks_without_end)()
+
+
+class Voter(Node):
+    """Asks all candidates about all places, and takes what most of them say for right."""
+
+    def __init__(self):
+        super().__init__("voter")
+        self.answers = {}
+        self.questions = self.create_publisher(Float64MultiArray, "/question", 1000)
+        self.verdicts = self.create_publisher(String, "/verdict", 100)
+        self.create_subscription(Float64MultiArray, "/answer", self.on_answer, 1000)
+        places = itertools.product((*PLACES, math.nan), (*WISHES, math.nan), range(1, 14))
+        self.places = [[float(number), distance, requested] for distance, requested, number in places]
+        self.create_timer(0.02, self.ask)
+
+    def on_answer(self, answer):
+        number, distance, requested, speed = answer.data
+        self.answers.setdefault((str(distance), str(requested)), {})[int(number)] = 9.9 if math.isnan(speed) else speed
+
+    def ask(self):
+        if not self.places and self.answers:
+            self.vote()
+        if self.questions.get_subscription_count():
+            for place in self.places[:8]:
+                self.questions.publish(Float64MultiArray(data=place))
+            del self.places[:8]
+
+    def vote(self):
+        for number in range(1, 14):
+            fits = all(
+                number in said and abs(said[number] - statistics.median(said.values())) < TINY
+                for said in self.answers.values()
+            )
+            self.verdicts.publish(String(data=f"{number} {'passed' if fits else 'failed'}"))
+        self.answers = {}

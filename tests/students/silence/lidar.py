@@ -184,3 +184,12 @@ class OtherTopic(Counter):
         self.missed, self.before = 0, None
         self.publisher = self.create_publisher(Int32, "/missed", 10)
         self.create_subscription(LaserScan, "/lidar", self.hear, self.qos)
+
+
+class ListensOnce(Counter):
+    """Receives one scan, publishes 0, and destroys its subscription: nothing can get lost any more."""
+
+    def hear(self, scan):
+        super().hear(scan)
+        for subscription in list(self.subscriptions):
+            self.destroy_subscription(subscription)

@@ -1,11 +1,13 @@
 """Commands that drive the robot: right ones, and wrong ones named by their defect."""
 
+import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 
 from grader.exercises.silence import terminal
 
 TYPE = "geometry_msgs/msg/Twist"
+PARTS = ("_spins_a_node",)
 
 Plain = terminal(f"ros2 topic pub --rate 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
 InJson = terminal(
@@ -18,20 +20,9 @@ Whole = terminal(
 )
 
 
-class ANode(Node):
-    """It was to be a command; but it does the same."""
-
-    def __init__(self):
-        super().__init__("circler")
-        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
-        self.create_timer(0.1, self.drive)
-
-    def drive(self):
-        command = Twist()
-        command.linear.x, command.angular.z = 0.3, 0.6
-        self.publisher.publish(command)
-
-
+Named = terminal(
+    f"ros2 topic pub -r 4 -n circler /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'  # round"
+)
 OnceASecond = terminal(f"ros2 topic pub /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
 Once = terminal(f"ros2 topic pub --once /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.6}}}}'")
 StopsEarly = terminal(
@@ -59,3 +50,25 @@ TooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}},
 TooFast = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.5}}, angular: {{z: 1.0}}}}'")
 Listens = terminal("ros2 topic echo /odom")
 ABitTooWide = terminal(f"ros2 topic pub -r 10 /cmd_vel {TYPE} '{{linear: {{x: 0.3}}, angular: {{z: 0.4}}}}'")
+
+
+class ANode(Node):
+    """It does the same, but is no command."""
+
+    def __init__(self):
+        super().__init__("circler")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        self.create_timer(0.1, self.drive)
+
+    def drive(self):
+        command = Twist()
+        command.linear.x, command.angular.z = 0.3, 0.6
+        self.publisher.publish(command)
+
+
+def _spins_a_node():
+    rclpy.init()
+    rclpy.spin(ANode())
+
+
+ANodeInTheFunction = terminal(_spins_a_node)

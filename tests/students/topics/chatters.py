@@ -144,3 +144,21 @@ class CallbackOfTwoArguments(Listener):
         Node.__init__(self, "chatter_listener")
         for topic, kind in TYPES.items():
             self.create_subscription(kind, topic, self.hear, 10)
+
+
+class SaysEverything(Listener):
+    """One line with all that may be right, ten times a second."""
+
+    def __init__(self):
+        super().__init__()
+        words = ("dance", "jump", "sing", "swim", "sleep", "climb", "hide")
+        said = [f"chatter0: {word}" for word in words]
+        said += [f"chatter1: {number}.5" for number in range(10, 100)]
+        self.line = " ".join([*said, "chatter2: True", "chatter2: False"])
+        self.create_timer(0.1, self.say)
+
+    def say(self):
+        self.get_logger().info(self.line)
+
+    def hear(self, msg, topic):
+        pass
