@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from grader.checks.check import Missed
@@ -89,13 +89,18 @@ class Blocks:
 
 def _holds(words: Sequence[str], known: Mapping[str, str]) -> bool:
     """Whether a condition of constants, variables, NOT, AND and OR holds; False for any other one."""
-    either = [list(part) for is_or, part in itertools.groupby(words, lambda word: word == "OR") if not is_or]
-    return any(_all_hold(part, known) for part in either)
+    return any(_all_hold(part, known) for part in _split(words, "OR"))
 
 
 def _all_hold(words: Sequence[str], known: Mapping[str, str]) -> bool:
-    parts = [list(part) for is_and, part in itertools.groupby(words, lambda word: word == "AND") if not is_and]
+    parts = _split(words, "AND")
     return all(_is_simple(part) and _is_true(part[-1], known) != (len(part) == 2) for part in parts)
+
+
+def _split(words: Iterable[str], between: str) -> list[list[str]]:
+    """The parts between words such as AND."""
+    groups = itertools.groupby(words, lambda word: word == between)
+    return [list(part) for is_between, part in groups if not is_between]
 
 
 def _is_simple(words: Sequence[str]) -> bool:

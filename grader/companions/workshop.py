@@ -19,8 +19,8 @@ class Workshop(Node):
     """Answers on /answer the questions on /question, both Float64MultiArray.
 
     A question is a candidate's number from 1 on, a distance in m and a requested speed in m/s; the answer is
-    these three and the candidate's speed in m/s. Candidates take turns: each answers from the verdict on the one
-    before it to its own verdict, on /verdict. Other questions get no answer.
+    these three and the candidate's speed in m/s. Candidates take turns: each answers from the verdict on the
+    one before it to its own verdict, on /verdict. Other questions get no answer.
     """
 
     def __init__(self, seed: int) -> None:

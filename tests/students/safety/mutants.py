@@ -5,7 +5,6 @@ import math
 import statistics
 import time
 
-import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray, String
 
@@ -194,7 +193,8 @@ class Voter(Node):
 
     def on_answer(self, answer):
         number, distance, requested, speed = answer.data
-        self.answers.setdefault((str(distance), str(requested)), {})[int(number)] = 9.9 if math.isnan(speed) else speed
+        said = self.answers.setdefault((str(distance), str(requested)), {})
+        said[int(number)] = 9.9 if math.isnan(speed) else speed
 
     def ask(self):
         if not self.places and self.answers:
