@@ -12,16 +12,17 @@ COURSE = HERE.parent
 for sentence in work_folder.update_work_folder(COURSE):
     print(sentence)
 c.ServerApp.root_dir = str(work_folder.find_work_folder(COURSE))
-c.LabApp.default_url = "/lab/tree/course/start.ipynb"
+c.LabApp.default_url = "/lab"  # where the course's extension opens the start page
 # In a container root is the default user; elsewhere Jupyter is not started as root by accident.
 c.ServerApp.allow_root = os.geteuid() == 0
 # Students don't need nbgrader's extensions: its panels are hidden in labconfig/page_config.json, and the
 # course has its own Validate button, which shows points and doesn't block the server.
 # Notebook 7 has neither the robot panel nor Validate: its addresses lead to JupyterLab.
-sys.path.append(str(HERE))  # the folder of lab_addresses
+sys.path.append(str(HERE))  # the folder of lab_addresses and start_page
 c.ServerApp.jpserver_extensions = {
     "notebook": False,
     "lab_addresses": True,
+    "start_page": True,
     "nbgrader.server_extensions.validate_assignment": False,
     "nbgrader.server_extensions.formgrader": False,
     "nbgrader.server_extensions.assignment_list": False,

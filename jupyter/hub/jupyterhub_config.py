@@ -36,7 +36,7 @@ c.Authenticator.allowed_users = {*settings.students, *settings.teachers}
 
 CourseSpawner.settings = settings
 c.JupyterHub.spawner_class = CourseSpawner
-c.Spawner.default_url = "/lab/tree/course/start.ipynb"
+c.Spawner.default_url = "/lab"
 c.Spawner.http_timeout = c.Spawner.start_timeout = 120
 
 c.JupyterHub.load_groups = {

@@ -15,15 +15,18 @@ MARGIN = 8  # pixels
 CHARACTERS = 20_000  # of the description
 
 
-def graph_data(recording: Recording, *, counted: bool = True) -> dict[str, Any] | None:
+def graph_data(
+    recording: Recording, *, counted: bool = True, max_width: float = MAX_WIDTH
+) -> dict[str, Any] | None:
     """The layout of a graph in pixels, ready for JSON; None if there is no node.
 
     counted: as in `graph_diagram`. If False, the page itself writes rates into the boxes of topics.
+    max_width: inches; a graph that would be wider is drawn from top to bottom.
     """
     diagram = graph_diagram(recording, counted=counted)
     if not diagram.boxes:
         return None
-    layout = lay_out(diagram, MAX_WIDTH)
+    layout = lay_out(diagram, max_width)
     return {
         "width": round(layout.width * PIXELS) + 2 * MARGIN,
         "height": round(layout.height * PIXELS) + 2 * MARGIN,

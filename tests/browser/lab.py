@@ -21,6 +21,7 @@ ROOT = Path(__file__).parents[2]
 ARTIFACTS = ROOT / "test-artifacts"
 STUDENTS_FILES = ("course", "exercises", "jupyter", "nbgrader_config.py")
 SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # Lab may still hold one that a test before has closed
+START = ".ros2-course-start:not(.lm-mod-hidden)"  # the start page, as it shows
 # The notebook that shows: beside it may be the panel with its robot, which then is Lab's current widget.
 NOTEBOOK = """window.notebook = () => [...window.jupyterapp.shell.widgets('main')].find(
     panel => panel.content?.model?.cells && panel.isVisible);"""
@@ -158,13 +159,15 @@ class Lab:
         self.address = address
 
     def open(self, notebook: str = "") -> None:
-        """Load JupyterLab with a notebook (its path in the course) or its default page; await its kernel."""
+        """Load JupyterLab with a notebook, by its path, and await its kernel; or its start page."""
         workspace = uuid.uuid4().hex  # a new one each time: Lab would restore the tabs of the last test
         self.page.goto(f"{self.address}/lab/workspaces/{workspace}" if notebook else self.address)
         self.page.wait_for_function("window.jupyterapp")
         if notebook:
             self.page.evaluate(OPEN, notebook)
-        self.wait_for_kernel()
+            self.wait_for_kernel()
+        else:
+            self.page.locator(f"{START} .next").wait_for()
 
     def turn_to(self, notebook: str) -> None:
         """Open a notebook in the JupyterLab that shows; where none shows, load it."""

@@ -1,30 +1,65 @@
+import re
+
 import pytest
 
-from tests.browser.lab import SHOWN, write_notebook
+from tests.browser.lab import SHOWN, START, write_notebook
 
 pytestmark = pytest.mark.browser
 
 
-def test_lab_starts_with_the_map_of_the_course_and_leads_on_and_back(lab, students_folder):
+def test_lab_starts_with_the_start_page_and_leads_on_and_back(lab, students_folder):
     before = (students_folder / "course/start.ipynb").read_bytes()
     lab.open()
-    lab.page.locator(".jp-OutputArea-output caption", has_text="Your points so far: 0 of").wait_for()
+    start = lab.page.locator(START)
+    start.get_by_text("Your points so far: 0 of").wait_for()
+    assert start.locator("h2").all_inner_texts()[:4] == ["Talk", "Move", "See", "Whole robots"]
+    assert start.locator(".card").count() == 14 and start.locator(".jp-Cell").count() == 0
+    assert lab.page.request.get(f"{lab.address}/api/kernels").json() == []
     lab.screenshot("start")
-    assert lab.page.evaluate("() => window.notebook().content.activeCellIndex") == 0  # and so in view
-    lab.page.locator(".jp-OutputArea-output a", has_text="1 nodes (lesson)").first.click()
+    lab.page.keyboard.press("Tab")  # in the order of the page: the two links of its first lines, then Next
+    lab.page.keyboard.press("Tab")
+    lab.page.keyboard.press("Tab")
+    assert lab.page.evaluate("document.activeElement.className") == "next"
+    lab.page.keyboard.press("Enter")
     tab = lab.page.locator(".lm-TabBar-tabLabel")
+    tab.get_by_text("0 Robot: lesson", exact=True).wait_for()
+    lab.wait_for_kernel()
+    way(lab, "Next").click()
     tab.get_by_text("1 Nodes: lesson", exact=True).wait_for()
     lab.wait_for_kernel()
     way(lab, "Next").click()
     tab.get_by_text("1 Nodes: exercises", exact=True).wait_for()
     lab.wait_for_kernel()
-    way(lab, "Next").click()
-    tab.get_by_text("2 Topics: lesson", exact=True).wait_for()
-    lab.wait_for_kernel()
     way(lab, "Course").click()
-    lab.page.locator(".jp-OutputArea-output caption", has_text="Your points so far: 0 of").wait_for()
-    lab.wait_for_kernel()
+    start.get_by_role("link", name="2 Topics").click()
+    tab.get_by_text("2 Topics: lesson", exact=True).wait_for()
     assert (students_folder / "course/start.ipynb").read_bytes() == before
+
+
+def test_the_start_page_shows_what_was_run_since(lab, students_folder):
+    lesson = students_folder / "course/01_nodes/lesson.ipynb"
+    before = lesson.read_bytes()
+    lab.open()
+    ring = lab.page.locator(START).locator(".card", has_text="1 Nodes").get_by_role("img")
+    lab.page.locator(START).get_by_role("link", name="1 Nodes").click()
+    lab.wait_for_kernel()
+    lab.run_cell(1)
+    way(lab, "Course").click()
+    lab.page.wait_for_function("() => document.querySelector('[aria-label^=\"1 of \"]')")
+    assert ring.get_attribute("aria-label").startswith("1 of ")
+    lesson.write_bytes(before)
+
+
+def test_the_start_page_loads_nothing_and_names_what_is_missing(lab, students_folder):
+    page = lab.page.request.get(f"{lab.address}/ros2-course/start").text()
+    addresses = re.findall(r'(?:src|href)="(\w+:[^"]{1,20})', page)
+    assert {address.split(",")[0] for address in addresses} == {"data:image/svg+xml"}
+    (students_folder / "exercises").rename(students_folder / "away")
+    try:
+        answer = lab.page.request.get(f"{lab.address}/ros2-course/start")
+    finally:
+        (students_folder / "away").rename(students_folder / "exercises")
+    assert answer.status == 404 and "expected a folder with course/ and exercises/ above it" in answer.text()
 
 
 def way(lab, name):

@@ -45,6 +45,7 @@ def test_the_map_has_times_what_is_done_the_points_and_the_next_step(course):
         "1 nodes (lesson), ✔ done",
         "1 nodes (exercises), 6.5 of 16 points",
         "2 <topics> (lesson), 1 of 2 cells run",
+        "New version: course/02_topics/lesson-new.ipynb",
         "Your points so far: 6.5 of 16",
         "Next: 1 nodes (exercises)",
     ]
@@ -54,11 +55,59 @@ def test_the_map_has_times_what_is_done_the_points_and_the_next_step(course):
 
 def test_as_html_it_has_links_from_where_it_is_shown(course):
     page = course_map(course / "course")._repr_html_()
-    link = '<a href="../exercises/01_nodes/nodes.ipynb">1 nodes (exercises)</a>'
-    assert f"<b>Next step: {link}</b>, about an hour." in page
-    assert '<a href="../course/02_topics/lesson.ipynb">2 &lt;topics&gt; (lesson)</a>' in page
-    assert ">Python &amp; lesson 0</td>" in page and "Your points so far: 6.5 of 16</caption>" in page
+    next_step = "<span>Next</span><b>1 nodes (exercises)</b><span class=\"time\">about an hour</span></a>"
+    assert f'<a class="next" href="../exercises/01_nodes/nodes.ipynb">{next_step}' in page
+    assert '<h3><a href="../course/02_topics/lesson.ipynb">2 &lt;topics&gt;</a></h3>' in page
+    assert "Before: Python &amp; lesson 0</p>" in page and "Your points so far: 6.5 of 16</p>" in page
     assert 'href="exercises/01_nodes/nodes.ipynb"' in course_map(course)._repr_html_()
+
+
+def test_the_page_shows_progress_as_pictures_and_as_text(course):
+    page = course_map(course)._repr_html_()
+    done, half = page.split('<li class="card')[1:]
+    assert 'aria-label="done"' in done and "stroke-dasharray=\"100 100\"" in done
+    assert '<i style="width: 41%"></i>' in done and "<span>6.5 of 16 points</span>" in done
+    assert done.startswith(" now")
+    assert 'aria-label="1 of 2 cells run"' in half and "stroke-dasharray=\"50 100\"" in half
+
+
+def test_chapters_are_those_of_the_file_and_the_rest_comes_last(course):
+    assert [chapter.title for chapter in course_map(course).chapters] == [""]
+    listed = [
+        {"title": "Empty", "about": "", "parts": ["05_sensing"]},
+        {"title": "See & move", "about": "Both.", "parts": ["02_topics"]},
+    ]
+    (course / "course/chapters.json").write_text(json.dumps(listed))
+    shown = [(each.title, [part.name for part in each.parts]) for each in course_map(course).chapters]
+    assert shown == [("See & move", ["02_topics"]), ("More", ["01_nodes"])]
+    assert "<h2>See &amp; move</h2><p>Both.</p>" in course_map(course)._repr_html_()
+    (course / "course/chapters.json").write_text('{"title": 1}')
+    assert [chapter.title for chapter in course_map(course).chapters] == [""]
+
+
+def test_a_new_version_of_a_changed_notebook_is_reported(course):
+    page = course_map(course)._repr_html_()
+    first = '<a href="course/02_topics/lesson.ipynb">course/02_topics/lesson.ipynb</a>'
+    second = '<a href="course/02_topics/lesson-new.ipynb">lesson-new.ipynb</a>'
+    assert f"<li>There is a new version of {first}. Yours is unchanged; the new one is {second}.</li>" in page
+    assert "New version: course/02_topics/lesson-new.ipynb" in repr(course_map(course))
+    (course / "course/02_topics/lesson-new.ipynb").unlink()
+    assert "new version" not in course_map(course)._repr_html_()
+
+
+def test_the_picture_of_a_goal_is_an_image_in_which_nothing_can_run(course):
+    (course / "course/01_nodes/goal.svg").write_text('<svg onload="alert(1)"><rect fill="#fff"/></svg>')
+    page = course_map(course)._repr_html_()
+    assert 'alt="" src="data:image/svg+xml,%3Csvg onload=%22alert(1)%22%3E%3Crect' in page
+    assert "<svg onload" not in page
+
+
+def test_each_lesson_of_the_course_is_in_a_chapter_and_has_a_picture():
+    chapters = course_map(ROOT / "course").chapters
+    assert [chapter.title for chapter in chapters] == ["Talk", "Move", "See", "Whole robots"]
+    parts = [part for chapter in chapters for part in chapter.parts]
+    assert [part.name for part in parts if not part.picture.startswith("<svg ")] == []
+    assert max(len(part.picture) for part in parts) < 8_000
 
 
 def test_all_done_is_reported(course):

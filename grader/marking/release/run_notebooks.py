@@ -73,21 +73,25 @@ def run_notebook(path: Path) -> ExecutedNotebook:
 
 def execute(path: Path) -> tuple[NotebookNode, tuple[str, ...]]:
     """The notebook with its outputs, and why it stopped early, if it did. The file is not changed."""
+    notebook = nbformat.read(path, 4)
+    return notebook, execute_notebook(notebook, path)
+
+
+def execute_notebook(notebook: NotebookNode, path: Path) -> tuple[str, ...]:
+    """Execute a notebook as if it were the file at this path; returns why it stopped early, if it did."""
     with tempfile.TemporaryDirectory() as place:
         # Lessons write files, and read others beside them.
         folder = Path(shutil.copytree(path.resolve().parent, Path(place, path.resolve().parent.name)))
         beside = path.resolve().parents[1] / "exercises"
         if beside.is_dir():  # the start page lists both
             Path(place, "exercises").symlink_to(beside)
-        notebook = nbformat.read(folder / path.name, 4)
         options = {"interrupt_on_timeout": True, "extra_arguments": KERNEL_OPTIONS}
         client = notebook_client(notebook, SECONDS_PER_CELL, **options)
         try:
             client.execute(cwd=str(folder))
-            stopped = ()
         except DeadKernelError:
-            stopped = ("its kernel died.",)
-    return notebook, stopped
+            return ("its kernel died.",)
+    return ()
 
 
 def notebook_client(notebook: NotebookNode, seconds: float, **options: Any) -> NotebookClient:

@@ -5,22 +5,26 @@ import { RobotPanel, RobotSidebar, robotRenderer, ROBOT } from "./robot_panel.js
 import { imageRenderer } from "./images.js";
 import { waitingExecutor } from "./cell_executor.js";
 import { navigationButtons, renameTab } from "./tabs.js";
-import { refreshStartPage } from "./start.js";
+import { startPage } from "./start.js";
 import { validateButton } from "./validate.js";
 
 const AFTER_RUN_ALL = 9; // index in a notebook's toolbar
 
 export async function plugins(share) {
-  const [notebooks, apputils, rendermime, widgets, { LabIcon }] = await Promise.all([
-    "@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets", "@jupyterlab/ui-components",
-  ].map(share));
-  const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets, LabIcon };
+  const [notebooks, apputils, rendermime, widgets, { LabIcon }, { ILayoutRestorer }, { PageConfig }, { ServerConnection }] =
+    await Promise.all([
+      "@jupyterlab/notebook", "@jupyterlab/apputils", "@jupyterlab/rendermime", "@lumino/widgets", "@jupyterlab/ui-components",
+      "@jupyterlab/application", "@jupyterlab/coreutils", "@jupyterlab/services",
+    ].map(share));
+  const lab = { ...notebooks, ...apputils, ...rendermime, ...widgets, LabIcon, ILayoutRestorer, PageConfig, ServerConnection };
   return [waitingExecutor(lab), {
     id: "ros2-course:notebooks",
     description: "The robot beside the code, Validate, and the names of the tabs.",
     autoStart: true,
     requires: [lab.INotebookTracker, lab.IRenderMimeRegistry],
-    activate: (app, tracker, registry) => {
+    optional: [lab.ILayoutRestorer],
+    activate: (app, tracker, registry, restorer) => {
+      startPage(lab, app, tracker, restorer);
       const comms = new Map();
       const sidebar = new RobotSidebar(lab, app, tracker);
       const commOf = (node) => comms.get(tracker.find((panel) => panel.node.contains(node)));
@@ -38,7 +42,6 @@ export async function plugins(share) {
         const buttons = [robotPanel.button(), validateButton(lab, app, panel), ...navigationButtons(lab, app, panel)];
         buttons.forEach((button, i) => panel.toolbar.insertItem(AFTER_RUN_ALL + i, `ros2-course-${i}`, button));
         renameTab(panel);
-        refreshStartPage(lab, app, panel, tracker);
       };
       tracker.widgetAdded.connect(extend);
       tracker.forEach((panel) => extend(null, panel));

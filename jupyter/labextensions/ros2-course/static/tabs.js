@@ -1,11 +1,10 @@
 // Distinct tab names, because all lessons have the same file name; and buttons to the map and the next notebook.
 
-import { START } from "./start.js";
+import { OPEN_START } from "./start.js";
 
 const FILE = /^(?:.*\/)?(course|exercises)\/(\d\d)_(\w+)\/(\w+)\.ipynb$/;
 
 export function tabName(path) {
-  if (path === START) return "Course";
   const [, , number, topic, file] = FILE.exec(path) ?? [];
   if (!number) return "";
   const subject = topic[0].toUpperCase() + topic.slice(1).replaceAll("_", " ");
@@ -46,9 +45,10 @@ export function navigationButtons(lab, app, panel) {
   const button = (label, tooltip, onClick) => new lab.ToolbarButton({ label, tooltip, onClick });
   if (!FILE.test(panel.context.path)) return [];
   return [
-    button("Course", "Back to the map of the course", () => open(START)),
+    button("Course", "Back to the start page of the course", () => app.commands.execute(OPEN_START)),
     button("Next", "On to the notebook that comes next", async () => {
-      open(await nextNotebook(app.serviceManager.contents, panel.context.path) ?? START);
+      const next = await nextNotebook(app.serviceManager.contents, panel.context.path);
+      return next ? open(next) : app.commands.execute(OPEN_START);
     }),
   ];
 }

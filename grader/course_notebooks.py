@@ -1,0 +1,151 @@
+"""Reads a course from its files: notebooks with progress and points, chapters, dates, new versions."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+PART = re.compile(r"(\d\d)_(\w+)")
+# Metadata in the text of a notebook's first cell.
+TIME = re.compile(r"\*\*Time:\*\*\s+([^.]+)\.")
+NEEDS = re.compile(r"\*\*Before you begin:\*\*\s+([^.]+)\.")
+DONE = 0.9  # fraction of a lesson's cells that counts as done
+DUE = "due.json"  # in course/; `python -m grader due` writes it
+CHAPTERS = "chapters.json"  # in course/
+PICTURE = "goal.svg"  # in a lesson's folder
+FOLDERS = ("course", "exercises")
+NEW_VERSION = "-new"  # suffix of a new version that was saved next to the student's file
+
+
+@dataclass(frozen=True)
+class Notebook:
+    """The state of a lesson or an assignment in its file. A lesson has 0 of 0 points."""
+
+    path: Path
+    title: str
+    time: str
+    needs: str
+    cells: int
+    run: int
+    points: float
+    most: float
+
+    @property
+    def name(self) -> str:
+        """Its number, title and kind."""
+        return f"{int(self.path.parent.name[:2])} {self.title} ({self.kind})"
+
+    @property
+    def kind(self) -> str:
+        """ "lesson" or "exercises"."""
+        return "exercises" if self.most else "lesson"
+
+    @property
+    def done(self) -> bool:
+        """Whether enough cells were run, or all points earned."""
+        return self.points >= self.most if self.most else self.run >= DONE * self.cells > 0
+
+
+@dataclass(frozen=True)
+class CoursePart:
+    """A lesson and its assignments, which are in folders of the same name, such as 01_nodes.
+
+    picture: the SVG of the lesson's goal; "" if it has none. due: in local time; "" if there is no date.
+    """
+
+    name: str
+    notebooks: tuple[Notebook, ...]
+    picture: str = ""
+    due: str = ""
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """Parts of the course that belong together."""
+
+    title: str
+    about: str
+    parts: tuple[CoursePart, ...]
+
+
+def read_chapters(file: Path) -> list[tuple[str, str, list[str]]]:
+    """The title, the description and the names of the parts of each chapter."""
+    try:
+        data = json.loads(read_text(file))
+        return [(str(each["title"]), str(each["about"]), [*map(str, each["parts"])]) for each in data]
+    except (ValueError, TypeError, KeyError):
+        return []
+
+
+def new_versions(root: Path) -> list[tuple[Path, Path]]:
+    """Files that the student has changed, each with its new version, which is saved next to it."""
+    found = [path for folder in FOLDERS for path in (root / folder).glob(f"*/*{NEW_VERSION}.*")]
+    pairs = [(path.with_stem(path.stem.removesuffix(NEW_VERSION)), path) for path in sorted(found)]
+    return [(own, new) for own, new in pairs if own.exists()]
+
+
+def read_text(file: Path) -> str:
+    """The text of a file; "" if it can't be read."""
+    try:
+        return file.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return ""
+
+
+def read_due_dates(file: Path) -> dict[str, datetime]:
+    """When the assignments are due (UTC), as the instructor wrote it."""
+    try:
+        data = json.loads(file.read_text(encoding="utf-8"))
+        return {name: datetime.fromisoformat(when) for name, when in data.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
+
+
+def read_notebooks(root: Path) -> Iterator[Notebook]:
+    """Lessons and assignments in the order of the course."""
+    found = [path for folder in FOLDERS for path in (root / folder).glob("*/*.ipynb")]
+    found = [path for path in found if PART.fullmatch(path.parent.name) and NEW_VERSION not in path.stem]
+    for path in sorted(found, key=lambda path: (path.parent.name, path.parent.parent.name, path.name)):
+        try:
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+            yield _notebook(path, [cell | {"source": "".join(cell["source"])} for cell in cells])
+        except (AttributeError, KeyError, OSError, TypeError, ValueError):
+            continue  # invalid; JupyterLab reports it when it is opened
+
+
+def _notebook(path: Path, cells: list[dict[str, Any]]) -> Notebook:
+    text = "\n".join(cell["source"] for cell in cells if cell["cell_type"] == "markdown")
+    code = [cell for cell in cells if cell["cell_type"] == "code" and cell["source"].strip()]
+    tests = [cell for cell in code if cell["metadata"].get("nbgrader", {}).get("grade")]
+    title = next(iter(re.findall(r"^# (?:.*?: )?(.+)$", text, re.MULTILINE)), path.stem)
+    needs = f"lesson {int(path.parent.name[:2])}" if tests else ""
+    return Notebook(
+        path=path,
+        title=title,
+        time=_phrase(TIME, text),
+        needs=_phrase(NEEDS, text) or needs,
+        cells=len(code),
+        run=sum(cell.get("execution_count") is not None for cell in code),
+        points=sum(map(_earned, tests)),
+        most=sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in tests),
+    )
+
+
+def _phrase(pattern: re.Pattern[str], text: str) -> str:
+    """The first match of the pattern, on one line; "" without a match."""
+    return " ".join(next(iter(pattern.findall(text)), "").replace("`", "").split())
+
+
+def _earned(cell: dict[str, Any]) -> float:
+    """The points in the output of a test cell; 0 without a score."""
+    most = cell["metadata"]["nbgrader"].get("points", 0)
+    for output in cell.get("outputs", []):
+        text = "".join(output.get("data", {}).get("text/plain", ""))
+        if output["output_type"] == "execute_result" and re.fullmatch(r"\d+(\.\d+)?", text):
+            return min(float(text), most)
+    return 0.0
