@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from tests.rules.table import CATEGORIES, TABLES, WRITTEN, Rule, table_of
+from tests.rules.table import CATEGORIES, LESSONS, TABLES, Rule, table_of
 
 PAGE = TABLES / "RULES.md"
 HEAD = """# What the lessons teach, and what looks for it
@@ -19,14 +19,14 @@ at this check, and right nodes that keep the rule and earn everything; or the re
 def render() -> str:
     """The page, as Markdown."""
     parts = [HEAD, "\n".join(_totals()), "Why a rule has no check:\n", "\n".join(_reasons())]
-    return "\n".join([*parts, *(f"\n{_lesson(lesson)}" for lesson in WRITTEN)]) + "\n"
+    return "\n".join([*parts, *(f"\n{_lesson(lesson)}" for lesson in LESSONS)]) + "\n"
 
 
 def _totals() -> Iterator[str]:
     yield _row("lesson", "rules", "checked", *CATEGORIES)
     yield _row(*["--"] * (3 + len(CATEGORIES)))
     total: Counter[str] = Counter()
-    for lesson in WRITTEN:
+    for lesson in LESSONS:
         count = Counter(rule.category for rule in table_of(lesson).rules)
         yield _counts(lesson, count)
         total += count

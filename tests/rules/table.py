@@ -16,25 +16,23 @@ sentences that state no rule, though they have one of the words that rules mostl
 
 from __future__ import annotations
 
+import ast
 import functools
-import inspect
 import json
 import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from grader.diagnosis.fault import Fault
-from tests.exercises.score_tables import page, students
+from tests.exercises.score_tables import page
 from tests.exercises.seeds import exercise_of, right_nodes
 
 ROOT = Path(__file__).parents[2]
 TABLES = Path(__file__).parent
 LESSONS = tuple(sorted(path.parent.name for path in ROOT.glob("course/*/lesson.ipynb")))
 
-WRITTEN = tuple(lesson for lesson in LESSONS if (TABLES / f"{lesson}.toml").exists())
 
 # Why a rule has no check.
 CATEGORIES = {
@@ -180,23 +178,35 @@ def _sentence(topic: str, exercise: str, function: str) -> str:
 
 
 def source_of(topic: str, exercise: str, node: str) -> str:
-    """The source of a student's node, with everything of its module that it uses."""
-    item = students(topic, exercise)[node]
-    module = inspect.getmodule(item) if inspect.isclass(item) or inspect.isfunction(item) else None
-    if module is None:  # a Process, or a package
-        return repr(vars(item))
-    names, found = [node], {}
+    """The source of a student's node, with everything of the students' modules that it uses."""
+    found: dict[tuple[str, str], str] = {}
+    names = [(f"tests.students.{topic}.{exercise}", node)]
     while names:
-        name = names.pop()
-        found[name] = text = _definition(vars(module).get(name), module.__name__)
-        names += [word for word in set(re.findall(r"\w+", text)) - set(found) if word in vars(module)]
+        module, name = names.pop()
+        definition = _definitions(module).get(name)
+        if isinstance(definition, tuple):
+            names.append(definition)
+        elif definition and (module, name) not in found:
+            found[module, name] = definition
+            names += [(module, word) for word in re.findall(r"\w+", definition)]
     return "\n".join(found.values())
 
 
-def _definition(item: Any, module: str) -> str:
-    if (inspect.isclass(item) or inspect.isfunction(item)) and item.__module__ == module:
-        return inspect.getsource(item)
-    return ""
+@functools.cache
+def _definitions(module: str) -> dict[str, str | tuple[str, str]]:
+    """The source of what a module defines, by name; for what it imports from students: module and name."""
+    text = (ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+    found: dict[str, str | tuple[str, str]] = {}
+    for item in ast.parse(text).body:
+        if isinstance(item, ast.ImportFrom) and (item.module or "").startswith("tests.students."):
+            found |= {name.asname or name.name: (item.module, name.name) for name in item.names}
+        elif isinstance(item, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            found[item.name] = ast.get_source_segment(text, item)
+        elif isinstance(item, ast.Assign):
+            targets = (part for target in item.targets for part in ast.walk(target))
+            names = (part.id for part in targets if isinstance(part, ast.Name))
+            found |= dict.fromkeys(names, ast.get_source_segment(text, item))
+    return found
 
 
 def one_line(text: str) -> str:
