@@ -9,7 +9,7 @@ from sim.evidence import Goal, Recording
 
 SOON = 0.3  # seconds from what a client receives to its log line
 
-customer = Exercise("customer", "A client that hears how it goes", scenarios=[
+customer = Exercise("customer", "A client that receives feedback", scenarios=[
     Scenario(seconds=10, seed=1, companions=[LateFibonacci], name="late"),
     Scenario(seconds=10, seed=2, companions=[BusyFibonacci], name="busy"),
 ], may_end=True)
