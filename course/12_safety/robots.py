@@ -72,10 +72,12 @@ class Button(Timed):
 class Manager(Timed):
     """Leads the node /motor through its life: configure at 1 s, activate at 2 s, deactivate at 5 s."""
 
+    last = "deactivate"
+
     def __init__(self):
         super().__init__("manager")
         self.client = self.create_client(ChangeState, "/motor/change_state")
-        self.plan = [(5.0, "deactivate"), (2.0, "activate"), (1.0, "configure")]
+        self.plan = [(5.0, self.last), (2.0, "activate"), (1.0, "configure")]
 
     def tick(self, now):
         """Ask for the transition that is due."""
@@ -83,3 +85,9 @@ class Manager(Timed):
             request = ChangeState.Request()
             request.transition.label = self.plan.pop()[1]
             self.client.call_async(request)
+
+
+class Ending(Manager):
+    """As Manager, but at 5 s it shuts the node down while it is active."""
+
+    last = "shutdown"

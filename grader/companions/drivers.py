@@ -41,7 +41,8 @@ class EmergencyOperator(TimedNode):
     """Drives (Twist on /cmd_vel_raw) and holds the emergency button (Bool on /emergency, all the time).
 
     Presses it while driving, calls /reset with the button pressed, once or twice, releases it, drives on all
-    the time, goes silent, calls /reset again, drives on later. Then the button's cable is cut for some time.
+    the time, goes silent, calls /reset again, drives on later. Then the button's cable is cut for some time,
+    in which it calls /reset once more.
     """
 
     def __init__(self) -> None:
@@ -53,7 +54,7 @@ class EmergencyOperator(TimedNode):
         sides = random.choice((-1.0, 1.0)), random.choice((-1.0, 1.0))
         self.speeds = [(random.uniform(0.15, 0.35), side * random.uniform(0.1, 0.5)) for side in sides]
         again = random.choice(([], [refused + 0.25]))  # so that counting the calls is no solution
-        self.resets = [accepted, *again, refused]
+        self.resets = [self.cut + random.uniform(1.1, 1.4), accepted, *again, refused]
         self.commands = self.create_publisher(Twist, RAW, 10)
         self.button = self.create_publisher(Bool, BUTTON, 10)
         self.client = self.create_client(Trigger, RESET)

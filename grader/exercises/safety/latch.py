@@ -15,6 +15,8 @@ SOON, BRAKING, DEAF = 0.1, 0.4, 1.0  # s: to pass on, to stop, and to stop when 
 LATELY = 0.25  # s, for which a command may be repeated
 LATCH = ("It let go by itself. Remember in self.stopped that it was pressed: only /reset may make that "
          "False again, and not a False from the button.")
+BROKEN = ("A broken cable counts as pressed: as long as the button is silent, refuse /reset. Not the timer "
+          "alone: reset, too, has to look at how old the button's last message is.")
 
 latch = Exercise("latch", "An emergency stop that stays", world="yard", seconds=14,
                  companions=[EmergencyOperator], seeds=(1, 2))
@@ -80,15 +82,18 @@ def stays_stopped(run: Recording) -> None:
 
 @latch.check(3, after=stops)
 def answers_resets(run: Recording) -> None:
-    """/reset is refused while the button is in (success=False), and granted afterwards (success=True)."""
-    granted = _granted(run)
+    """/reset is refused while the button is in or silent (success=False), and granted else (success=True)."""
+    granted, cut = _granted(run), _times(run).cut
     for call in requests_from_course(run, RESET):
-        right = call.requested >= granted.requested
+        broken, released = call.requested > cut, call.requested >= granted.requested
+        right = released and not broken
         if call.response is None or call.response.success is not right:
             saw = "no answer" if call.response is None else f"success={call.response.success}"
-            state = "let go" if right else "still in"
+            state = "'s cable broken" if broken else " let go" if released else " still in"
             hint = "response.success says whether it could be done; return the response. Ask self.pressed."
-            raise Missed(f"success={right} at {call.requested:.3g} s, with the button {state}", saw, hint)
+            expected = f"success={right} at {call.requested:.3g} s, with the button{state}"
+            granted_unsafely = call.response is not None and call.response.success
+            raise Missed(expected, saw, BROKEN if broken else hint, unsafe=granted_unsafely)
 
 
 @latch.check(2, after=(lets_through, stays_stopped))
@@ -105,9 +110,11 @@ def stops_without_the_button(run: Recording) -> None:
     """A button that is silent for 0.5 s counts as pressed: the robot stands 1 s after its last word."""
     when = _times(run)
     hint = "A broken cable can't say True. A timer looks at how long ago the button said something."
-    deaf = Window(when.cut + DEAF, when.cut + 1.5)
-    require_standing(run, deaf, f"{DEAF:g} s after the button's last word", hint)
-    require_standing(run, Window(when.cut + 1.5, run.ended.stamp), "until somebody resets it", LATCH)
+    resets = [call for call in requests_from_course(run, RESET) if call.requested > when.cut]
+    asked = resets[0].requested if resets else when.cut + DEAF
+    require_standing(run, Window(when.cut + DEAF, asked), f"{DEAF:g} s after the button's last word", hint)
+    hint = BROKEN if any(call.response and call.response.success for call in resets) else LATCH
+    require_standing(run, Window(asked, run.ended.stamp), "until somebody resets it", hint)
 
 
 def _times(run: Recording) -> Times:
@@ -129,7 +136,7 @@ def _is_free(stamp: Seconds, when: Times) -> bool:
 
 
 def _granted(run: Recording) -> Call:
-    """The call that comes when the button is released; there is one before it or two."""
+    """The call that comes when the button is released; there is one before it or two, and one after it."""
     made, release = requests_from_course(run, RESET), _times(run).release
     after = [call for call in made if call.requested > release]
     if not after or len(made) < 2:

@@ -33,15 +33,18 @@ class Stop(Node):
             self.stop()
 
     def watch(self):
-        if self.now() - self.heard > self.patience:
+        if self.is_silent():
             self.stop()
 
     def stop(self):
         self.stopped = True
         self.commands.publish(Twist())
 
+    def is_silent(self):
+        return self.now() - self.heard > self.patience
+
     def reset(self, request, response):
-        response.success = not self.pressed
+        response.success = not self.pressed and not self.is_silent()
         if response.success:
             self.stopped = False
         return response
@@ -70,6 +73,28 @@ class RepeatsByATimer(Stop):
     def stop(self):
         self.last = Twist()
         super().stop()
+
+
+class ReleasedUntil(Stop):
+    """A design of its own: each False of the button holds for so long; a reset needs one that still holds."""
+
+    def __init__(self):
+        super().__init__()
+        self.released_until = self.now() + self.patience
+
+    def press(self, msg):
+        self.released_until = 0.0 if msg.data else self.now() + self.patience
+        if msg.data:
+            self.stop()
+
+    def watch(self):
+        if self.now() > self.released_until:
+            self.stop()
+
+    def reset(self, request, response):
+        response.success = self.now() < self.released_until
+        self.stopped = self.stopped and not response.success
+        return response
 
 
 def main():
@@ -149,6 +174,17 @@ class NeverResets(Stop):
         return response
 
 
+class ResetsWithABrokenCable(Stop):
+    """Counts a silent button as pressed in the timer alone, and lets go until it looks again."""
+
+    def is_silent(self):
+        return False
+
+    def watch(self):
+        if Stop.is_silent(self):
+            self.stop()
+
+
 class SaysNoAndDoes(Stop):
     """Lets go, and forgets to say so."""
 
@@ -195,7 +231,7 @@ class ForgetsTheReset(Stop):
     """Stays stopped though it says yes."""
 
     def reset(self, request, response):
-        response.success = not self.pressed
+        response.success = not self.pressed and not self.is_silent()
         return response
 
 
