@@ -108,7 +108,9 @@ def stops_when_canceled(run: Recording) -> Goal:
     if goal.status != "canceled" or goal.ended is None or goal.ended - requested > 0.5:
         expected = f"{_text(goal)} canceled within 0.5 s of {requested:.3g} s"
         guess = "In the loop: if goal_handle.is_cancel_requested, stop, canceled() and return."
-        raise Missed(expected, state(goal), guess=guess)
+        after = _turned(run, goal)
+        moves = abs(after(requested + 2.0) - after(requested + 0.8)) > 0.05
+        raise Missed(expected, state(goal), guess=guess, unsafe=moves)
     turned_by = _turned(run, goal)
     moved = turned_by(requested + 2.0) - turned_by(requested + 0.8)
     if abs(moved) > 0.05:

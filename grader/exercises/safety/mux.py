@@ -56,8 +56,13 @@ def passes_the_navigator(run: Recording) -> None:
 def joystick_wins(run: Recording) -> None:
     """While the joystick speaks, it alone counts, also where it says 0."""
     samples = [sample for sample in _samples(run) if sample.joy]
-    _compare(run, [sample for sample in samples if sample.joy != (0.0, 0.0)], JOY, FIRST)
-    _compare(run, [sample for sample in samples if sample.joy == (0.0, 0.0)], JOY, ZERO)
+    stops = [sample for sample in samples if sample.joy == (0.0, 0.0)]
+    try:
+        _compare(run, [sample for sample in samples if sample.joy != (0.0, 0.0)], JOY, FIRST)
+    except Missed as missed:
+        missed.unsafe = any(sample.sent is not None and any(sample.sent) for sample in stops)
+        raise
+    _compare(run, stops, JOY, ZERO)
 
 
 @mux.check(3, after=joystick_wins)
@@ -89,7 +94,8 @@ def _compare(run: Recording, samples: list[MuxSample], topic: str, hint: str) ->
         if sample.sent is None or not same(sample.sent, sample.wanted(topic), SAME):
             saw = f"no command for {SILENT:g} s" if sample.sent is None else speeds_text(sample.sent)
             expected = f"{speeds_text(sample.wanted(topic))} at {sample.stamp:.3g} s, as on {topic}"
-            raise Missed(expected, saw, hint, picture="topics")
+            is_stop = sample.sent is not None and not any(sample.wanted(topic))
+            raise Missed(expected, saw, hint, picture="topics", unsafe=is_stop)
 
 
 def _samples(run: Recording) -> list[MuxSample]:

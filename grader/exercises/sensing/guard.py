@@ -133,10 +133,10 @@ def stops_with_late_scans(run: Recording) -> None:
     """When the scans come 1 s late, the robot stands within 1 s."""
     hint = ("Scans do come, 20 in a second, but they are old. The age is not the time since the scan came, "
             "but the time since it was measured: now minus msg.header.stamp.")
-    _stands(run, _delays(run), "the last scan that came in time", hint, unsafe=False)
+    _stands(run, _delays(run), "the last scan that came in time", hint)
 
 
-def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsafe: bool = True) -> None:
+def _stands(run: Recording, windows: list[Window], what: str, hint: str) -> None:
     """Raise Missed where the robot still moves, 1 s after a window has begun."""
     for begin, end in windows:
         path = Window(begin + SETTLING, end).rows(run.path)
@@ -144,7 +144,7 @@ def _stands(run: Recording, windows: list[Window], what: str, hint: str, *, unsa
         if fastest and fastest.linear > STANDING:
             expected = f"the robot standing, {SETTLING:g} s after {what} (at {begin:.3g} s)"
             saw = f"it drives at {fastest.linear:.2f} m/s at {fastest.stamp:.3g} s"
-            raise Missed(expected, saw, hint, picture="topics", unsafe=unsafe)
+            raise Missed(expected, saw, hint, picture="topics", unsafe=True)
 
 
 def _text(command: Speeds | None) -> str:
