@@ -81,6 +81,15 @@ class Reader(ServiceCaller):
         call_at(self, 0.7, lambda: self.call(self.get, GetParameters.Request(names=["speed"])))
 
 
+class ModeReader(ServiceCaller):
+    """Reads the parameter `mode` of /manager."""
+
+    def __init__(self) -> None:
+        super().__init__("reader")
+        self.get = self.create_client(GetParameters, "/manager/get_parameters")
+        call_at(self, 0.7, lambda: self.call(self.get, GetParameters.Request(names=["mode"])))
+
+
 class Tuner(Reader):
     """Reads the parameter `speed` of /cruiser, then sets it: to allowed values, and to others."""
 

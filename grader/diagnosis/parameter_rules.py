@@ -11,6 +11,16 @@ PARAMETER_RULES = (
         "`1` and `1.0` are two types; use the same one in both places.",
     ),
     Rule(
+        "InvalidParameterValueException", r"Callback returned an invalid type: (.+)",
+        "The check has to return a SetParametersResult for each value, also for one that is fine: end it "
+        "with `return SetParametersResult(successful=True)`.",
+    ),
+    Rule(
+        "InvalidParameterValueException", r"value \((.*)\) for parameter\. Reason: .*: (.+)",
+        "The check refuses {0}, with which `{1}` starts: its default, or the value that the program was "
+        "given. Which values does it let through?",
+    ),
+    Rule(
         "ParameterAlreadyDeclaredException", r"\['(.+)'\]",
         "The parameter `{0}` is declared twice: call declare_parameter('{0}', default) once, in __init__.",
     ),

@@ -65,6 +65,25 @@ class ChecksOneParameter(Wheel):
         return SetParametersResult(successful=parameters.value > 0)
 
 
+class ChecksFirst(Wheel):
+    """As it should be; the two below refuse the value that it declares."""
+
+    def __init__(self):
+        Node.__init__(self, "wheel")
+        self.add_on_set_parameters_callback(self.check)
+        self.declare_parameter("radius", 0.1)
+
+
+class ReturnsNothing(ChecksFirst):
+    def check(self, parameters):
+        pass
+
+
+class RefusesItsDefault(ChecksFirst):
+    def check(self, parameters):
+        return SetParametersResult(successful=parameters[0].value > 1.0, reason="too small")
+
+
 class SaysYesByPosition(Wheel):
     def check(self, parameters):
         return SetParametersResult(True)

@@ -1,13 +1,18 @@
 """A mode manager: a parameter, two services and a bumper."""
 
+from functools import partial
+
 from grader.checks import Missed, course_calls, ends_with_a_stop, named, offers, publishes, wrong_response
 from grader.checks.fields import plain
 from grader.checks.services import call_text, is_refusal, is_success, response_fields
-from grader.companions.service_clients import Operator
-from grader.exercise import Exercise
+from grader.companions.parameter_start import started_with
+from grader.companions.service_clients import ModeReader, Operator
+from grader.exercise import Exercise, Scenario
 from sim.evidence import Call, Recording, Seconds
 
-ARM, RESET, SET = "/arm", "/reset", "/manager/set_parameters"
+ARM, RESET = "/arm", "/reset"
+GET, SET = "/manager/get_parameters", "/manager/set_parameters"
+STRANGE = "sideways"  # a mode with which it is started once
 Velocity = tuple[float, float]  # m/s, rad/s
 MODES = {"idle": (0.0, 0.0), "ahead": (0.4, 0.0), "back": (-0.3, 0.0), "circle": (0.2, 0.8)}
 STOPPED: Velocity = (0.0, 0.0)
@@ -19,10 +24,14 @@ DRIVE = (
 BUMPED = "In on_bumper, when the robot has just bumped: self.armed = False and self.bumped = True."
 UNARMED = "Only arming makes the robot drive: look at self.armed in drive, and send zeros without it."
 
-modes = Exercise("modes", "A mode manager", world="room", seconds=40, companions=[Operator], seeds=(1, 2))
+modes = Exercise("modes", "A mode manager", scenarios=[
+    Scenario("room", 40, 1, [Operator], name="operated"),
+    Scenario("room", 40, 2, [Operator], name="operated"),
+    Scenario("room", 2, 1, [ModeReader], name="strange", prepare=partial(started_with, "mode", STRANGE)),
+])
 
 
-@modes.check(3)
+@modes.check(3, only="operated")
 def offers_its_services(run: Recording) -> None:
     """The node /manager offers /arm (SetBool) and /reset (Trigger), and has a parameter `mode`."""
     named(run, "/manager")
@@ -37,7 +46,7 @@ def offers_its_services(run: Recording) -> None:
         raise wrong_response(f"successful=True for {call_text(first)}", first, guess)
 
 
-@modes.check(5, after=offers_its_services)
+@modes.check(5, after=offers_its_services, only="operated")
 def drives_as_the_mode_says(run: Recording) -> Seconds:
     """While it is armed, /cmd_vel says what the mode says; otherwise it says zero."""
     publishes(run, "/cmd_vel", "geometry_msgs/msg/Twist")
@@ -58,14 +67,17 @@ def drives_as_the_mode_says(run: Recording) -> Seconds:
 
 @modes.check(3, after=offers_its_services)
 def refuses_other_modes(run: Recording) -> None:
-    """A mode that it doesn't know is refused, with a reason."""
+    """A mode that it doesn't know is refused, with a reason; also at the start."""
+    if not run.calls_of(SET):  # nobody sets it in this run
+        _starts_with_no_other(run)
+        return
     call = next(call for call in course_calls(run, SET, at_least=3) if _mode(call) not in MODES)
     if not is_refusal(call) or not response_fields(call)["reason"].strip():
         guess = 'If p.value not in MODES: return SetParametersResult(successful=False, reason="...").'
         raise wrong_response(f"successful=False and a reason for {call_text(call)}", call, guess)
 
 
-@modes.check(5, after=drives_as_the_mode_says)
+@modes.check(5, after=drives_as_the_mode_says, only="operated")
 def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
     """When the robot bumps into something it stops, and refuses to be armed until it is reset."""
     again = course_calls(run.during(bump), ARM)[0]
@@ -75,12 +87,14 @@ def stops_when_it_bumps(run: Recording, bump: Seconds) -> None:
         guess = ("In arm: if request.data and self.bumped, then success is False, and the message says what "
                  "to do; otherwise self.armed = request.data.")
         expected = f"success=False and a message for {call_text(again)}"
-        raise wrong_response(expected, again, guess, credit=0.6 if refusal else 0.0)
+        missed = wrong_response(expected, again, guess, credit=0.6 if refusal else 0.0)
+        missed.unsafe = is_success(again)  # it lets itself be armed at the wall
+        raise missed
     reset = course_calls(run, RESET)[0]
     _commands(run.during(again.requested, reset.requested), STOPPED, "after arming was refused")
 
 
-@modes.check(3, after=stops_when_it_bumps)
+@modes.check(3, after=stops_when_it_bumps, only="operated")
 def drives_on_after_a_reset(run: Recording) -> None:
     """After /reset it can be armed again, and drives."""
     reset = course_calls(run, RESET)[0]
@@ -93,6 +107,16 @@ def drives_on_after_a_reset(run: Recording) -> None:
     back = run.during(arm.requested + SOON, disarm.requested)
     _commands(back, MODES["back"], "in the mode back, armed after a reset")
     ends_with_a_stop(run, credit=0.5)
+
+
+def _starts_with_no_other(run: Recording) -> None:
+    """A program that is started with a mode that it doesn't know does not have it."""
+    calls = [call for call in course_calls(run, GET, at_least=0) if call.response is not None]
+    if any(response_fields(call).get("value") == STRANGE for call in calls):
+        hint = ("The first value is checked only if self.add_on_set_parameters_callback(self.check) comes "
+                "before self.declare_parameter(...).")
+        expected = f"no mode {STRANGE!r}, started with mode:={STRANGE}"
+        raise Missed(expected, f"mode={STRANGE!r} at {calls[0].requested:.3g} s", hint, credit=0.5)
 
 
 def _mode(call: Call) -> str:

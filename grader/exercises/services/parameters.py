@@ -1,12 +1,14 @@
 """A speed that can be set within limits, and a node that is started with another one."""
 
 import math
+from functools import partial
 
 from grader.checks import Missed, course_calls, named, publishes, series, wrong_response
 from grader.checks.fields import plain
 from grader.checks.services import call_text, is_refusal, is_success, response_fields
+from grader.companions.parameter_start import started_with
 from grader.companions.service_clients import Reader, Tuner
-from grader.exercise import Exercise
+from grader.exercise import Exercise, Scenario
 from sim.evidence import Call, Recording, Seconds
 
 GET, SET = "/cruiser/get_parameters", "/cruiser/set_parameters"
@@ -14,11 +16,15 @@ LOW, HIGH, DEFAULT, LAUNCHED = 0.0, 0.5, 0.2, 0.3  # m/s
 SETTINGS = 7  # that the tuner makes
 INSIDE = f"{LOW} <= parameter.value <= {HIGH}"
 
-parameters = Exercise("parameters", "A speed that can be set", world="yard", seconds=14, companions=[Tuner],
-                      seeds=(1, 2))
+TOO_FAST = 0.9  # m/s, with which it is started once
+
+parameters = Exercise("parameters", "A speed that can be set", scenarios=[
+    Scenario("yard", 14, 1, [Tuner], name="tuned"), Scenario("yard", 14, 2, [Tuner], name="tuned"),
+    Scenario("yard", 2, name="too fast", prepare=partial(started_with, "speed", TOO_FAST)),
+])
 
 
-@parameters.check(2)
+@parameters.check(2, only="tuned")
 def declares_speed(run: Recording) -> float:
     """The node /cruiser has a parameter `speed`, a number with a decimal point."""
     named(run, "/cruiser")
@@ -29,13 +35,13 @@ def declares_speed(run: Recording) -> float:
     return given["value"]
 
 
-@parameters.check(2, after=declares_speed)
+@parameters.check(2, after=declares_speed, only="tuned")
 def begins_with_its_default(run: Recording, speed: float) -> None:
     """As long as nobody sets it the speed is 0.2, and the robot drives with that."""
     _begins_with(run, speed, DEFAULT, 'The default: self.declare_parameter("speed", 0.2).')
 
 
-@parameters.check(4, after=declares_speed)
+@parameters.check(4, after=declares_speed, only="tuned")
 def follows_the_setting(run: Recording) -> None:
     """A new speed takes effect at once: on /cmd_vel, linear.x is what the parameter says."""
     made = course_calls(run, SET, SETTINGS)
@@ -50,7 +56,10 @@ def follows_the_setting(run: Recording) -> None:
 
 @parameters.check(4, after=declares_speed)
 def refuses_other_speeds(run: Recording) -> None:
-    """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing."""
+    """A speed below 0.0 or above 0.5 is refused with a reason, and changes nothing; also at the start."""
+    if not run.calls_of(SET):  # nobody sets it in this run
+        _starts_with_no_other(run)
+        return
     others = [call for call in course_calls(run, SET, SETTINGS) if not _is_allowed(call)]
     for call in others:
         expected = f"successful=False and a reason for {call_text(call)}"
@@ -70,6 +79,17 @@ def refuses_other_speeds(run: Recording) -> None:
         if not response_fields(call)["reason"].strip():
             guess = 'Say why: SetParametersResult(successful=False, reason="...").'
             raise wrong_response(expected, call, guess, credit=0.6)
+
+
+def _starts_with_no_other(run: Recording) -> None:
+    """A program that is started with a speed beyond the range does not drive with it."""
+    commands = [row for row in run.messages("/cmd_vel") if row.type == "geometry_msgs/msg/Twist"]
+    driven = [(row.stamp, x) for row in commands if not LOW <= (x := row.message.linear.x) <= HIGH]
+    if driven:
+        expected = f"no speed beyond {HIGH} m/s, started with speed:={TOO_FAST}"
+        hint = ("The first value is checked only if self.add_on_set_parameters_callback(self.check) comes "
+                "before self.declare_parameter(...).")
+        raise Missed(expected, f"{driven[0][1]:g} m/s at {driven[0][0]:.3g} s", hint, credit=0.5)
 
 
 def _speed(call: Call) -> float:

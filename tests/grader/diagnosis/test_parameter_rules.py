@@ -18,6 +18,8 @@ ADVICE = {
     "ComputesWithTheParameter": "A parameter is not a number, it has one in it: `self.get_parameter('name').value`.",
     "CallsTheCheck": "A callback is handed over without parentheses: `add_on_set_parameters_callback(self.check)`.",
     "ChecksOneParameter": "The check gets a list, for several parameters may be set at once: `for parameter in parameters:`, and then `parameter.value`.",
+    "ReturnsNothing": "The check has to return a SetParametersResult for each value, also for one that is fine: end it with `return SetParametersResult(successful=True)`.",
+    "RefusesItsDefault": "The check refuses 0.1, with which `radius` starts: its default, or the value that the program was given. Which values does it let through?",
     "SaysYesByPosition": "The fields of a result are set by name: SetParametersResult(successful=True), or SetParametersResult(successful=False, reason='...').",
     "launches_an_object": "The class itself is handed over, without brackets after its name: Wheel, not Wheel().",
     "launches_with_a_keyword": "A Process takes parameters as a dictionary, names and values: `Process(NodeClass, parameters={'radius': ...})`.",

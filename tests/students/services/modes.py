@@ -27,8 +27,8 @@ class Manager(Node):
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_subscription(Bool, "/bumper", self.on_bumper, 10)
         self.create_timer(0.1, self.drive)
-        self.declare_parameter("mode", "idle")
         self.add_on_set_parameters_callback(self.check)
+        self.declare_parameter("mode", "idle")
         self.create_service(SetBool, "/arm", self.arm)
         self.create_service(self.reset_type, "/reset", self.reset)
 
@@ -78,8 +78,9 @@ class StateMachine(Node):
     def __init__(self):
         super().__init__("manager")
         self.state, self.pressed = State.DISARMED, False
-        self.mode = self.declare_parameter("mode", "idle").value
+        self.mode = "idle"
         self.add_on_set_parameters_callback(self.on_parameters)
+        self.declare_parameter("mode", self.mode)
         self.srvs = [
             self.create_service(SetBool, "arm", self.on_arm),
             self.create_service(Trigger, "reset", self.on_reset),
@@ -131,7 +132,6 @@ def main(args=None):
     """A node that is put together in a function, with threads."""
     rclpy.init(args=args)
     node = Node("manager")
-    node.declare_parameter("mode", "idle")
     group = ReentrantCallbackGroup()
     state = {"armed": False, "bumped": False, "touching": False}
     publisher = node.create_publisher(Twist, "/cmd_vel", 10)
@@ -165,6 +165,7 @@ def main(args=None):
         publisher.publish(msg)
 
     node.add_on_set_parameters_callback(on_set)
+    node.declare_parameter("mode", "idle")
     node.create_service(SetBool, "/arm", on_arm, callback_group=group)
     node.create_service(Trigger, "/reset", on_reset, callback_group=group)
     node.create_subscription(Bool, "/bumper", on_bumper, 10, callback_group=group)
@@ -172,6 +173,17 @@ def main(args=None):
     executor = MultiThreadedExecutor(num_threads=2)
     executor.add_node(node)
     executor.spin()
+
+
+class ChecksAfterItsStart(Manager):
+    """Declares the parameter before anything checks it."""
+
+    def add_on_set_parameters_callback(self, callback):
+        self.declare_parameter("mode", "idle")
+        super().add_on_set_parameters_callback(callback)
+
+    def declare_parameter(self, name, *rest):
+        return None if self.has_parameter(name) else super().declare_parameter(name, *rest)
 
 
 class AnotherName(Manager):

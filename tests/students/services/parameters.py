@@ -4,6 +4,7 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 
 class Cruiser(Node):
@@ -15,8 +16,8 @@ class Cruiser(Node):
         super().__init__(self.name)
         self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
         self.create_timer(0.1, self.drive)
-        self.declare_parameter(self.parameter, self.default)
         self.add_on_set_parameters_callback(self.check)
+        self.declare_parameter(self.parameter, self.default)
 
     def check(self, parameters):
         for parameter in parameters:
@@ -69,6 +70,29 @@ def main():
     rclpy.init()
     rclpy.spin(Cruiser())
     rclpy.shutdown()
+
+
+class LooksAtItsStart(Cruiser):
+    """A design of its own: declares first, looks at the value itself, and takes another if it is wrong."""
+
+    def __init__(self):
+        Node.__init__(self, "cruiser")
+        self.publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        first = self.declare_parameter("speed", 0.2)
+        if not self.check([first]).successful:
+            self.get_logger().error("from 0.0 to 0.5 m/s; I take 0.2")
+            self.set_parameters([Parameter("speed", value=0.2)])
+        self.add_on_set_parameters_callback(self.check)
+        self.create_timer(0.1, self.drive)
+
+
+class ChecksAfterItsStart(Cruiser):
+    """Declares the parameter before anything checks it."""
+
+    def __init__(self):
+        NotDeclared.__init__(self)
+        self.declare_parameter("speed", 0.2)
+        self.add_on_set_parameters_callback(self.check)
 
 
 class AnotherName(Cruiser):

@@ -1,0 +1,26 @@
+"""Starts a student's program with a value of a parameter that it has to refuse."""
+
+import functools
+from dataclasses import replace
+from typing import Any
+
+import rclpy
+from rclpy.exceptions import InvalidParameterValueException
+
+from sim import Process
+
+
+def started_with(program: Any, name: str, value: Any) -> Process:
+    """Return the program, started with this value. Where it refuses it, an idle node takes its place."""
+    process = program if isinstance(program, Process) else Process(program)
+
+    @functools.wraps(process.target, updated=())
+    def start(**arguments: Any) -> Any:
+        try:
+            return process.target(**arguments)
+        except InvalidParameterValueException:
+            if not rclpy.ok():  # a main() that cleans up
+                rclpy.init()
+            return rclpy.create_node("not_started")
+
+    return replace(process, target=start, parameters={name: value})
