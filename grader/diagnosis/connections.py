@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from itertools import product
 
-from sim.evidence import Recording, UndeliveredMessage
+from sim.evidence import Endpoint, Recording, UndeliveredMessage
 from sim.evidence.qos import offer, refusal
 
 STREAM = 10  # more messages of one node on a topic are a stream: the first one is not what others wait for
@@ -23,9 +23,20 @@ def incompatible_qos(recording: Recording) -> str:
             return (
                 f"On {publisher.name} the QoS doesn't fit: {publisher.node} publishes "
                 f"{offer(policy, offered)}, {subscription.node} asks for {wanted}, so nothing arrives. "
-                f"Use the same {policy} at both ends."
+                "An offer has to be as good as the request, or better: "
+                f"{_fix(publisher, subscription, found)}."
             )
     return ""
+
+
+def _fix(publisher: Endpoint, subscription: Endpoint, found: tuple[str, str, str]) -> str:
+    """What the student can change, at one end or at either, so that the two fit."""
+    policy, offered, wanted = found
+    is_time = wanted.endswith(" s")
+    better = f"offer {f'{policy} {wanted} or less' if is_time else wanted}"
+    weaker = f"ask for {f'{offered} or more' if is_time and offered else offered or f'no {policy}'}"
+    ends = [(publisher, better), (subscription, weaker)]
+    return ", or ".join(change for end, change in ends if not end.from_course)
 
 
 def publisher_for_each_message(recording: Recording, topic: str | None = None) -> str:

@@ -47,5 +47,6 @@ def test_a_run_without_an_error_in_which_something_is_wrong(capsys):
     tell(run(misfits.BestEffortTalker, misfits.Listener, seconds=3, quiet=True))
     assert capsys.readouterr().out == (
         "On /chatter the QoS doesn't fit: /talker publishes with reliability best_effort, /listener asks for\n"
-        "reliable, so nothing arrives. Use the same reliability at both ends.\n"
+        "reliable, so nothing arrives. An offer has to be as good as the request, or better: offer reliable,\n"
+        "or ask for best_effort.\n"
     )

@@ -23,22 +23,26 @@ CAUSES = {
     + "Only the namespace differs: write /chatter. A name that starts with a slash is taken as it is; without the "
     "slash the node's namespace is put before it.",
     (misfits.BestEffortTalker, misfits.Listener): "On /chatter the QoS doesn't fit: /talker publishes with "
-    "reliability best_effort, /listener asks for reliable, so nothing arrives. Use the same reliability at both ends.",
+    "reliability best_effort, /listener asks for reliable, so nothing arrives. An offer has to be as good as the "
+    "request, or better: offer reliable, or ask for best_effort.",
     (
         misfits.Talker,
         misfits.LatchedListener,
     ): "On /chatter the QoS doesn't fit: /talker publishes with durability "
-    "volatile, /listener asks for transient_local, so nothing arrives. Use the same durability at both ends.",
+    "volatile, /listener asks for transient_local, so nothing arrives. An offer has to be as good as the request, or "
+    "better: offer transient_local, or ask for volatile.",
     (
         misfits.Talker,
         misfits.ImpatientListener,
     ): "On /chatter the QoS doesn't fit: /talker publishes without a deadline, /listener asks for 0.5 s, so nothing "
-    "arrives. Use the same deadline at both ends.",
+    "arrives. An offer has to be as good as the request, or better: offer deadline 0.5 s or less, or ask for no "
+    "deadline.",
     (
         misfits.Talker,
         misfits.ListenerForTheLiving,
     ): "On /chatter the QoS doesn't fit: /talker publishes with liveliness automatic, /listener asks for "
-    "manual_by_topic, so nothing arrives. Use the same liveliness at both ends.",
+    "manual_by_topic, so nothing arrives. An offer has to be as good as the request, or better: offer "
+    "manual_by_topic, or ask for automatic.",
     (
         misfits.SleepyTalker,
     ): "The timer of /talker fired 3 times in 10 s; 10 were due. Most likely SleepyTalker.tick "

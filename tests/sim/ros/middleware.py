@@ -15,14 +15,22 @@ import rclpy
 from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_policy_name_from_kind,
+)
 from std_msgs.msg import String
 
 from tests.patience import PATIENCE
+from tests.sim.ros.one_sided import ONE_SIDED
 
 COUNTS = "total_count", "alive_count", "not_alive_count"
-BEGIN = float(os.environ.get("FACTS_BEGIN", "0"))  # by the clock on the wall
-UNTIL_BEGIN = 4.0  # s: both have found each other by then
+BEGIN = 0.0  # of a case, by the clock on the wall
+UNTIL_BEGIN = 2.0  # s: from the moment at which both have found each other
 HURRIED = QoSProfile(depth=10, deadline=Duration(seconds=0.2))
 LEASE = Duration(seconds=0.5)
 LEASED = QoSProfile(depth=10, liveliness_lease_duration=LEASE)
@@ -61,7 +69,11 @@ CASES = {
         SLOPPY, SLOPPY, [(1.0, "stop"), (1.2, "heap"), (2.0, "go on"), (2.5, "say"), (3.0, "leave")],
     ),
     "all acknowledged": (10, 10, [(1.0, "say"), (1.1, "wait"), (5.0, "leave")]),
+    **ONE_SIDED,
 }  # fmt: skip
+OWN_PROCESS = __name__ == "__main__"
+JOINS = 1.0  # s: when the listener of a case on durability, or of a late joiner, makes its subscription
+SLEEPS = 0.8  # s: in the callback of a message, or of the first one where the history is measured
 
 
 def now() -> float:
@@ -75,6 +87,9 @@ def say(*words: object) -> None:
 def reported(word: str):
     def tell(event: object) -> None:
         found = [name for name in COUNTS if hasattr(event, name)]
+        if hasattr(event, "last_policy_kind"):
+            say(f"{word} {qos_policy_name_from_kind(event.last_policy_kind)}")
+            return
         say(word, *(f"{getattr(event, name)} ({getattr(event, name + '_change'):+d})" for name in found))
 
     return tell
@@ -85,28 +100,51 @@ def spin(node: Node, until: float) -> None:
         rclpy.spin_once(node, timeout_sec=min(0.005, max(until - now(), 0)))
 
 
+def met(name: str, other: str) -> Node:
+    """A node that has found the other one; in a process of its own it is told when the case begins."""
+    global BEGIN
+    node = Node(name)
+    while other not in node.get_node_names():
+        time.sleep(0.05)
+    if OWN_PROCESS:
+        print("met", flush=True)
+        BEGIN = float(sys.stdin.readline())
+    return node
+
+
 def listen(case: str) -> None:
     """The listener of a case."""
-    node, count = Node("listener"), [0]
+    node, count = met("listener", "speaker"), [0]
+    joins_late = case.startswith("durability") or case.endswith("late joiner")
     events = SubscriptionEventCallbacks(
-        deadline=reported("requested"), liveliness=reported("changed"), message_lost=reported("missed")
+        deadline=reported("requested"),
+        liveliness=reported("changed"),
+        message_lost=reported("missed"),
+        incompatible_qos=reported("is offered another"),
     )
 
     def hear(msg: String) -> None:
         count[0] += 1
-        if case.startswith("lifespan"):
+        if case.startswith(("lifespan", "durability")):
             say("hears", msg.data)
-            time.sleep(0.8)
+        if (case.startswith("lifespan") and not joins_late) or (case.startswith("history") and count[0] == 1):
+            time.sleep(SLEEPS)
 
+    if joins_late:
+        spin(node, JOINS)
     node.create_subscription(String, "facts", hear, CASES[case][0], event_callbacks=events)
     spin(node, CASES[case][2][-1][0] + 0.6)
-    say("has heard", "some" if count[0] > 10 else count[0])
+    say("has heard", "some" if count[0] > 10 and case.endswith("stopped") else count[0])
 
 
 def speak(case: str) -> None:
     """The speaker of a case."""
-    node = Node("speaker")
-    events = PublisherEventCallbacks(deadline=reported("offered"), liveliness=reported("lost"))
+    node = met("speaker", "listener")
+    events = PublisherEventCallbacks(
+        deadline=reported("offered"),
+        liveliness=reported("lost"),
+        incompatible_qos=reported("is asked for another"),
+    )
     publisher = node.create_publisher(String, "facts", CASES[case][1], event_callbacks=events)
     for stamp, what in CASES[case][2]:
         spin(node, stamp)
@@ -156,6 +194,7 @@ DEEDS = {
     "go on": lambda node, publisher: say("the listener goes on"),
     "flood": flood,
     "heap": heap,
+    "burst": lambda node, publisher: [publisher.publish(String(data="x")) for _ in range(20)],
     "wait": wait,
     "leave": leave,
     "die": die,
@@ -165,7 +204,6 @@ DEEDS = {
 def observe(case: str) -> list[tuple[float, str, str]]:
     """(seconds, R or W, words) of all that both sides printed."""
     settings = {
-        "FACTS_BEGIN": str(time.time() + UNTIL_BEGIN),
         "ROS_DOMAIN_ID": "97",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
@@ -173,9 +211,14 @@ def observe(case: str) -> list[tuple[float, str, str]]:
     sides: list[subprocess.Popen] = []
     for side in ("listen", "speak"):
         words = [sys.executable, "-m", "tests.sim.ros.middleware", side, case]
-        sides.append(subprocess.Popen(words, env=os.environ | settings, stdout=subprocess.PIPE, text=True))
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        sides.append(subprocess.Popen(words, env=os.environ | settings, text=True, **pipes))
         settings["FACTS_LISTENER"] = str(sides[0].pid)
-    logged = []
+    assert [side.stdout.readline() for side in sides] == ["met\n"] * 2
+    begin, logged = time.time() + UNTIL_BEGIN, []
+    for side in sides:
+        side.stdin.write(f"{begin}\n")
+        side.stdin.flush()
     for who, side in zip("RW", sides, strict=True):
         out, _ = side.communicate(timeout=PATIENCE)
         logged += [(stamp, who, words) for stamp, words in map(json.loads, out.splitlines())]
