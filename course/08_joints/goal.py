@@ -42,14 +42,19 @@ class Artist(Node):
     def __init__(self, steps=10):
         super().__init__("artist")
         self.client = ActionClient(self, FollowJointTrajectory, "/arm_controller/follow_joint_trajectory")
-        self.client.wait_for_server()
-        goal = FollowJointTrajectory.Goal()
-        goal.trajectory.joint_names = ["shoulder_joint", "elbow_joint"]
+        self.goal = FollowJointTrajectory.Goal()
+        self.goal.trajectory.joint_names = ["shoulder_joint", "elbow_joint"]
         for index, (x, y) in enumerate(star(steps)):
             point = JointTrajectoryPoint(positions=list(inverse(x, y)))
             point.time_from_start = Duration(seconds=3.0 + 2.0 * index / steps).to_msg()
-            goal.trajectory.points.append(point)
-        self.client.send_goal_async(goal).add_done_callback(self.on_answer)
+            self.goal.trajectory.points.append(point)
+        self.timer = self.create_timer(0.1, self.send)
+
+    def send(self):
+        """Send the goal as soon as the arm's server is there."""
+        if self.client.server_is_ready():
+            self.timer.cancel()
+            self.client.send_goal_async(self.goal).add_done_callback(self.on_answer)
 
     def on_answer(self, future):
         """Ask for the result, if the arm goes."""
