@@ -25,6 +25,7 @@ from grader.typos import (
     typos_of,
     with_right_types,
 )
+from grader.workspace.near_misses import Correction
 from grader.workspace.package import Package
 from grader.workspace.package_xml import PYTHON
 from sim.evidence import Recording, Seconds
@@ -53,6 +54,7 @@ class Exercise:
     waits: as in Scenario.
     names_count: names are a part of the task, so those alone may earn more than 30 % of the points.
     extra_allowed: messages beyond those that the task wants cost nothing.
+    near_misses: corrections of a package's files, which earns half of the points then.
 
     Raises ValueError for an exercise that can't work.
     '''
@@ -73,6 +75,7 @@ class Exercise:
     build_type: str = PYTHON
     names_count: bool = False
     extra_allowed: bool = False
+    near_misses: Sequence[Correction] = ()
 
     def __post_init__(self) -> None:
         if not self.seeds:
@@ -173,14 +176,24 @@ class Exercise:
             raise ValueError(f"exercise {self.name}: its checks have no points")
         with redirect_stderr():
             found = source.package(self.package, self.build_type) if self.package else source.refusal()
-            if isinstance(found, Fault):
-                reason = "Not judged: there is nothing to run."
-                verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
-                return Score(self.name, verdicts, title=self.title)
-            try:
-                return self._run_and_judge(source, secret, found, order)
-            finally:
-                source.leave()
+            score = self._score(source, secret, found, order)
+            if self.near_misses and score < score.max:
+                found = source.package(self.package, self.build_type, self.near_misses)
+                if isinstance(found, Package):
+                    without = self._score(source, secret, found, order)
+                    score = score.with_verdicts(partial_credit(score.verdicts, without.verdicts))
+            return score
+
+    def _score(self, source: ProgramSource, secret: str, found: Any, order: str | None) -> Score:
+        """What the programs earn, or those of the package that was found."""
+        if isinstance(found, Fault):
+            reason = "Not judged: there is nothing to run."
+            verdicts = [faulty(found), *(skipped(item, reason) for item in self.checks)]
+            return Score(self.name, verdicts, title=self.title)
+        try:
+            return self._run_and_judge(source, secret, found, order)
+        finally:
+            source.leave()
 
     def _run_and_judge(
         self, source: ProgramSource, secret: str, package: Package | None, order: str | None

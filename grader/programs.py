@@ -10,6 +10,7 @@ from grader.diagnosis.fault import Fault
 from grader.grade_arguments import outdated_code, refusal, unusable_argument
 from grader.workspace import building, installation
 from grader.workspace.building import Build
+from grader.workspace.near_misses import Correction, corrected
 from grader.workspace.package import Package, make_package
 from sim.ros.remote import Remote, RemoteLost
 from sim.ros.remote.serving import prepared
@@ -18,6 +19,8 @@ Prepare = Callable[[Any], Any]
 """Makes of one of the student's programs the one that runs in its place, or a list of those: a function of a
 module, or functools.partial of one with further words."""
 
+Corrections = Sequence[Correction]
+_SAME = object()  # in place of sources that no correction changes
 MOST_TEXT = 2_000  # characters of a text that another process sends
 
 
@@ -30,9 +33,11 @@ class ProgramSource(Protocol):
     def programs(self, prepare: Prepare | None = None) -> Sequence[Any]:
         """What `sim.run` takes in their place. prepare: is done to each of them, where it lives."""
 
-    def package(self, name: str, build_type: str) -> Package | Fault:
+    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
         """The package of this name and type in the workspace that was handed over, built anew and installed
         where its programs live; or why there is none.
+
+        corrections: of near misses. With these it is the corrected package, or None if nothing is corrected.
         """
 
     def leave(self) -> None:
@@ -56,9 +61,10 @@ class LocalPrograms:
         """See ProgramSource."""
         return prepared(self._nodes, *_parts(prepare))
 
-    def package(self, name: str, build_type: str) -> Package | Fault:
+    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
         """See ProgramSource."""
-        made = make_package(name, installation.serialize_sources(self._nodes, name), self._build, build_type)
+        sources = _corrected(installation.serialize_sources(self._nodes, name), corrections)
+        made = None if sources is _SAME else make_package(name, sources, self._build, build_type)
         if isinstance(made, Package):
             installation.install(made.built.files, made.built.programs)
         return made
@@ -91,10 +97,10 @@ class RemotePrograms:
         """See ProgramSource."""
         return [self._remote.program(serialize_preparation(prepare))]
 
-    def package(self, name: str, build_type: str) -> Package | Fault:
+    def package(self, name: str, build_type: str, corrections: Corrections = ()) -> Package | Fault | None:
         """See ProgramSource. The other process sends the sources and installs what was built."""
-        sources = self._remote.call(_name(installation.serialize_sources), name)
-        made = make_package(name, sources, self._build, build_type)
+        sources = _corrected(self._remote.call(_name(installation.serialize_sources), name), corrections)
+        made = None if sources is _SAME else make_package(name, sources, self._build, build_type)
         if isinstance(made, Package):
             built = installation.serialize_installation(made.built)
             self._remote.call(_name(installation.install_remotely), *built)
@@ -107,6 +113,15 @@ class RemotePrograms:
 def _parts(prepare: Prepare | None) -> tuple[Callable[..., Any] | None, Sequence[Any]]:
     """The function, and its further words."""
     return (prepare.func, prepare.args) if isinstance(prepare, functools.partial) else (prepare, ())
+
+
+def _corrected(received: Any, corrections: Corrections) -> Any:
+    """The sources that were received, corrected; `_SAME` if there are corrections and none applies."""
+    if not corrections:
+        return received
+    valid = isinstance(received, dict) and all(isinstance(data, bytes) for data in received.values())
+    made = corrected(received, corrections) if valid else None
+    return _SAME if made is None else made
 
 
 def _refuse_to_build(_: Any) -> NoReturn:

@@ -28,6 +28,7 @@ CORRECTED_HINT = "Judged as if the slip above were mended, for half of the point
 # Of an action; rcl maps them one by one.
 _PARTS = "send_goal", "cancel_goal", "get_result", "feedback", "status"
 _PACKED = {"std_msgs/msg/Float32": ("<f", ctypes.c_float), "std_msgs/msg/Float64": ("<d", ctypes.c_double)}
+_OF_A_VALUE = re.compile(r"to '([^']*)' of type '(INTEGER|STRING|DOUBLE)', expecting type '(INTEGER|DOUBLE)'")
 _OF_A_NUMBER = re.compile(r"The '\w+' field must be of type '(float|int)'")
 
 
@@ -39,7 +40,8 @@ def typos_of(recording: Recording, verdicts: Sequence[Verdict]) -> list[str]:
     typos = [f"{wrong}:={right}" for wrong, right in pairs]
     if any(_is_of_numbers(error, recording) for error in recording.errors):
         typos.append(OF_NUMBERS)
-    if failed and (misspelt_parameter(recording) or whole_parameter(recording)):
+    of_values = any(map(_is_of_a_value, recording.errors))
+    if of_values or (failed and (misspelt_parameter(recording) or whole_parameter(recording))):
         typos.append(OF_PARAMETERS)
     return list(dict.fromkeys(typos))
 
@@ -51,8 +53,16 @@ def _is_of_numbers(error: CallbackError, recording: Recording) -> bool:
     return found is not None and {found.type, found.other.type} == set(_PACKED)
 
 
+def _is_of_a_value(error: CallbackError) -> bool:
+    """Whether a parameter got 1 or "1.0" in place of 1.0, or has a default of 1 and got 0.5."""
+    found = _OF_A_VALUE.search(error.text) if error.type == "InvalidParameterTypeException" else None
+    return found is not None and re.fullmatch(r"\s*[+-]?\d+\.?\d*\s*", found[1]) is not None
+
+
 def auto_correct(program: Any, preparation: Sequence[Any], *typos: str) -> Any:
-    """Return a student's program as a scenario prepares it, with these typos corrected. Launch files stay.
+    """Return a student's program as a scenario prepares it, with these typos corrected.
+
+    Of a launch file only the numbers that it gives to parameters are corrected.
 
     preparation: the scenario's own, serialized: the name of a function and its arguments; [] for none.
     """
@@ -61,7 +71,7 @@ def auto_correct(program: Any, preparation: Sequence[Any], *typos: str) -> Any:
     if isinstance(program, list):  # several programs were made of it
         return [auto_correct(one, [], *typos) for one in program]
     if isinstance(program, str):
-        return program
+        return program if FORGIVEN.isdisjoint(typos) else Process(program, lenient=True)
     process = program if isinstance(program, Process) else Process(program)
     names = [typo.split(":=") for typo in typos if not _of_a_type(typo) and typo not in FORGIVEN]
     rules = [(wrong, right) for wrong, right in names]

@@ -3,7 +3,7 @@
 import functools
 import os
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 FAULTY = 6
@@ -164,6 +164,24 @@ def faulty(number: int) -> dict[str, str]:
     for path, right, wrong in random.Random(f"faults {number}").sample(FAULTS, FAULTY):
         files[path] = files[path].replace(right, wrong)
     return files
+
+
+def with_one_fault_less(sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the file with the last fault that is left, corrected; nothing for other numbers of faults."""
+    left = [fault for fault in FAULTS if _is_left(sources, *fault)]
+    if len(left) != 1:
+        return {}
+    path, right, wrong = left[0]
+    text = sources[path].decode("utf-8", "replace")
+    if wrong:
+        return {path: text.replace(wrong, right).encode()}
+    before = FILES[path].partition(right)[0].rpartition("\n  ")[2]
+    return {path: text.replace(before, before + right, 1).encode()}
+
+
+def _is_left(sources: Mapping[str, bytes], path: str, right: str, wrong: str) -> bool:
+    text = sources.get(path, b"").decode("utf-8", "replace")
+    return bool(text) and right not in text and (not wrong or wrong in text)
 
 
 def _fix(workspace: Folder, file: str, old: str, new: str) -> None:

@@ -50,6 +50,11 @@ def own_module(error: CallbackError, recording: Recording) -> str:
             f"Somebody asks {lost[1]}.{lost[2]} for {lost[3]}, and it has none. Is it an entry point in "
             "setup.py? Behind its `:` stands the function that begins the program."
         )
+    if error.type == "TypeError" and error.text == "'module' object is not callable" and sources:
+        return (
+            "Is it an entry point without a function in setup.py? Behind a `:` stands the function that "
+            "begins the program, as in 'hello = greeter.hello:main'."
+        )
     found = re.match(r"No module named '([\w.]+)'", error.text)
     if error.type != "ModuleNotFoundError" or not found:
         return ""

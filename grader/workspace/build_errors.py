@@ -13,6 +13,8 @@ NO_SOURCE = "Look at the lines above, or say colcon build in ws, and read its fi
 
 RAISED = re.compile(r"^\w*(?:Error|Exception|Interrupt)\b.*$", re.M)
 NO_COMMA = re.compile(r"'(?:tuple|list)' object is not callable")
+JOINED = re.compile(r"""=\s*[\w.:]+(["'])\s*["']([\w-]+)\s*=""")  # two texts with no comma become one
+NO_COMMA_BETWEEN = "A comma is missing before the entry point {!r}: without it Python makes one text of two."
 IN_SETUP = re.compile(r'File "<string>", line (\d+)')
 
 RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
@@ -42,13 +44,16 @@ RULES: tuple[tuple[str, Callable[[re.Match[str]], str]], ...] = (
 )
 
 
-def explain_build_error(built: Built) -> tuple[str, str]:
+def explain_build_error(built: Built, setup: str = "") -> tuple[str, str]:
     """The observation instead of a finished build, and a hint.
 
-    There is no hint if colcon finished: then the problem is sufficient.
+    setup: the text of setup.py. There is no hint if colcon finished: then the problem is sufficient.
     """
     if built.problem.startswith(NOT_TAKEN):
         return built.problem, ""
+    joined = JOINED.search(setup)
+    if joined:
+        return built.problem, NO_COMMA_BETWEEN.format(joined[2])
     for pattern, explain in RULES:
         found = re.search(pattern, built.output, re.M)
         if found:

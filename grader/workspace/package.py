@@ -59,7 +59,8 @@ def make_package(name: str, received: Any, build: Build, build_type: str = PYTHO
     except InvalidFiles as reason:
         return _fault("a package that can be built", str(reason))
     if built.problem:
-        saw, hint = explain_build_error(built)
+        setup = sources.get(f"{name}/setup.py", b"").decode("utf-8", "replace")
+        saw, hint = explain_build_error(built, setup)
         return _fault("a package that can be built", saw, hint)
     return Package(sources, package_xml, built)
 

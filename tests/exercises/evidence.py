@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import sim
+from grader.workspace import installation
 from sim import Recording
 
 ROOT = Path(__file__).parents[2]
@@ -88,7 +89,7 @@ class Evidence:
 
         def kept_or_made(*programs: Any, **scenario: Any) -> Recording:
             plain = repr([scenario[name] for name in ("world", "seconds", "seed", "order")])
-            plain += "".join(map(_slips, programs))
+            plain += "".join(map(_slips, programs)) + _installed()
             name = f"{program}-{hashlib.sha256(plain.encode()).hexdigest()[:16]}"
             if name not in at_hand:
                 at_hand[name] = self.get(name, lambda: run(*programs, **scenario))
@@ -101,6 +102,16 @@ def _slips(program: Any) -> str:
     """What tells a program without its slips from the program itself."""
     is_set = isinstance(program, sim.Process)
     return repr([program.remappings, program.lenient]) if is_set else ""
+
+
+def _installed() -> str:
+    """Digest of the package that is installed for a run: a corrected one has other files."""
+    digest = hashlib.sha256()
+    for prefix in installation._prefixes:
+        for path in sorted(prefix.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                digest.update(f"\n{path.relative_to(prefix)}\n".encode() + path.read_bytes())
+    return digest.hexdigest() if installation._prefixes else ""
 
 
 def _computed() -> float:

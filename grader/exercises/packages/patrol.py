@@ -4,6 +4,7 @@ from functools import partial
 
 from grader.checks import Missed, publishes, series
 from grader.checks.packages import installs_by_itself, names_what_it_imports
+from grader.companions.patrol_package import with_one_fault_less
 from grader.exercise import Exercise, Scenario
 from grader.responses import same
 from grader.workspace.installation import ros2_launch, ros2_run
@@ -12,10 +13,13 @@ from grader.workspace.package import PackageRun
 TWIST = "geometry_msgs/msg/Twist"
 ALONE, LAUNCHED = 0.2, 0.15  # m/s
 
-patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=[
+SCENARIOS = [
     Scenario(seconds=3, name="program", prepare=partial(ros2_run, "patrol", "patrol")),
     Scenario(seconds=4, name="launch", prepare=partial(ros2_launch, "patrol", "patrol.launch.py")),
-])
+]
+
+patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=SCENARIOS,
+                  near_misses=[with_one_fault_less])
 
 
 @patrol.check(5, only="program")

@@ -12,7 +12,7 @@ from rclpy.parameter_service import ParameterService
 
 from sim.ros.fibers.scheduler import engine
 from sim.ros.hooks.table import hook
-from sim.ros.messages.lenient import convert_parameters, resolve_parameter_name
+from sim.ros.messages.lenient import convert_override, convert_parameters, resolve_parameter_name
 
 
 @hook(Node, "declare_parameters", "the recording has the names, so that a misspelt one is found")
@@ -23,11 +23,22 @@ def declare_parameters(original: Callable) -> Callable:
         run = engine()
         if run is None:
             return original(self, namespace, parameters, *more, **keywords)
+        _convert_overrides(self, namespace, parameters)
         made = original(self, namespace, convert_parameters(parameters), *more, **keywords)
         run.recorder.parameters(self, [parameter.name for parameter in made], declared=True)
         return made
 
     return declare_parameters
+
+
+def _convert_overrides(node: Node, namespace: str, parameters: Sequence[Any]) -> None:
+    for row in parameters:
+        name = f"{namespace}.{row[0]}" if namespace else row[0]
+        given = node._parameter_overrides.get(name)
+        if given is not None and len(row) > 1:
+            value = convert_override(given.value, row[1])
+            if value is not given.value:
+                node._parameter_overrides[name] = Parameter(name, value=value)
 
 
 @hook(ParameterService, "_get_parameters_callback", "lenient programs find a parameter despite a typo")

@@ -68,6 +68,8 @@ def _suggestion(name: str, files: Iterable[Path]) -> str:
     Suffixes alone make no two names alike.
     """
     names = sorted({path.name for path in files if path.suffix in SUFFIXES})
+    if ".launch." in name:  # settings in YAML are no launch file
+        names = [other for other in names if ".launch." in other]
     stem = closest_match(name.split(".")[0], {each.split(".")[0] for each in names})
     near = closest_match(name, [each for each in names if stem and each.split(".")[0] == stem], 0.0)
     return f". Did you mean '{near}'?" if near else ""

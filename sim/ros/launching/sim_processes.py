@@ -89,9 +89,8 @@ class SimProcess:
 
         body.__name__, body.bundled = main.__name__, getattr(main, "bundled", False)
         launch = run.current.process
-        self._process = run.start(
-            Process(body, arguments=arguments, host=launch.host), from_course=launch.from_course
-        )
+        spec = Process(body, arguments=arguments, host=launch.host, lenient=launch.spec.lenient)
+        self._process = run.start(spec, from_course=launch.from_course)
         self._process.reader, self._on_output = self._read, on_output
         self._partial_lines = {"stdout": "", "stderr": ""}
 

@@ -98,6 +98,16 @@ def convert_parameters(parameters: Sequence[Any]) -> Sequence[Any]:
     ]
 
 
+def convert_override(value: Any, default: Any) -> Any:
+    """A start value: a float for 1 or "1.0" where the default is one, if the program is lenient."""
+    if not _active or type(default) is not float or isinstance(value, float | bool):
+        return value
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return value
+
+
 def resolve_parameter_name(name: str, declared: Iterable[str]) -> str:
     """The requested parameter's name or, if the program is lenient, the closest declared name."""
     declared = list(declared)
