@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from tests.rules.table import Cell, Table, one_line
 
-TRIGGER = re.compile(r"\b(always|never|must|mustn't|don't|rules?|please)\b", re.I)
+TRIGGER = re.compile(r"\b(always|never|must|mustn't|don't|rules?|please|cures?|poor|traps?)\b", re.I)
 GOES_WRONG = re.compile(r"(?:#+ |\*\*)What goes wrong")
-PLEASE_DONT = re.compile(r"please don't", re.I)
+POOR_CODE = re.compile(r"please don't|#.*\bpoor\b", re.I)
 CODE_BLOCK = re.compile(r"^```.*?^```", re.S | re.M)
 BLOCK_BEGIN = re.compile(r"\n(?=[-|#>]|\d+\. |<)")  # of a list item, a table row, a heading, a tag
 SENTENCE_END = re.compile(r"(?<=[.!?:])(?:\*\*)? +(?=\W*[A-Z`])")
@@ -21,7 +21,7 @@ def statements(cells: dict[str, Cell]) -> Iterator[tuple[str, str]]:
     """Cell and words of everything in a lesson that must have a row: "" for a cell that needs any row."""
     for name, cell in cells.items():
         if cell.kind == "code":
-            if PLEASE_DONT.search(cell.source):
+            if POOR_CODE.search(cell.source):
                 yield name, ""
         elif name == "summary":
             yield from ((name, block) for block in blocks(cell.source) if block.startswith("- "))

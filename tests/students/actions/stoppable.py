@@ -1,5 +1,6 @@
 """Servers that can be stopped: right ones, and wrong ones named by their defect."""
 
+import asyncio
 import time
 
 import rclpy
@@ -362,3 +363,10 @@ class NeverSleeps(StoppableServer):
             sequence.append(sequence[-1] + sequence[-2])
         goal_handle.succeed()
         return Fibonacci.Result(sequence=sequence)
+
+
+class AwaitsAsyncio(AsyncStoppable):
+    """The executor of rclpy runs the coroutine, and asyncio has no event loop there."""
+
+    async def pause(self, seconds):
+        await asyncio.sleep(seconds)

@@ -121,3 +121,10 @@ class NotKept(Mount):
         Node.__init__(self, "mount")
         self.broadcaster = StaticTransformBroadcaster(self, qos=10)
         self.create_subscription(Pose2D, "/mounting", self.hear, LATCHED)
+
+
+class AllZeros(Mount):
+    """No turn is 0, 0, 0 and 1, and all zeros is none at all."""
+
+    def turn(self, rotation, theta):
+        rotation.w = 0.0
