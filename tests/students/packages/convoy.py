@@ -110,4 +110,6 @@ OnlyTheLeft = Workspace(__name__, changed(RIGHT, FILE, '        stopper("right",
 NoReturn = Workspace(__name__, changed(RIGHT, FILE, "return LaunchDescription(", "LaunchDescription("))
 OtherProgram = Workspace(__name__, changed(RIGHT, FILE, 'executable="stopper"', 'executable="stoper"'))
 NoNeeds = Workspace(__name__, changed(RIGHT, "convoy/package.xml", "  <depend>launch_ros</depend>\n", ""))
-AbsoluteTopic = Workspace(__name__, changed(RIGHT, "convoy/convoy/stopper.py", 'Twist, "drive"', 'Twist, "/cmd_vel"'))
+AbsoluteTopic = Workspace(
+    __name__, changed(RIGHT, "convoy/convoy/stopper.py", 'Twist, "drive"', 'Twist, "/cmd_vel"')
+)
