@@ -7,9 +7,10 @@ import math
 import random
 from collections.abc import Callable
 
+from grader.companions.bench import Speed
+
 WRONG = 10
 FASTEST, GAP = 0.5, 0.2  # m/s, m
-Speed = Callable[[float, float], float]
 
 
 def _allowed(gap: float = GAP, fastest: float = FASTEST, back: float = FASTEST, brakes: float = 1.0,

@@ -21,6 +21,7 @@ from grader.marking.cores import Cores
 from grader.marking.errors import NotMarked, ResultError, SandboxFailed
 from grader.marking.result import Result
 from grader.marking.sandbox import ConfinedProcess, ResourceLimits, Sandbox
+from grader.marking.student_process import judge_only
 from grader.marking.task import MAX_RESULT_BYTES, JudgeOrder, MarkingTask, TimeLimits, send_order
 from sim.ros.remote import Wire, WireError, WireTimeout
 
@@ -60,7 +61,9 @@ class Pool:
             self._threads = ThreadPoolExecutor(max(jobs, 2), "mark")
             stack.callback(self._threads.shutdown, cancel_futures=True)
             judges = self._threads.submit(Sandbox, JUDGE_ENTRY, PRELOAD, unsafe=True, limits=JUDGE)
-            students = self._threads.submit(Sandbox, preload=PRELOAD, unsafe=unsafe, limits=limits)
+            students = self._threads.submit(
+                Sandbox, preload=PRELOAD, unsafe=unsafe, limits=limits, hidden=judge_only.FOLDERS
+            )
             self._judges = stack.enter_context(judges.result())
             self._students = stack.enter_context(students.result())
             stack.callback(self._stop)
@@ -102,9 +105,8 @@ class Pool:
             if self._closed:
                 raise NotMarked("The marking was stopped.")
             if self._builders is None:
-                self._builders = Sandbox(
-                    builder.ENTRY, builder.PRELOAD, unsafe=self._unsafe, limits=builder.LIMITS
-                )
+                settings = {"limits": builder.LIMITS, "hidden": judge_only.FOLDERS}
+                self._builders = Sandbox(builder.ENTRY, builder.PRELOAD, unsafe=self._unsafe, **settings)
             return self._builders
 
     def _mark(self, task: MarkingTask) -> Result:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import pkgutil
 import re
 from collections.abc import Callable, Iterable, Mapping
 
@@ -35,6 +36,21 @@ def executables(sources: Sources) -> dict[str, bytes]:
         return found[1] + (name if name in known else closest_match(name, known) or name)
 
     return _replaced(sources, ".launch.py", _EXECUTABLE, correct)
+
+
+def judge_only(name: str) -> Correction:
+    """A correction that students don't have, because it holds the answer: "module:function".
+
+    Beside a student's notebook it corrects nothing.
+    """
+
+    def correct(sources: Sources) -> Mapping[str, bytes]:
+        try:
+            return pkgutil.resolve_name(name)(sources)
+        except ModuleNotFoundError:
+            return {}
+
+    return correct
 
 
 def corrected(sources: Sources, corrections: Iterable[Correction]) -> dict[str, bytes] | None:

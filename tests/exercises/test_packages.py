@@ -1,12 +1,11 @@
 """Score tables of 11_packages: a page for each exercise in tests/exercises/packages/."""
 
-import random
-
 import pytest
 
 from grader.checks.packages import package_of
-from grader.companions.patrol_package import FAULTS, FAULTY, faulty
+from grader.companions.patrol_package import FILES as BROKEN
 from grader.exercises import packages
+from grader.marking.judge.patrol_faults import FAULTS, FILES, GIVEN
 from grader.programs import _refuse_to_build
 from grader.workspace import building
 from grader.workspace.building import CannotBuildHere
@@ -31,19 +30,19 @@ class TestPackages(Assignment):
         assert cells["respawn-run"].text.count("process has died") == 4
 
 
-@pytest.mark.parametrize("number", range(5))
-def test_a_number_draws_six_faults_that_show(number):
-    broken = faulty(number)
-    drawn = [fault for fault in FAULTS if fault[1] not in broken[fault[0]]]
-    assert drawn == sorted(random.Random(f"faults {number}").sample(FAULTS, FAULTY), key=FAULTS.index)
+def test_the_broken_package_has_six_faults_and_no_right_text():
+    there = [number for number, (path, right, _) in enumerate(FAULTS) if right not in BROKEN[path]]
+    assert tuple(there) == GIVEN
+    right = {path: text for path, text in FILES.items() if text != BROKEN[path]}
+    assert sorted(right) == sorted({FAULTS[number][0] for number in GIVEN})
 
 
 def test_what_is_mended_is_written_anew_each_time(tmp_path):
     for _ in range(2):
-        workspace = packages.repaired(tmp_path, 44, lambda mend: mend("setup.py", ":mian", ":main"))
+        workspace = packages.repaired(tmp_path, lambda mend: mend("setup.py", ":mian", ":main"))
     assert workspace == tmp_path
     text = (tmp_path / "src/patrol/setup.py").read_text()
-    assert text == faulty(44)["patrol/setup.py"].replace(":mian", ":main")
+    assert text == BROKEN["patrol/setup.py"].replace(":mian", ":main")
 
 
 @pytest.mark.parametrize(("old", "times"), [("nowhere", 0), ("package_name", 5)])
@@ -51,14 +50,14 @@ def test_a_text_that_a_file_does_not_have_once_can_not_be_mended(tmp_path, old, 
     with pytest.raises(
         ValueError, match=rf"^setup.py has {times} times '{old}': give a text that it has once"
     ):
-        packages.repaired(tmp_path, 44, lambda mend: mend("setup.py", old, ""))
+        packages.repaired(tmp_path, lambda mend: mend("setup.py", old, ""))
 
 
 def test_nothing_is_handed_over_before_anything_is_mended(tmp_path):
     def repair(mend):
         raise NotImplementedError
 
-    score = packages.patrol.grade(packages.repaired(tmp_path, 44, repair))
+    score = packages.patrol.grade(packages.repaired(tmp_path, repair))
     assert score == 0
     assert [verdict.saw for verdict in score.verdicts if verdict.status == "failed"] == [
         "This exercise is not started yet: that line still is in the cell above, about patrol"

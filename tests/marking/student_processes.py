@@ -1,6 +1,6 @@
 """Students' processes for tests: without a sandbox, since what is tested here is what runs in it."""
 import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
@@ -36,14 +36,15 @@ class QuickSession(StudentSession):
 class StartedStudent:
     """A student's process and what its cells have shown. quick: as for QuickSession."""
 
-    def __init__(self, sandbox: Sandbox, quick: str, files: dict[str, bytes] | None) -> None:
+    def __init__(self, sandbox: Sandbox, quick: str, files: dict[str, bytes] | None,
+                 packages: Sequence[str]) -> None:
         parent_end, child_end = socket.socketpair()
         self.process: ConfinedProcess = sandbox.start(child_end)
         self.student = QuickSession(quick, parent_end, lambda: self.process.wait(PATIENCE).detail)
         self.displays = DisplayRegistry()
         self.outputs = CellOutputs(self.displays)
         if files is not None:
-            self.student.begin(files)
+            self.student.begin(files, packages)
 
     def run(self, source: str) -> list[dict]:
         """What a cell shows."""
@@ -72,8 +73,9 @@ def start_student(plain_sandbox, monkeypatch) -> Iterator[Callable[..., StartedS
     made: list[StartedStudent] = []
     monkeypatch.setattr("grader.marking.judge.student_session.GRACE", PATIENCE)
 
-    def make(quick: str = "no cell has this", begun: bool = True, **files: bytes) -> StartedStudent:
-        made.append(StartedStudent(plain_sandbox, quick, files if begun else None))
+    def make(quick: str = "no cell has this", begun: bool = True, packages: Sequence[str] = (),
+             **files: bytes) -> StartedStudent:
+        made.append(StartedStudent(plain_sandbox, quick, files if begun else None, packages))
         return made[-1]
 
     yield make

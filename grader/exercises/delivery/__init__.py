@@ -5,10 +5,11 @@ from grader.companions.blind_drivers import turner
 from grader.companions.faulty_perception import partners
 from grader.companions.map_messages import KEPT, flat, listed, seconds, stamped
 from grader.companions.planned_nodes import ShelfCamera, publishes, sketch, subscribes
+from grader.companions.robot_programs import programs, shift_of
 from grader.companions.scripted_orders import desk
 from grader.exercises.delivery.blueprint import blueprint
 from grader.exercises.delivery.decide import decide
-from grader.exercises.delivery.deliver import deliver, programs, shift_of
+from grader.exercises.delivery.deliver import deliver
 from grader.exercises.delivery.gate import gate
 from grader.exercises.delivery.perceive import perceive
 from grader.geometry.floor import Floor, far_from, points_of, steer

@@ -1,21 +1,20 @@
 """The project: a robot of several programs that delivers, whatever happens in its warehouse."""
 
 import functools
-from collections.abc import Callable, Iterable
 from typing import Any
 
-import sim
 from grader.checks import Missed, nearest_person, shift, travelled
 from grader.checks.check import Hints
 from grader.checks.motion import after_a_touch, stood_still
 from grader.checks.shift import Job
+from grader.companions.robot_programs import SHIFT
 from grader.exercise import Exercise, Scenario
 from grader.responses import Window, top_speed
 from grader.worlds.warehouses import FAIR, warehouse
 from sim.evidence import Recording
 from sim.ros.launching.respawned import respawned
 
-SHIFT, LONGEST = 150.0, 300.0  # s of runs; the one order of the others takes 35 to 250
+LONGEST = 300.0  # s of the other runs; their one order takes 35 to 250
 ENOUGH = 2  # orders of a shift; who does the work well often delivers three
 GIVEN_UP = 60.0  # s for which a robot stands that has an order; people stop it for 40 at most
 DRIVING, CLOSE = 0.1, 0.5  # m/s; m from the robot's middle to a person: who waits for people is 1 m away
@@ -67,17 +66,6 @@ deliver = Exercise(
         _scenario("restarted", 8, functools.partial(respawned, 5.0, 12.0, 2.0)),
     ],
 )
-
-
-def programs(robot: Callable[[], Iterable[Any]]) -> tuple[Any, ...]:
-    """Return the programs of a robot, as `run` and `grade` take them: what the student's function lists.
-
-    Where it fails, it is the program: so its error is shown as any program's.
-    """
-    try:
-        return tuple(robot())
-    except Exception:
-        return (robot,)
 
 
 @deliver.check(1, lasts=True)
@@ -190,12 +178,3 @@ def _text(job: Job) -> str:
     if job.over is not None:
         return f"order {job.id} was {job.status} at {job.over:.0f} s"
     return f"order {job.id} is {job.status}"
-
-
-def shift_of(robot: Callable[[], Iterable[Any]], seed: int = 3) -> Recording:
-    """Return a shift of the robot of which this function of the student's lists the programs.
-
-    When a notebook is marked, it runs all the same, although `run` is left out there: so its questions are
-    shown above the student's answers.
-    """
-    return sim.run(*programs(robot), world=warehouse("shift", seed), seconds=SHIFT, seed=seed)

@@ -1,7 +1,7 @@
 """The exercises of 11_packages, from a package out of nothing to a broken one."""
 
 from grader.companions.package_sensors import VoltageProbe, WeatherStation
-from grader.companions.patrol_package import broken, repaired
+from grader.companions.patrol_package import repaired
 from grader.exercises.packages.convoy import LANES, convoy
 from grader.exercises.packages.crates import crates
 from grader.exercises.packages.gauge import gauge
@@ -11,6 +11,6 @@ from grader.exercises.packages.station import station
 from grader.trial import see
 
 __all__ = [
-    "LANES", "VoltageProbe", "WeatherStation", "broken", "convoy", "crates", "gauge", "greeter", "patrol",
+    "LANES", "VoltageProbe", "WeatherStation", "convoy", "crates", "gauge", "greeter", "patrol",
     "repaired", "see", "station",
 ]

@@ -4,10 +4,10 @@ from functools import partial
 
 from grader.checks import Missed, publishes, series
 from grader.checks.packages import installs_by_itself, names_what_it_imports
-from grader.companions.patrol_package import with_one_fault_less
 from grader.exercise import Exercise, Scenario
 from grader.responses import same
 from grader.workspace.installation import ros2_launch, ros2_run
+from grader.workspace.near_misses import judge_only
 from grader.workspace.package import PackageRun
 
 TWIST = "geometry_msgs/msg/Twist"
@@ -19,7 +19,7 @@ SCENARIOS = [
 ]
 
 patrol = Exercise("patrol", "A broken package", package="patrol", scenarios=SCENARIOS,
-                  near_misses=[with_one_fault_less])
+                  near_misses=[judge_only("grader.marking.judge.patrol_faults:with_one_fault_less")])
 
 
 @patrol.check(5, only="program")

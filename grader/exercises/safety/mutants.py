@@ -3,8 +3,9 @@
 from typing import NamedTuple
 
 from grader.checks import Missed, hinting, publishes, subscribes
+from grader.companions.bench import ANSWER, FAILED, PASSED, QUESTION, VERDICT
 from grader.companions.speed_candidates import WRONG, candidates
-from grader.companions.workshop import ANSWER, FAILED, PASSED, QUESTION, VERDICT, workshop
+from grader.companions.workshop import workshop
 from grader.exercise import Exercise
 from sim.evidence import Recording
 

@@ -17,7 +17,7 @@ from grader.marking.judge.cell_outputs import CellOutputs
 from grader.marking.judge.display_only_cells import display_only_cells
 from grader.marking.judge.marking_state import MarkingState, cell_name, no_points
 from grader.marking.judge.student_session import StudentSession
-from grader.marking.judge.testcells import is_test
+from grader.marking.judge.testcells import imported_packages, is_test
 from grader.marking.outputs import writable_text
 from grader.marking.submission.quoting import quote
 
@@ -34,6 +34,7 @@ class NotebookRun:
         self._exercises, self._results = marking.exercises[name], marking.cells[name]
         self._cells = _code_cells(marking.notebook(name))
         released = _code_cells(marking.task.release.notebooks[name])
+        self._packages = imported_packages(released)
         sources = {cell.source for cell in released if not cell_name(cell)}
         plain = [(i, cell.source) for i, cell in enumerate(self._cells) if not cell_name(cell)]
         unchanged = {i for i, source in plain if source in sources}
@@ -45,7 +46,7 @@ class NotebookRun:
         where = "before its first cell"
         session = self._marking.start_session()
         try:
-            session.begin(self._marking.files)
+            session.begin(self._marking.files, self._packages)
             self._marking.timings["start"] = monotonic() - began
             for index, cell in enumerate(self._cells):
                 number += bool(cell.source.strip())  # as Jupyter counts

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import socket
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any, Protocol
@@ -80,12 +80,15 @@ class StudentSession:
         self._over = monotonic() + time_limits.start
         self.threads_left = False
 
-    def begin(self, files: Mapping[str, bytes]) -> None:
-        """Wait until the process is ready, and write files beside its notebook. Raises StudentProcessGone."""
+    def begin(self, files: Mapping[str, bytes], packages: Sequence[str] = ()) -> None:
+        """Wait until the process is ready, and write files beside its notebook. Raises StudentProcessGone.
+
+        packages: those of exercises that it can import.
+        """
         self._wire.deadline = self._over
         if self._receive("It did not start.") != {"ready": True}:
             raise StudentProcessGone("It began with something else than it should.")
-        self._send(files=dict(files))
+        self._send(files=dict(files), packages=list(packages))
         self._listen(CellOutputs(DisplayRegistry()))
         self._over = monotonic() + self._time_limits.notebook
 

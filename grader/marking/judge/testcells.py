@@ -62,6 +62,12 @@ def course_imports(sources: Iterable[str]) -> dict[str, str]:
     return found
 
 
+def imported_packages(cells: Iterable[Mapping[str, Any]]) -> list[str]:
+    """The packages of exercises from which cells import, such as "grader.exercises.topics"."""
+    parts = [name.split(".") for name in course_imports(cell["source"] for cell in cells).values()]
+    return sorted({".".join(part[:3]) for part in parts})
+
+
 def _exercise_name(source: str, names: dict[str, str], cell: str) -> str:
     match getattr(_parsed(source), "body", None):
         case [ast.Expr(ast.Call(ast.Attribute(owner, "grade")))]:

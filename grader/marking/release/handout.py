@@ -28,6 +28,7 @@ INCLUDED = (
 )
 MARKING_EXCLUDED = (
     *("command", "gradebook", "release", "secret.py", "mark_evidence.py", "spreadsheet.py"),
+    "judge/patrol_faults.py",
     *("extras/dask_cluster", "extras/hub", "extras/learning_platform", "extras/receipts"),
 )
 EXCLUDED = (

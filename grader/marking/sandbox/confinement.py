@@ -8,7 +8,7 @@ import signal
 import socket
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
@@ -23,12 +23,14 @@ class Confinement:
     """How a process is confined.
 
     sandboxed: in the sandbox; otherwise as a plain process. visible: folders that were bound from outside;
-    those in folders that are private to each process, such as /tmp, are bound there again.
+    those in folders that are private to each process, such as /tmp, are bound there again. hidden: folders
+    among these that are empty for the process.
     """
 
     limits: ResourceLimits
     sandboxed: bool
     visible: list[str]
+    hidden: list[str] = field(default_factory=list)
 
 
 @contextlib.contextmanager

@@ -27,7 +27,7 @@ class ForkServer:
     def __init__(self, control: socket.socket, order: dict[str, Any]) -> None:
         self._control = control
         limits = ResourceLimits(**order["limits"])
-        self._confinement = Confinement(limits, order["sandboxed"], order["visible"])
+        self._confinement = Confinement(limits, order["sandboxed"], order["visible"], order["hidden"])
         if self._confinement.sandboxed:  # before imports, which may hang
             linux.die_with_parent(signal.SIGKILL)
             if _is_closed(control):  # the parent may have died before that

@@ -32,6 +32,9 @@ def mount_all(confinement: Confinement) -> None:
                 _bind(path, scratch / name / Path(path).relative_to(private))
     for name, private in PRIVATE.items():
         _bind(scratch / name, private)
+    (scratch / "empty").mkdir()
+    for path in confinement.hidden:
+        _bind(scratch / "empty", path)
     linux.unmount(STAGE)
     for device in DEVICES:  # the machine's own: where root marks, a confined process could change their mode
         linux.mount("", device, flags=linux.MS_REMOUNT | linux.MS_BIND | linux.MS_RDONLY | linux.MS_NOSUID)

@@ -24,6 +24,7 @@ class Sandbox:
     preload: modules that are imported once, before any confined process. imports: folders with more modules.
     readable: files and folders that can be read inside, at the same paths as here. Besides those they see the
     system's programs, Python with its packages, and the packages sim and grader; nothing else.
+    hidden: folders that are empty for the processes; what is in them can only be imported before.
     unsafe: no isolation. They are plain processes with the same limits and all rights of the user who marks:
     they can read and write all files, use the network and kill processes. For machines without bubblewrap,
     and for code that is trusted.
@@ -37,6 +38,7 @@ class Sandbox:
         unsafe: bool = False,
         limits: ResourceLimits = USUAL,
         imports: Sequence[Path] = (),
+        hidden: Sequence[Path] = (),
     ) -> None:
         """Start the warm process.
 
@@ -53,6 +55,7 @@ class Sandbox:
             "imports": [str(path) for path in imports],
             "limits": asdict(limits),
             "sandboxed": not unsafe,
+            "hidden": list(map(str, hidden)),
             "visible": [] if unsafe else bubblewrap.visible_paths([*readable, *imports]),
         }
         self._lock = threading.Lock()

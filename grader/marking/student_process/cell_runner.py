@@ -15,11 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from grader.grading import Grading, graded_as
+from grader.marking.student_process.course_modules import keep_only
 from grader.marking.student_process.error_output import error_output
 from grader.marking.student_process.interrupter import Interrupter
 from grader.marking.student_process.output_sender import OutputSender
 from grader.marking.student_process.shell import DescriptorCapture, Shell, start_shell
 from sim.ros.remote import Wire, WireError, serve
+
+NO_TEST = "Not graded here: when a class is marked, the test cells are."
 
 
 def main(sock: socket.socket) -> None:
@@ -33,7 +36,7 @@ def main(sock: socket.socket) -> None:
 class CellRunner:
     """Runs cells.
 
-    Receives {"files": {name: bytes}} once, then {"run": source, "seconds": limit} or
+    Receives {"files": {name: bytes}, "packages": [name, ...]} once, then {"run": source, "seconds": limit} or
     {"test": source, "seconds": limit} for each cell, until the judge closes the connection. Answers each with
     {"done": true}, and with "threads": whether threads of the notebook still run. Before that it sends the
     cell's outputs, as `CellOutputs.add` takes them, and {"grade": name} when a test cell calls
@@ -57,11 +60,13 @@ class CellRunner:
             self._loop.run_until_complete(self._await_judge())
             match self._wire.receive():
                 case {"run": str(source), "seconds": seconds}:
-                    self._run(source, seconds)
+                    with graded_as(Grading(hand_over=_refuse)):
+                        self._run(source, seconds)
                 case {"test": str(source), "seconds": seconds}:
                     with graded_as(Grading(hand_over=self._hand_over)):
                         self._run(source, seconds)
-                case {"files": dict(files)}:
+                case {"files": dict(files), "packages": list(packages)}:
+                    keep_only(packages)
                     for name, content in files.items():
                         Path(name).parent.mkdir(parents=True, exist_ok=True)
                         Path(name).write_bytes(content)
@@ -97,3 +102,8 @@ class CellRunner:
             self._wire.send(grade=str(exercise))
             if self._wire.receive() == {"go": True}:
                 serve(self._wire, nodes)
+
+
+def _refuse(exercise: str, nodes: Sequence[Any]) -> None:
+    """What `Exercise.grade` does in a cell that is no test."""
+    print(NO_TEST)

@@ -10,7 +10,9 @@ import ast
 import re
 from collections.abc import Iterable, Iterator
 
-PUBLIC_MODULES = {"sim", "sim.view", "grader", "grader.exercises"}
+PUBLIC_MODULES = {"sim", "sim.view", "grader"}
+PUBLIC_NAMES = "check|course_map|grade|tell|Exercise|Missed|Scenario|Score"  # of the package grader
+PUBLIC = re.compile(rf"grader\.exercises\.\w+|grader\.(exercises|{PUBLIC_NAMES})")
 MAX_SOURCE = 20_000  # characters of a cell
 MAX_SOURCES = 400_000  # of all of them
 COURSE = ("rclpy", "sim", "grader", "builtins")
@@ -43,6 +45,7 @@ ATTRIBUTES = _by_word(
         "reaches into its callers": "_getframe f_back f_locals",
         "follows the marking step by step": "settrace setprofile",
         "replaces modules": "modules meta_path",
+        "imports by text": "import_module",
         "rewrites cells before they run": (
             "ast_transformers input_transformers_cleanup input_transformers_post"
         ),
@@ -60,7 +63,7 @@ ATTRIBUTES = _by_word(
 # Words that are common attributes of other objects.
 PROCESS_WORDS = ("kill", "fork", "system", "popen", "close", "dup2", "write", "walk")
 OWNERS = {"modules": "sys", **dict.fromkeys(PROCESS_WORDS, "os")}
-CALLS = _by_word({"runs text as code": "exec eval", "imports by text": "__import__"})
+CALLS = _by_word({"runs text as code": "exec eval", "imports by text": "__import__ import_module"})
 METHODS = _by_word(
     {
         "decides what it is equal to": "__eq__",
@@ -136,6 +139,8 @@ def _oddities(node: ast.AST, course: dict[str, str]) -> Iterator[str]:
             yield from _imports(name.name)
     elif isinstance(node, ast.ImportFrom) and node.module:
         yield from _imports(node.module)
+        if node.module == "grader":
+            yield from (inside for name in node.names for inside in _imports(f"grader.{name.name}"))
     elif isinstance(node, ast.Attribute):
         yield from _attribute(node)
         if not isinstance(node.ctx, ast.Load):
@@ -152,7 +157,7 @@ def _imports(module: str) -> Iterator[str]:
     top = module.split(".")[0]
     if top in MODULES and module not in SHOWING:
         yield f"imports `{module}`, which {MODULES[top]}"
-    public = module in PUBLIC_MODULES or module.startswith("grader.exercises.")
+    public = module in PUBLIC_MODULES or PUBLIC.fullmatch(module)
     if top in ("sim", "grader") and not public:
         yield f"imports `{module}`, which is inside the course's own machinery"
 

@@ -4,8 +4,8 @@ from functools import partial
 
 import pytest
 
-from grader.companions.patrol_package import FAULTS, FILES, with_one_fault_less
-from grader.workspace.near_misses import corrected, entry_points, executables
+from grader.marking.judge.patrol_faults import FAULTS, FILES, with_one_fault_less
+from grader.workspace.near_misses import corrected, entry_points, executables, judge_only
 
 SETUP = "station/setup.py"
 POINTS = "entry_points={{'console_scripts': ['sensor = station.sensor:{}', \"display = station.display:show\"]}}"
@@ -59,3 +59,9 @@ def test_the_last_of_the_faults_is_corrected(fault):
 def test_two_faults_and_none_are_left_as_they_are():
     assert corrected(broken(), [with_one_fault_less]) is None
     assert corrected(broken(*FAULTS[:2]), [with_one_fault_less]) is None
+
+
+def test_a_correction_that_students_do_not_have_corrects_nothing_there():
+    name = "grader.marking.judge.patrol_faults"
+    assert corrected(broken(FAULTS[0]), [judge_only(f"{name}:with_one_fault_less")]) == broken()
+    assert corrected(broken(FAULTS[0]), [judge_only(f"{name}_of_students:with_one_fault_less")]) is None

@@ -12,6 +12,7 @@ import pytest
 
 import grader
 from grader.marking.sandbox import bubblewrap
+from grader.marking.student_process.judge_only import FOLDERS
 from tests.marking.sandbox.commanded import sandbox
 
 COURSE = Path(grader.__file__).parents[1]
@@ -65,6 +66,16 @@ def test_what_is_readable_can_be_read_and_not_changed_even_in_tmp(tmp_path, make
         assert commanded.ask("answer = open('/tmp/mine', 'w').write('!')") == 1
         commanded.leave()
     assert data.read_text() == "1,2"
+
+
+def test_what_stays_with_the_judge_is_imported_before_and_has_no_file(make_commanded):
+    with sandbox(preload=["grader.geometry"], hidden=FOLDERS) as box:
+        commanded = make_commanded(box)
+        assert commanded.ask("from grader.geometry import Pose2D; answer = Pose2D.__name__") == "Pose2D"
+        for folder in FOLDERS:
+            assert commanded.ask(f"import os; answer = os.listdir({str(folder)!r})") == []
+        assert commanded.ask("import grader.companions.workshop").startswith("ModuleNotFoundError: ")
+        assert "checks" in commanded.ask(f"import os; answer = os.listdir({str(COURSE / 'grader')!r})")
 
 
 def test_the_course_itself_may_lie_in_tmp(tmp_path):

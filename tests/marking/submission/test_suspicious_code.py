@@ -18,6 +18,19 @@ ROOT = Path(__file__).parents[3]
             "from sim.ros.engine.engine import Engine",
             "imports `sim.ros.engine.engine`, which is inside the course's own machinery",
         ),
+        *(
+            (source, f"imports `{module}`, which is inside the course's own machinery")
+            for source, module in [
+                ("from grader.companions.bench import Bench", "grader.companions.bench"),
+                ("from grader import companions", "grader.companions"),
+                ("import grader.exercises.safety.mutants", "grader.exercises.safety.mutants"),
+                ("from grader.exercises.safety.mutants import ENOUGH", "grader.exercises.safety.mutants"),
+            ]
+        ),
+        ("import importlib\nimportlib.import_module(x)",
+         "uses `importlib.import_module`, which imports by text"),
+        ("from importlib import import_module\nimport_module(x)",
+         "calls `import_module(...)`, which imports by text"),
         ("import IPython", "imports `IPython`, which changes how cells are run and shown"),
         ("import sys\nsys.modules['grader'] = 1", "uses `sys.modules`, which replaces modules"),
         ("x = f.__globals__", "uses `f.__globals__`, which reaches into another function's module"),

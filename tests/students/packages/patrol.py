@@ -1,9 +1,10 @@
 """Packages for packages.patrol: right ones in three styles, then one with each fault, and the broken one."""
 
-from grader.companions.patrol_package import FAULTS, FILES, faulty
+from grader.companions.patrol_package import FILES as BROKEN
+from grader.marking.judge.patrol_faults import FAULTS, FILES
 from tests.students.workspaces import Workspace, changed
 
-PARTS = ("FAULTS", "FILES", "NODE", "with_fault")
+PARTS = ("FAULTS", "FILES", "BROKEN", "NODE", "with_fault")
 NODE = "patrol/patrol/driver.py"
 
 
@@ -27,7 +28,7 @@ FromItsFolder = with_fault(8)
 OtherExecutable = with_fault(9)
 OneUnderscore = with_fault(10)
 WholeNumber = with_fault(11)
-AsGiven = Workspace(__name__, faulty(44))
+AsGiven = Workspace(__name__, BROKEN)
 TooFast = Workspace(__name__, changed(FILES, "patrol/patrol/speeds.py", "0.2", "0.5"))
 OtherNode = Workspace(__name__, changed(FILES, "patrol/config/patrol.yaml", "/**:", "/driver:"))
 OtherNamespace = Workspace(
