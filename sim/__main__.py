@@ -13,10 +13,9 @@ from types import FrameType
 from typing import NoReturn
 
 from sim.ros.realtime import ArgumentsError, RealTimeRun, own_words
-from sim.ros2.domains import LAST_DOMAIN
+from sim.ros2.domains import COURSE_DOMAIN, LAST_DOMAIN
 from sim.world import World, WorldError
 
-DOMAIN = 42  # not 0, the default of every other ROS process
 PORT, LAST_PORT = 8090, 65535
 PORTS = range(PORT, PORT + 10)  # without --port, the first free one
 USAGE_ERROR = 2  # exit status, as argparse's
@@ -94,7 +93,8 @@ def _options(arguments: list[str]) -> argparse.Namespace:
     option("--world", default="room", help=f"{', '.join(World.names())}, or a .toml file; default room")
     option("--world-seed", type=seed, help="make a new room, maze, clutter or warehouse from this number")
     option("--seed", type=seed, default=0, help="for the sensors' noise; default 0")
-    option("--domain", type=domain, default=DOMAIN, help=f"ROS domain, 0 to {LAST_DOMAIN}; default {DOMAIN}")
+    domains = f"ROS domain, 0 to {LAST_DOMAIN}; default {COURSE_DOMAIN}"
+    option("--domain", type=domain, default=COURSE_DOMAIN, help=domains)
     free = f"default {PORT}, or the next that is free"
     option("--port", type=port, help=f"of the picture in a browser, 0 for any; {free}")
     option("--headless", action="store_true", help="without the picture")

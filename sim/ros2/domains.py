@@ -8,8 +8,13 @@ from pathlib import Path
 
 from sim.ros2.system import CliError
 
+COURSE_DOMAIN = 42  # of `python -m sim`; not 0, the default of every other ROS process
 LAST_DOMAIN = 232  # greater ones would need ports that don't exist
 FIRST_PORT, PORTS, UNICAST = 7400, 250, 10  # DDSI-RTPS 9.6.1.1: the ports of a domain
+OWNERS = {
+    0: " (where runs in notebooks are, too, which no other process reaches)",
+    COURSE_DOMAIN: " (the domain of `python -m sim`)",
+}
 EPHEMERAL = range(32768, 61000)  # ports that Linux assigns to anything: domains 102 to 214 are there, too
 _SOCKETS = Path("/proc/net/udp")
 
@@ -47,15 +52,11 @@ def active_domains() -> set[int]:
 
 
 def no_nodes_hint(domain: int) -> str:
-    """The hint for a domain without nodes: the domains that have some, or what to do if none has."""
-    others = sorted(active_domains() - {domain})
+    """The hint for a domain without nodes: the domains that have some, the course's first, or what to do."""
+    others = sorted(active_domains() - {domain}, key=lambda other: (other != COURSE_DOMAIN, other))
+    none = f"There are no nodes on ROS domain {domain} of this machine"
     if not others:
-        return (
-            f"Nobody is on ROS domain {domain} of this machine: start a node in another terminal, with"
-            f" ROS_DOMAIN_ID={domain}"
-        )
-    active = " and ".join(str(other) for other in others)
-    hint = f"To speak with them: export ROS_DOMAIN_ID={others[-1]}"
-    if others == [0]:
-        hint += " (runs in notebooks are there, too, and hear nobody)"
-    return f"Nobody is on ROS domain {domain} of this machine; there are nodes on {active}. {hint}"
+        return f"{none}: start a node in another terminal, with ROS_DOMAIN_ID={domain}"
+    names = " and ".join(f"{other}{OWNERS.get(other, '')}" for other in others)
+    which = "it" if len(others) == 1 else "the first"
+    return f"{none}, but on {names}. To use {which}: export ROS_DOMAIN_ID={others[0]}"

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import shlex
+from argparse import Namespace
+from collections.abc import Callable
 from contextlib import nullcontext
 from functools import cache
+from typing import Any
+
+from argcomplete import CompletionFinder, SuppressCompleter
 
 from sim.ros.latest import latest
-from sim.ros2.group import Parser
+from sim.ros2.group import Completer, Parser
 from sim.ros2.parser import execute, make_parser
 from sim.ros2.recorded import PlayedSystem, RecordedSystem
 from sim.ros2.system import CliError, System
@@ -24,6 +30,30 @@ def ros2(line: str) -> None:
         execute(_parser(), arguments, lambda _: nullcontext(_system()), print, print)
     except KeyboardInterrupt:
         print("Stopped.")
+
+
+def completions(line: str) -> list[str]:
+    """What the last word of an incomplete command after %ros2 can be."""
+    finder = CompletionFinder(
+        make_parser(_make_completer),
+        always_complete_options=False,
+        exclude=["-h", "--help"],
+        default_completer=SuppressCompleter(),
+        append_space=False,
+    )
+    found = (finder.rl_complete(line, number) for number in itertools.count())
+    before = len(line) - len(line.split(" ")[-1])
+    return [whole[before:].rstrip() for whole in itertools.takewhile(lambda whole: whole is not None, found)]
+
+
+def _make_completer(completer: Completer, without_system: bool) -> Callable[..., list[str]]:
+    def complete(parsed_args: Namespace, **_: Any) -> list[str]:
+        try:
+            return completer(None if without_system else _system(), parsed_args)
+        except CliError:
+            return []
+
+    return complete
 
 
 @cache

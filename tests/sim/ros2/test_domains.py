@@ -33,21 +33,20 @@ def test_all_domains_of_ros_are_accepted(text, monkeypatch):
     assert domains.selected_domain() == int(text or 0)
 
 
-def test_the_hint_names_the_domains_that_have_nodes(sockets):
-    sockets(17910, 17911, 7410, 7411)
+def test_the_hint_names_the_domains_that_have_nodes_and_the_course_s_first(sockets):
+    none = "There are no nodes on ROS domain 7 of this machine"
+    sockets(17910, 17911, 7410, 7411, 7400 + 250 * 50 + 12)
     assert domains.no_nodes_hint(7) == (
-        "Nobody is on ROS domain 7 of this machine; there are nodes on 0 and 42."
-        " To speak with them: export ROS_DOMAIN_ID=42"
+        f"{none}, but on 42 (the domain of `python -m sim`) and 0 (where runs in notebooks are, too, which no"
+        " other process reaches) and 50. To use the first: export ROS_DOMAIN_ID=42"
     )
     sockets(7410, 7411)
-    assert domains.no_nodes_hint(42) == (
-        "Nobody is on ROS domain 42 of this machine; there are nodes on 0. To speak with them: export"
-        " ROS_DOMAIN_ID=0 (runs in notebooks are there, too, and hear nobody)"
+    assert domains.no_nodes_hint(7) == (
+        f"{none}, but on 0 (where runs in notebooks are, too, which no other process reaches)."
+        " To use it: export ROS_DOMAIN_ID=0"
     )
     sockets()
-    assert domains.no_nodes_hint(42) == (
-        "Nobody is on ROS domain 42 of this machine: start a node in another terminal, with ROS_DOMAIN_ID=42"
-    )
+    assert domains.no_nodes_hint(7) == f"{none}: start a node in another terminal, with ROS_DOMAIN_ID=7"
 
 
 def test_unreadable_sockets_count_as_none(tmp_path, monkeypatch):

@@ -16,9 +16,27 @@ def kernel():
     manager.shutdown_kernel(now=True)
 
 
+def completed(kernel, line):
+    """What the Tab key offers at the end of a line."""
+    reply = kernel.client.complete(line, reply=True, timeout=PATIENCE)["content"]
+    return [line[: reply["cursor_start"]] + each for each in reply["matches"]]
+
+
+def test_the_tab_key_completes_verbs_options_and_names(kernel):
+    kernel("from tests.sim.ros2.nodes import NODES")
+    assert kernel("%ros2 node list").startswith("Nothing has run yet")
+    assert completed(kernel, "%ros2 topic ec") == ["%ros2 topic echo"]
+    assert completed(kernel, "x = 1\n%ros2 top") == ["x = 1\n%ros2 topic"]
+    assert completed(kernel, "%ros2 topic echo --onc") == ["%ros2 topic echo --once"]
+    assert "%ros2 topic echo /place" not in completed(kernel, "%ros2 topic echo /pl")
+    kernel("recording = run(*NODES, seconds=1, quiet=True)")
+    assert completed(kernel, "%ros2 topic echo /pl") == ["%ros2 topic echo /place"]
+    assert "%ros2 topic echo /place" not in completed(kernel, "%ros2 topic echo '")
+    assert not kernel.errors
+
+
 def test_it_uses_the_player_and_then_its_recording(kernel):
     kernel("from tests.sim.ros2.nodes import NODES, Listener")
-    assert kernel("%ros2 node list").startswith("Nothing has run yet")
     kernel("data = 3\nplayer = play(*NODES, seconds=60, speed=20, quiet=True)")
     assert kernel("%ros2 node list") == OFFICIAL["node list"]
     assert kernel("%ros2 topic hz /place").startswith("average rate: 10.000\n")

@@ -175,7 +175,7 @@ def test_a_domain_without_nodes_gets_a_hint_at_others(system):
     elsewhere = free_domain()
     status, out, err = ended([*ROS2, "node", "list"], elsewhere)
     assert (status, out) == (0, "")
-    assert err.startswith(f"Nobody is on ROS domain {elsewhere} of this machine; there are nodes on ")
+    assert err.startswith(f"There are no nodes on ROS domain {elsewhere} of this machine, but on ")
     assert str(system) in err
 
 
